@@ -3,6 +3,7 @@
 import numpy as np
 from conftest import TABLE_4
 
+from fitting.aside import reasons
 from fitting.diagnosis.result import Candidate, Diagnosis, FoundEffect, ParameterEstimate, Stage
 from fitting.identification.result import law_band
 from fitting.identification.uncertainty import Uncertainty
@@ -86,7 +87,7 @@ def diagnosed(s, *, verdict="effect", one_by_one=None):
         after=stage(part, AFTER, one_by_one=one_by_one),
         next_measurement="To confirm: the mass taken off.",
         explanation=("The stated plate leaves 10 % rms.", "Most likely a mass of 8 g sits on it."),
-        used=keep,
+        why_aside=reasons(~keep, "mains_hum"),
         warnings=("the points carry no time",),
     )
     return Diagnosed(result, 1.5, 0.25)

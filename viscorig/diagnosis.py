@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.diagnosis import DiagnosisResult, StageName
 from viscorig.facts import Facts
 from viscorig.shown import Columns, columns
 
@@ -59,7 +59,8 @@ class Diagnosis(Facts[DiagnosisResult]):
         """What is left of the amplitudes without and with the effects, beside the noise; the axes."""
         from viscorig.plots import plot_residual
 
-        return plot_residual(ax, self.result.points, {"before": "without effects", "after": "with effects"})
+        titles: dict[StageName, str] = {"before": "without effects", "after": "with effects"}
+        return plot_residual(ax, self.result.points, titles, self.result.points_set_aside)
 
     def plot_law(self, ax: "Axes | None" = None) -> "Axes":
         """G' and the loss factor without and with the effects, with 95 % bands; the axes."""

@@ -88,11 +88,12 @@ class Identification(Facts[IdentificationResult]):
         return plot_laws(ax, {"": self.to_numpy()})
 
     def plot_fit(self, ax: "Axes | None" = None) -> "Axes":
-        """Measured and predicted amplitudes over frequency; the axes."""
-        from viscorig.plots import plot_amplitude
+        """Measured and predicted amplitudes over frequency, and readings set aside; the axes."""
+        from viscorig.plots import plot_amplitude, plot_set_aside
 
         f = self.points["frequency_hz"]
         ax = plot_amplitude(ax, f, self.points["measured_m_s"], "o", "measured")
+        plot_set_aside(ax, self.result.points_set_aside)
         return plot_amplitude(ax, f, self.points["predicted_m_s"], "x", "fitted")
 
 

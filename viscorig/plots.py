@@ -10,7 +10,8 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from instrument.facts.diagnosis import PointLeft, StageName
-from instrument.results.drawing import BAND_95, DATA, MARK, MODEL, TWO_STD, label, legend
+from instrument.facts.rows import PointSetAside
+from instrument.results.drawing import BAND_95, DATA, MARK, MODEL, TWO_STD, label, legend, mark_set_aside
 from viscorig.shown import Columns
 
 Array = NDArray[np.float64]
@@ -61,8 +62,22 @@ def plot_amplitude(ax: Axes | None, frequency_hz: Array, amplitude_m_s: Array, s
     return ax
 
 
-def plot_residual(ax: Axes | None, points: Sequence[PointLeft], titles: Mapping[StageName, str]) -> Axes:
-    """What fits leave of the amplitudes, in percent, over the noise. `titles` by the stage's key."""
+def plot_set_aside(ax: Axes, aside: Sequence[PointSetAside]) -> None:
+    """Velocity amplitudes that took no part in a fit."""
+    f, measured = ([getattr(p, key) for p in aside] for key in ("frequency_hz", "measured_m_s"))
+    mark_set_aside(ax, np.array(f), np.array(measured))
+
+
+def plot_residual(
+    ax: Axes | None,
+    points: Sequence[PointLeft],
+    titles: Mapping[StageName, str],
+    aside: Sequence[PointSetAside] = (),
+) -> Axes:
+    """What fits leave of the amplitudes, in percent, over the noise. `titles` by the stage's key.
+
+    Where readings were set `aside` is marked at the foot.
+    """
     ax = axes_of(ax)
     points = sorted(points, key=lambda p: p.frequency_hz)
     f = np.array([p.frequency_hz for p in points])
@@ -73,6 +88,7 @@ def plot_residual(ax: Axes | None, points: Sequence[PointLeft], titles: Mapping[
         rest = np.array([p.stage(stage).amplitude_percent for p in points], dtype=float)
         ax.plot(f, rest, marker, color=color, markersize=4, label=name)
     ax.axhline(0, color="#888888", linewidth=0.8)
+    mark_set_aside(ax, np.array([p.frequency_hz for p in aside]))
     label(ax, x="Frequency / Hz", y="Predicted less measured amplitude / %")
     legend(ax)
     return ax

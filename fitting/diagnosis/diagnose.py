@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fitting.arrays import Mask
+from fitting.aside import Reasons, reasons
 from fitting.diagnosis import text
 from fitting.diagnosis.begin import begin
 from fitting.diagnosis.evidence import BareModes
@@ -35,21 +35,25 @@ Report = Callable[[float], None]
 Settle = Callable[[Search, Judgement], Judgement]
 
 
-def seen_in_channels(sweep: Sweep, effects: Sequence[Effect]) -> tuple[Mask, tuple[FoundEffect, ...], Noise]:
-    """Points fit for use, what the channels show by themselves, and the noise of the points in use.
+def seen_in_channels(
+    sweep: Sweep, effects: Sequence[Effect]
+) -> tuple[Reasons, tuple[FoundEffect, ...], Noise]:
+    """Why points are set aside, what the channels show by themselves, and the noise of the points in use.
 
     The first of shape (points,).
     """
-    used, found = np.ones(len(sweep), bool), []
+    why, found = reasons(np.zeros(len(sweep), bool), ""), []
     noise = noise_of(sweep)
     for effect in effects:
         # What one has set aside is not asked of again.
+        used = why == ""
         left, noise_left = (sweep, noise) if used.all() else (sweep.take(used), noise_of(sweep.take(used)))
         seen = effect.seen(left, noise_left)
         if seen is not None:
-            used[np.flatnonzero(used)[seen.aside]] = False
+            why[np.flatnonzero(used)[seen.aside]] = effect.name
             found.append(FoundEffect(effect.name, {k: ParameterEstimate(*v) for k, v in seen.values.items()}))
-    return used, tuple(found), noise if used.all() else noise_of(sweep.take(used))
+    used = why == ""
+    return why, tuple(found), noise if used.all() else noise_of(sweep.take(used))
 
 
 def diagnose_task(
@@ -60,7 +64,7 @@ def diagnose_task(
     bare: BareModes | None,
     start: CoreLaw,
     channels: tuple[FoundEffect, ...] = (),
-    used: Mask | None = None,
+    why_aside: Reasons | None = None,
     report: Report = lambda fraction: None,
     accepted_by_hand: Sequence[str] | None = None,
     executor: Executor = ALONE,
@@ -70,10 +74,10 @@ def diagnose_task(
 ) -> Diagnosis:
     """Everything that can be said of a sweep's residual; `problem` holds the points in use.
 
-    With `accepted_by_hand` these effects are fitted and nothing is searched for. `used` says which of the
-    sweep's points the problem holds, shape (points,). `remade` gives the problem of some of the points; with
-    it the search is repeated on `resamples` sweeps without effects (None: where points are few) and with
-    points held out. `settle` has the last word on the judgement.
+    With `accepted_by_hand` these effects are fitted and nothing is searched for. `why_aside` says of every
+    point of the sweep why the problem does not hold it, shape (points,). `remade` gives the problem of some
+    of the points; with it the search is repeated on `resamples` sweeps without effects (None: where points
+    are few) and with points held out. `settle` has the last word on the judgement.
     """
     given = problem
     begun = begin(problem, reduced, noise, bare, start, executor)
@@ -127,7 +131,7 @@ def diagnose_task(
             *(f"{s[0].upper()}{s[1:]}." for s in seen),
             *text.explain(problem, judgement, before, after, found, catalogue),
         ),
-        used=np.ones(len(problem.sweep), bool) if used is None else used,
+        why_aside=reasons(np.zeros(len(problem.sweep), bool), "") if why_aside is None else why_aside,
         warnings=_warnings(problem, judgement),
         by_hand=judgement.by_hand,
         p_value=resampled.p_value,

@@ -7,7 +7,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Mask
+from fitting.aside import Reasons
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refitted import Refitted
@@ -138,8 +139,8 @@ class Diagnosis:
     next_measurement: str
     explanation: tuple[str, ...]
     """As one would tell a colleague, a sentence or two each."""
-    used: NDArray[np.bool_]
-    """Points that took part; the others carry hum. Shape (points,)."""
+    why_aside: Reasons
+    """Of every point why it took no part. Shape (points,)."""
     warnings: tuple[str, ...]
     by_hand: bool = False
     """Accepted or declined on someone's word."""
@@ -149,3 +150,8 @@ class Diagnosis:
     """Held out with the selection repeated."""
     rivals: Rivals | None = field(default=None, compare=False, repr=False)
     """None where nothing was weighed."""
+
+    @property
+    def used(self) -> Mask:
+        """Points that took part. Shape (points,)."""
+        return np.asarray(self.why_aside == "")

@@ -7,7 +7,7 @@ from typing import Literal
 from instrument.facts.follow_up import FollowUp
 from instrument.facts.number import MaybeNumber, Number
 from instrument.facts.result import Result
-from instrument.facts.rows import AdjustedNumber, HeldOut, LawRow, StretchSetAside
+from instrument.facts.rows import AdjustedNumber, HeldOut, LawRow, PointSetAside, StretchSetAside
 
 Verdict = Literal["none", "effect", "ambiguous", "unknown"]
 StageName = Literal["before", "after"]
@@ -166,8 +166,10 @@ class DiagnosisResult(Result):
     by_hand: bool = False
     """Accepted or declined on someone's word."""
     points: tuple[PointLeft, ...]
+    points_set_aside: tuple[PointSetAside, ...] = ()
+    """Readings that are none, by themselves or in a stretch: not fitted, and not in `points`."""
     set_aside_hz: tuple[Number, ...] = ()
-    """Points that carry hum, or whose signal was lost."""
+    """Their frequencies."""
     seconds: MaybeNumber = None
     """A run does not say."""
     setup_seconds: MaybeNumber = None

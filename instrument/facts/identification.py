@@ -10,7 +10,7 @@ from instrument.facts.budget import BudgetRow
 from instrument.facts.number import MaybeNumber, Number
 from instrument.facts.pointwise import BandFound, CausalityTest
 from instrument.facts.result import Result
-from instrument.facts.rows import AdjustedNumber, HeldOut, LawRow, StretchSetAside
+from instrument.facts.rows import AdjustedNumber, HeldOut, LawRow, PointSetAside, StretchSetAside
 from instrument.facts.session_result import SessionResult
 
 
@@ -82,6 +82,8 @@ class IdentificationResult(Result):
     correlations: Mapping[str, Mapping[str, Number]]
     """Of the logarithms of the parameters."""
     points: tuple[PointFitted, ...]
+    points_set_aside: tuple[PointSetAside, ...] = ()
+    """Readings that are none, by themselves or in a stretch: not fitted, and not in `points`."""
     rms_percent: Number
     """Of the differences in amplitude."""
     max_percent: Number

@@ -35,6 +35,24 @@ class AdjustedNumber(Result):
     unit: str
 
 
+class PointSetAside(Result):
+    """A reading that takes no part in the fit."""
+
+    frequency_hz: Number
+    segment: int
+    sweep: int
+    level_m_s2: Number
+    measured_m_s: Number
+    """As in `points`."""
+    why: str
+    """`signal_dropout`, `mains_hum`, or another effect that spoils single readings; `fixture_resonance`;
+    `insensitive` where the core hardly shows and the rig's own error does."""
+    file: int | None = None
+    """From 1, of several."""
+    pickup: int | None = None
+    """From 0, of several."""
+
+
 class StretchSetAside(Result):
     """A stretch of one of several files that takes no part."""
 

@@ -101,8 +101,8 @@ def diagnose(
     start = specimen.core.law
     began = perf_counter()
     with threadpool_limits(1, "blas"), executor() as workers:
-        used, channels, noise = seen_in_channels(sweep, effects)
-        ready_made = set_up(sweep.take(used), specimen, hammer, progress, like=like)
+        why_aside, channels, noise = seen_in_channels(sweep, effects)
+        ready_made = set_up(sweep.take(why_aside == ""), specimen, hammer, progress, like=like)
         ready = perf_counter()
         with progress("tracing the residual") as report:
             result = diagnose_task(
@@ -113,7 +113,7 @@ def diagnose(
                 ready_made.bare,
                 start,
                 channels,
-                used,
+                why_aside,
                 report,
                 accept,
                 workers,
@@ -124,7 +124,7 @@ def diagnose(
     theory_over(specimen, result.after.law, sweep.frequency_hz)
     further = (
         *remarks_on_law(start, sweep.frequency_hz),
-        *remarks_on_noise(sweep),
+        *remarks_on_noise(sweep.take(why_aside == "")),
         *remarks_on_tolerances(specimen),
     )
     before = theory_remark(specimen, result.before.law, sweep.frequency_hz)

@@ -7,6 +7,7 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.identification.result import CORE_PA
 from fitting.laws import CoreLaw
+from fitting.strays import strays
 from fitting.structures import AnySpecimen, Beam, ShearPair
 from fitting.structures.shear_pair import EDGE
 from instrument.models.files import File
@@ -30,7 +31,7 @@ def remarks_on_files(files: Sequence[File]) -> tuple[str, ...]:
         s = file.specimen
         of_file = (
             *remarks_on_strays(file.sweep),
-            *remarks_on_noise(file.sweep),
+            *remarks_on_noise(file.sweep.take(strays(file.sweep) == 0)),
             *remarks_on_edges(s),
             *remarks_on_held_width(s),
         )

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from fitting.arrays import Mask
+from fitting.aside import DISTURBED, INSENSITIVE, LOST, Reasons, reasons
 from fitting.diagnosis.begin import Begun, begin
 from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.glitch import Glitch, are_one, glitches
@@ -68,6 +69,8 @@ class FilesAtWork:
     """Of the bare plate, which is then that of every file."""
     bare: BareModes | None = None
     used: list[Mask] = field(default_factory=list)
+    why_aside: list[Reasons] = field(default_factory=list)
+    """Of every file why readings are not in use."""
     misfit: list[float] = field(default_factory=list)
     aside: list[SetAside] = field(default_factory=list)
     made: dict[int, tuple[bytes, SmallProblem]] = field(default_factory=dict)
@@ -76,9 +79,18 @@ class FilesAtWork:
     """What fits begin with."""
 
     def __post_init__(self) -> None:
-        self.used = [strays(f.sweep) == 0 for f in self.files]
+        self.used = [np.ones(len(f.sweep), bool) for f in self.files]
+        self.why_aside = [reasons(~used, "") for used in self.used]
+        for k, f in enumerate(self.files):
+            self.leave_out(k, reasons(strays(f.sweep) > 0, LOST))
         self.misfit = [0.0] * len(self.files)
         self.start = _start_of(self.files)
+
+    def leave_out(self, k: int, why: Reasons) -> None:
+        """Of a file what has a reason; what was left out before keeps its own. Shape (points,)."""
+        new = self.used[k] & (why != "")
+        self.why_aside[k][new] = why[new]
+        self.used[k] = self.used[k] & ~new
 
     def problem(self) -> tuple[SeveralProblem, Noise]:
         """Of the points in use."""
@@ -140,9 +152,15 @@ class FilesAtWork:
                 count = int(np.sum((f >= g.low_hz) & (f <= g.high_hz)))
                 self._add(SetAside(numbers_of(self.files)[k], g, count))
             if aside.any():
-                self.used[k][np.flatnonzero(self.used[k])[aside]] = False
+                self._leave_out_of_used(k, aside, DISTURBED)
                 found = True
         return found
+
+    def _leave_out_of_used(self, k: int, aside: Mask, why: str) -> None:
+        """Of those in use. Shape (points in use,)."""
+        out = np.zeros(len(self.used[k]), bool)
+        out[np.flatnonzero(self.used[k])[aside]] = True
+        self.leave_out(k, reasons(out, why))
 
     def _add(self, one: SetAside) -> None:
         """Stretches of a file that touch, or are lobes of one disturbance, are one."""
@@ -179,7 +197,7 @@ class FilesAtWork:
             self.misfit[k] = np.sqrt(squares / (len(off) + sum(one.points for one in stretches)) / 2)
             hears = np.abs(m.feels(law, v[part])) > DEAF
             if hears.sum() > len(law.names) and not self._deaf_taken:
-                self.used[k][np.flatnonzero(self.used[k])[~hears]] = False
+                self._leave_out_of_used(k, ~hears, INSENSITIVE)
         self._deaf_taken = True
         return any(self.misfit)
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Mask
+from fitting.aside import LOST, Reasons, reasons
 from fitting.diagnosis.begin import Begun, begin
 from fitting.diagnosis.freer_law import loosened
 from fitting.diagnosis.joint import fit_of
@@ -60,7 +61,11 @@ class Identified:
 
     result: Identification
     sweep: Sweep
-    """What was fitted: stray readings are not in it."""
+    """What was fitted."""
+    given: Sweep
+    """The same with what was set aside."""
+    why_aside: Reasons
+    """Of every reading given why it was set aside. Shape (points,)."""
     setup_seconds: float
     """Models made or loaded."""
     seconds: float
@@ -92,7 +97,8 @@ def identify(
     if specimen.core is None:
         raise OutsideModel("a bare plate has no core to identify, expected [core] and [constraining]")
     further = remarks_on_strays(sweep)
-    sweep = sweep.take(strays(sweep) == 0)
+    given, why_aside = sweep, reasons(strays(sweep) > 0, LOST)
+    sweep = given.take(why_aside == "")
     stated, noise = specimen.core.law, noise_of(sweep)
     start = stated.to_fit(sweep.frequency_hz)
     bare = fit_bare_plate(specimen, *hammer) if hammer is not None else None
@@ -133,7 +139,18 @@ def identify(
     with threadpool_limits(1, "blas"), progress("validating") as report:
         validation = problem.validated(sweep, noise, fit, report)
     result = summarise(method, sweep, noise, fit, validation, further)
-    return Identified(result, sweep, setup, seconds, perf_counter() - began, theory, problem.joint, bare)
+    return Identified(
+        result,
+        sweep,
+        given,
+        why_aside,
+        setup,
+        seconds,
+        perf_counter() - began,
+        theory,
+        problem.joint,
+        bare,
+    )
 
 
 def _checked(specimen: Specimen, sweep: Sweep, fit: Fit) -> TheoryError:

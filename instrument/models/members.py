@@ -18,6 +18,7 @@ from fitting.mode_tables.standing import standing
 from fitting.mode_tables.table import ModalTable
 from fitting.noise import noise_of
 from fitting.specimen import Specimen
+from fitting.strays import strays
 from fitting.structures import AnySpecimen, Beam
 from fitting.sweep import Sweep
 from fitting.temperature.members import Alone, Joined
@@ -27,6 +28,7 @@ from instrument.models.diagnosis import effects_among
 from instrument.models.files import File
 from instrument.models.files_at_work import FilesAtWork
 from instrument.models.modal import widened
+from instrument.models.remarks import remarks_on_strays
 from instrument.models.set_up import Hammer, set_up
 from instrument.progress import quiet
 
@@ -102,7 +104,9 @@ class Members:
         specimen, sweep = self.specimen(one), one.data
         assert isinstance(sweep, Sweep)
         assert specimen.core is not None
+        self.remarks += [f"{one.name}: {said}" for said in remarks_on_strays(sweep)]
         if isinstance(specimen, Specimen):
+            sweep = sweep.take(strays(sweep) == 0)
             noise = noise_of(sweep)
             ready = set_up(sweep, specimen, self.hammer, with_effects=with_effects)
             found = begin(ready.problem, ready.reduced, noise, ready.bare, specimen.core.law)

@@ -92,7 +92,17 @@ def identify_together(
     result = summarise("direct", sweep, noise, fit, validation, further)
     result = replace(result, warnings=(*misfit, *result.warnings))
     validated = perf_counter() - checked
-    found = Identified(result, sweep, ready - began, seconds, validated, joint=Joint(begun, None), bare=bare)
+    found = Identified(
+        result,
+        sweep,
+        _all(files),
+        np.concatenate(work.why_aside),
+        ready - began,
+        seconds,
+        validated,
+        joint=Joint(begun, None),
+        bare=bare,
+    )
     return Together(found, tuple(work.aside))
 
 
@@ -123,8 +133,8 @@ def diagnose_together(
         spots = sorted({f.pickup for f in files if f.pickup is not None})
         same = one_plate(files)
         for k, file in enumerate(files):
-            used, seen, _ = seen_in_channels(file.sweep, [e for e, on in among_files if on[k]])
-            work.used[k] &= used
+            why, seen, _ = seen_in_channels(file.sweep, [e for e, on in among_files if on[k]])
+            work.leave_out(k, why)
             channels += [_with_file(one, numbers[k], count) for one in seen]
         work.problem()
         ready = perf_counter()
@@ -148,7 +158,7 @@ def diagnose_together(
                 work.bare,
                 work.start,
                 tuple(channels),
-                np.concatenate(work.used),
+                np.concatenate(work.why_aside),
                 report,
                 accept,
                 workers,

@@ -10,11 +10,13 @@ from fitting.errors import FittingError
 from fitting.specimen import Specimen
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult
+from instrument.facts.rows import PointSetAside
 from instrument.interchange.identified import SessionFit, identify_session, result_of_fit
 from instrument.progress import Progress, quiet
 from instrument.results.fit_file import found_law
 from instrument.results.fitted_response import FittedModel
 from instrument.results.fitted_small import FittedSmall
+from instrument.results.rows_from import points_set_aside_from
 from instrument.session.contents import Contents
 
 
@@ -38,6 +40,13 @@ class ReportedFit:
         """That of `viscorig identify`; None without a fit."""
         fit = self.fit
         return result_of_fit(fit) if fit is not None else None
+
+    @property
+    def points_set_aside(self) -> tuple[PointSetAside, ...]:
+        """Those that the fit has left out."""
+        if self.fit is None:
+            return ()
+        return points_set_aside_from(self.fit.identified.given, self.fit.identified.why_aside)
 
     @cached_property
     def _model(self) -> FittedModel | FittedSmall | None:

@@ -49,9 +49,7 @@ def identification_section(contents: Contents, fitted: ReportedFit) -> ReportSec
     fit = fitted.fit
     r = fit.identified.result
     blocks: list[Block] = [
-        Sentence(
-            f"{r.law.kind} law from {len(fit.sweep)} points by {r.method} least squares, {_hammer(fit)}."
-        ),
+        Sentence(f"{r.law.kind} law from {_points(fit)} by {r.method} least squares, {_hammer(fit)}."),
         *_doubt(contents),
         *(Sentence(note(warning), "note") for warning in r.warnings),
         FigureBlock(
@@ -66,7 +64,7 @@ def identification_section(contents: Contents, fitted: ReportedFit) -> ReportSec
     ]
     blocks += [
         FigureBlock(f, "Residual: model less measurement, by segment")
-        for f in residual_figures(segments_of(contents), fitted)
+        for f in residual_figures(segments_of(contents, fitted.points_set_aside), fitted)
     ]
     return ReportSection(title, tuple(blocks))
 
@@ -132,6 +130,12 @@ def _parts(specimen: AnySpecimen) -> str:
     if specimen.kind == "plate":
         return "the plate, its core and its viscous damping"
     return f"the {in_words(specimen.kind)} and its core"
+
+
+def _points(fit: SessionFit) -> str:
+    """How many took part, and how many did not."""
+    taken, aside = len(fit.identified.sweep), int(np.sum(fit.identified.why_aside != ""))
+    return f"{taken} points" + (f" ({aside} set aside)" if aside else "")
 
 
 def _hammer(fit: SessionFit) -> str:
@@ -229,9 +233,9 @@ def _live(contents: Contents, r: Identification) -> Sentence:
         return Sentence("The run itself made no fit; this one was made for the page.", "note")
     if live.result is None:
         return Sentence(f"The run's own last fit failed: {live.message}.", "note")
-    points = live.result.points
-    if len(points) != len(contents.points):
-        return Sentence(f"The run's own last fit had {len(points)} of {len(contents.points)} points.", "note")
+    points = len(live.result.points) + len(live.result.points_set_aside)
+    if points != len(contents.points):
+        return Sentence(f"The run's own last fit had {points} of {len(contents.points)} points.", "note")
     recorded = live.result.parameters
     worst = max(abs(recorded[n] / v - 1) for n, v in zip(r.law.names, r.law.values, strict=True))
     if worst <= _SAME:

@@ -18,6 +18,7 @@ from instrument.results.drawing import (
     label,
     legend,
     legend_above,
+    mark_set_aside,
     panels,
 )
 
@@ -35,8 +36,8 @@ def law_figure(fit: SessionFit, name: str = "identified") -> Figure:
             ax.fill_between(b.frequency_hz, low, high, color=DATA, alpha=0.2, linewidth=0, label="95 % band")
         ax.plot(b.frequency_hz, value * scale, color=DATA, label=name)
         ax.plot(
-            fit.sweep.frequency_hz,
-            np.full(len(fit.sweep), 0.015),
+            fit.identified.sweep.frequency_hz,
+            np.full(len(fit.identified.sweep), 0.015),
             "|",
             color="#222222",
             markersize=6,
@@ -58,19 +59,18 @@ def residual_figures(segments: list[Measured], fitted: ReportedFit) -> list[Figu
 def _residuals(segments: Sequence[Measured], fitted: ReportedFit) -> Figure:
     figure, (above, below) = panels(2, len(segments), 4.4)
     for amplitude, phase, m in zip(above, below, segments, strict=True):
-        model = fitted.over_base(m.frequency_hz)
+        f, over_base = m.frequency_hz[m.kept], m.over_base[m.kept]
+        model = fitted.over_base(f)
         assert model is not None
-        noise = TWO_STD * m.std / np.abs(m.over_base)
-        ratio = model / m.over_base
+        noise = TWO_STD * m.std[m.kept] / np.abs(over_base)
+        ratio = model / over_base
         for ax, rest, band in (
             (amplitude, 100 * (np.abs(ratio) - 1), 100 * noise),
             (phase, np.degrees(np.angle(ratio)), np.degrees(noise)),
         ):
-            ax.fill_between(
-                m.frequency_hz, -band, band, color=DATA, alpha=0.2, linewidth=0, label="± 2 std of the noise"
-            )
+            ax.fill_between(f, -band, band, color=DATA, alpha=0.2, linewidth=0, label="± 2 std of the noise")
             ax.plot(
-                m.frequency_hz,
+                f,
                 rest,
                 "o-",
                 color=MODEL,
@@ -79,9 +79,10 @@ def _residuals(segments: Sequence[Measured], fitted: ReportedFit) -> Figure:
                 label="model less measured",
             )
             ax.axhline(0, color="#888888", linewidth=0.8)
+            mark_set_aside(ax, m.frequency_hz[~m.kept])
         label(amplitude, title=f"Segment {m.segment}")
         label(phase, x="Frequency / Hz")
     label(above[0], y="Amplitude / %")
     label(below[0], y="Phase / degree")
-    legend_above(figure, above[0])
+    legend_above(figure, *above)
     return figure

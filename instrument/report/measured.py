@@ -6,8 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array, Complex, Mask
 from instrument.facts.diagnosis import DiagnosisResult, PointLeft
+from instrument.facts.rows import PointSetAside
+from instrument.results.set_aside import why_aside
 from instrument.results.standing import none_is_likelier
 from instrument.session.contents import Contents
 from instrument.session.points import elsewhere
@@ -46,6 +48,8 @@ class Measured:
     std: Array
     """Of each part of it, by the noise of both channels."""
     which: tuple[Which, ...]
+    kept: Mask
+    """Those that a fit takes."""
     elsewhere: str = ""
     """Another spot or a known mass, in words; empty where the plate was read as the specimen file says."""
 
@@ -83,22 +87,34 @@ def explained(measured: Measured, found: DiagnosisResult | None) -> list[tuple[A
     return [(np.array([f for f, _ in line]), np.array([z for _, z in line])) for line in lines.values()]
 
 
-def segments_of(contents: Contents) -> list[Measured]:
-    """Every segment with points in it, what was read elsewhere by itself; sentinels are not among them."""
-    every = zip(Which.of(contents.measured), contents.measured, strict=True)
-    steps = [(w, p) for w, p in every if p.purpose == "step"]
-    places = sorted({(p.segment, p.pickup, p.mass_kg) for _, p in steps})
+def points_set_aside(contents: Contents, by_fit: Sequence[PointSetAside]) -> tuple[PointSetAside, ...]:
+    """What a fit has left out, and what the recorded diagnosis has."""
+    found = contents.diagnosis.result if contents.diagnosis is not None else None
+    return (*by_fit, *(found.points_set_aside if found is not None else ()))
+
+
+def segments_of(contents: Contents, aside: Sequence[PointSetAside] = ()) -> list[Measured]:
+    """Every segment with points in it, what was read elsewhere by itself; sentinels are not among them.
+
+    A fit, or the recorded diagnosis, has set `aside` some.
+    """
+    kept = (why_aside(contents.measured, points_set_aside(contents, aside)) == "").tolist()
+    every = zip(Which.of(contents.measured), contents.measured, kept, strict=True)
+    steps = [(w, p, k) for w, p, k in every if p.purpose == "step"]
+    places = sorted({(p.segment, p.pickup, p.mass_kg) for _, p, _ in steps})
     return [
-        _segment([(w, p) for w, p in steps if (p.segment, p.pickup, p.mass_kg) == place]) for place in places
+        _segment([(w, p, k) for w, p, k in steps if (p.segment, p.pickup, p.mass_kg) == place])
+        for place in places
     ]
 
 
-def _segment(steps: list[tuple[Which, PointMeasured]]) -> Measured:
-    which, mine = zip(*sorted(steps, key=lambda one: one[0].frequency_hz), strict=True)
+def _segment(steps: list[tuple[Which, PointMeasured, bool]]) -> Measured:
+    which, mine, kept = zip(*sorted(steps, key=lambda one: one[0].frequency_hz), strict=True)
     base, v = np.array([p.base_m_s2 for p in mine]), np.array([p.velocity_m_s for p in mine])
     noise = np.hypot(noise_of(mine, "velocity"), noise_of(mine, "base"))
     f = np.array([p.frequency_hz for p in mine])
-    return Measured(mine[0].segment, f, v / base, noise * np.abs(v / base), which, elsewhere(mine[0]))
+    std = noise * np.abs(v / base)
+    return Measured(mine[0].segment, f, v / base, std, which, np.array(kept), elsewhere(mine[0]))
 
 
 def noise_of(points: Sequence[PointMeasured], channel: str) -> Array:

@@ -2,15 +2,17 @@
 
 import numpy as np
 
+from fitting.aside import Reasons
 from fitting.digits import two_digits
 from instrument.files.acceleration import acceleration_unit
 from instrument.files.column import ColumnPoint
 from instrument.files.point_columns import in_report
 from instrument.report.blocks import Block, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.report.fitted import ReportedFit
-from instrument.report.measured import noise_of, segments_of
+from instrument.report.measured import noise_of, points_set_aside, segments_of
 from instrument.report.sweep_figures import quality_figure, response_figures
 from instrument.results.numbers import format_number, signed
+from instrument.results.set_aside import why_aside, words_of
 from instrument.session.contents import Contents
 from instrument.stream.derived import PointMeasured
 
@@ -21,7 +23,8 @@ def sweep_section(contents: Contents, fitted: ReportedFit) -> ReportSection:
     if not contents.points:
         return ReportSection(title, (Sentence("There is no point of a sweep in this session.", "note"),))
     blocks: list[Block] = [Sentence(_summary(contents))]
-    segments = segments_of(contents)
+    why = why_aside(contents.measured, points_set_aside(contents, fitted.points_set_aside))
+    segments = segments_of(contents, fitted.points_set_aside)
     reads = contents.configuration.rig.vibrometer.reads
     drawn = f"{reads.capitalize()} velocity v at the pickup over base acceleration a, by segment"
     drawn += "" if fitted.fit is not None else "; no model is drawn, as there is no fit"
@@ -30,7 +33,8 @@ def sweep_section(contents: Contents, fitted: ReportedFit) -> ReportSection:
     blocks.append(
         FigureBlock(quality_figure(contents), "How well each point was measured, in the order of measuring")
     )
-    blocks += [*_sentinels(contents), *_remarks(contents.measured), _points(contents)]
+    blocks += [*_set_aside(contents.measured, why), *_sentinels(contents), *_remarks(contents.measured)]
+    blocks.append(_points(contents))
     return ReportSection(title, tuple(blocks))
 
 
@@ -72,6 +76,18 @@ def _sentinels(contents: Contents) -> list[Block]:
         rows.append((str(s.step), f"{s.frequency_hz:g}", when, *change, temperature))
     columns = ("step", "f / Hz", "after / min", "amplitude / %", "phase / degree", "T / °C")
     return [TableBlock("Drift of the sentinel, against its first time", columns, tuple(rows))]
+
+
+def _set_aside(points: list[PointMeasured], why: Reasons) -> list[Block]:
+    """What fit or diagnosis leave out. `why` of shape (points,)."""
+    rows = tuple(
+        (str(p.step), f"{p.frequency_hz:g}", str(p.segment), f"{abs(p.velocity_m_s):.5g}", words_of(reason))
+        for p, reason in zip(points, why.tolist(), strict=True)
+        if reason
+    )
+    columns = ("step", "f / Hz", "segment", "|v| / (m/s)", "why")
+    title = f"{_counted(len(rows), 'reading')} set aside, not fitted"
+    return [TableBlock(title, columns, rows, words=columns[4:])] if rows else []
 
 
 def _remarks(points: list[PointMeasured]) -> list[Block]:

@@ -23,6 +23,7 @@ from instrument.results.drawing import (
     label,
     legend,
     legend_above,
+    mark_set_aside,
     panels,
 )
 from instrument.session.contents import Contents
@@ -59,9 +60,8 @@ def _draw_segment(
     f, size = m.frequency_hz, np.abs(m.over_base)
     # The model is of the spot and the plate that the specimen file says.
     model = fitted.over_base(m.grid_hz) if not m.elsewhere else None
-    if model is None:
-        angle = np.unwrap(np.angle(m.over_base))
-    else:
+    kept, angle = m.kept, _angle(m)
+    if model is not None:
         course = np.unwrap(np.angle(model))
         at = np.interp(f, m.grid_hz, course)
         # Turns are the model's: what is measured lies beside it.
@@ -80,13 +80,28 @@ def _draw_segment(
         amplitude.plot(at_hz, _MS * np.abs(with_effects), label=name or None, **line)
         phase.plot(at_hz, np.degrees(turned), **line)
     bars: dict[str, Any] = {"fmt": "o", "markersize": 3.5, "color": DATA, "capsize": 2, "elinewidth": 0.8}
+    each = np.degrees(TWO_STD * m.std[kept] / size[kept])
     amplitude.errorbar(
-        f, _MS * size, _MS * TWO_STD * m.std, label="measured, ± 2 standard deviations", **bars
+        f[kept],
+        _MS * size[kept],
+        _MS * TWO_STD * m.std[kept],
+        label="measured, ± 2 standard deviations",
+        **bars,
     )
-    phase.errorbar(f, np.degrees(angle), np.degrees(TWO_STD * m.std / size), **bars)
+    phase.errorbar(f[kept], np.degrees(angle[kept]), each, **bars)
+    mark_set_aside(amplitude, f[~kept], _MS * size[~kept])
+    mark_set_aside(phase, f[~kept], np.degrees(angle[~kept]))
     from_zero(amplitude, _MS * (size if model is None else np.concatenate([size, np.abs(model)])))
     label(amplitude, title=f"Segment {m.segment}" + (f"\n{m.elsewhere}" if m.elsewhere else ""))
     label(phase, x="Frequency / Hz")
+
+
+def _angle(m: Measured) -> Array:
+    """Without jumps along the points that are kept, the others beside them. Shape (points,)."""
+    if not m.kept.any():
+        return np.angle(m.over_base)
+    at = np.interp(m.frequency_hz, m.frequency_hz[m.kept], np.unwrap(np.angle(m.over_base[m.kept])))
+    return np.asarray(at + np.angle(m.over_base * np.exp(-1j * at)))
 
 
 def quality_figure(contents: Contents) -> Figure:

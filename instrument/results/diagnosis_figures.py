@@ -25,6 +25,7 @@ from instrument.results.drawing import (
     WIDTH_IN,
     label,
     legend_above,
+    mark_set_aside,
 )
 from instrument.results.standing import Standing, one_fit_words, stages_apart, standing
 
@@ -70,8 +71,9 @@ def residual_figure(found: DiagnosisResult) -> Figure:
     axes = figure.subplots(rows, len(stages), squeeze=False, sharex="row")
     for number, pair in zip(numbers, axes, strict=True):
         mine = _together([p for p in points if p.segment == number])
+        aside = [p.frequency_hz for p in found.points_set_aside if p.segment == number]
         for ax, stage in zip(pair, stages, strict=True):
-            _draw_residual(ax, mine, stage)
+            _draw_residual(ax, mine, stage, aside)
             rms = found.stage(stage).rms_percent
             named = stage if len(stages) > 1 else "without any effect"
             first = (
@@ -83,7 +85,7 @@ def residual_figure(found: DiagnosisResult) -> Figure:
     if len(every) > len(numbers):
         said = f"the first {len(numbers)} of {len(every)} segments"
         axes[-1, 0].annotate(said, (0.0, -0.42), xycoords="axes fraction", fontsize=8)
-    legend_above(figure, axes[0, 0])
+    legend_above(figure, *axes[:, 0])
     return figure
 
 
@@ -95,7 +97,9 @@ def _together(points: Sequence[PointLeft]) -> list[PointLeft]:
     return [p for p, c in zip(points, cluster, strict=True) if c == largest]
 
 
-def _draw_residual(ax: Axes, points: Sequence[PointLeft], stage: StageName) -> None:
+def _draw_residual(
+    ax: Axes, points: Sequence[PointLeft], stage: StageName, aside_hz: Sequence[float]
+) -> None:
     # A band for each pass and level: between them the noise jumps.
     for k, alike in enumerate(sorted({(p.sweep, p.level_m_s2) for p in points})):
         mine = [p for p in points if (p.sweep, p.level_m_s2) == alike]
@@ -107,6 +111,7 @@ def _draw_residual(ax: Axes, points: Sequence[PointLeft], stage: StageName) -> N
     ax.axhline(0, color="#888888", linewidth=0.8)
     left = [p.stage(stage) for p in points]
     f, has_phase = _column(points, "frequency_hz"), left[0].has_phase
+    mark_set_aside(ax, np.array(aside_hz))
     for key, name, colour, marker in _PARTS:
         if (key == "amplitude_percent") != has_phase:
             ax.plot(f, _column(left, key), marker, color=colour, markersize=3, label=name)

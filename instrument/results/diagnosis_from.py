@@ -15,7 +15,7 @@ from instrument.facts.diagnosis import (
     StageFitted,
 )
 from instrument.models.diagnosis import Diagnosed
-from instrument.results.rows_from import adjusted_from, held_out_from, law_rows_from
+from instrument.results.rows_from import adjusted_from, held_out_from, law_rows_from, points_set_aside_from
 
 
 def diagnosis_from(found: Diagnosed, sweep: Sweep) -> DiagnosisResult:
@@ -41,6 +41,7 @@ def diagnosis_from(found: Diagnosed, sweep: Sweep) -> DiagnosisResult:
         warnings=r.warnings,
         by_hand=r.by_hand,
         points=_points(sweep.take(r.used), r.before, r.after),
+        points_set_aside=points_set_aside_from(sweep, r.why_aside),
         set_aside_hz=tuple(sweep.frequency_hz[~r.used].tolist()),
         seconds=found.seconds,
         setup_seconds=found.setup_seconds,

@@ -74,7 +74,7 @@ def set_aside_words(found: DiagnosisResult) -> str:
     grid = sorted(aside.union(point.frequency_hz for point in found.points))
     runs = [list(run) for out, run in groupby(grid, aside.__contains__) if out]
     listed = [
-        f"{run[0]:.4g} to {run[-1]:.4g}" if len(run) >= _RANGE else ", ".join(f"{f:.4g}" for f in run)
+        f"{run[0]:.6g} to {run[-1]:.6g}" if len(run) >= _RANGE else ", ".join(f"{f:.6g}" for f in run)
         for run in runs
     ]
     said = [f"{', '.join(listed)} Hz"] if listed else []

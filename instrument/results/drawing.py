@@ -9,10 +9,16 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 from numpy.typing import NDArray
 
+from fitting.arrays import Array
+from instrument.results.set_aside import NAME
+
 T = TypeVar("T")
 
 DATA, MODEL, MARK, SECOND = "#0b63a5", "#c2571a", "#5b8c2a", "#7a4fa3"
 WIDTH_IN = 11.0
+_SET_ASIDE: dict[str, Any] = {"marker": "v", "color": "#b3261e", "mfc": "none", "ms": 6, "ls": "none"}
+_FOOT = 0.04
+"""Of an axis's height: where what has no place on its scale is marked."""
 _COLUMNS_AT_MOST = 4
 BAND_95 = 1.96
 """Standard errors either side of what is found: 95 % of a normal distribution."""
@@ -59,6 +65,17 @@ def frequency_in_octaves(ax: Axes) -> None:
     ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     ax.xaxis.set_minor_locator(NullLocator())
     ax.xaxis.set_major_formatter(FuncFormatter(lambda f, _: f"{f:g}"))
+
+
+def mark_set_aside(ax: Axes, x: Array, y: Array | None = None) -> None:
+    """Readings that take no part; at the foot of the axis without `y`. Shape (readings,)."""
+    if not len(x):
+        return
+    if y is None:
+        at_foot = np.full(len(x), _FOOT)
+        ax.plot(x, at_foot, label=NAME, transform=ax.get_xaxis_transform(), **_SET_ASIDE)
+    else:
+        ax.plot(x, y, label=NAME, **_SET_ASIDE)
 
 
 def legend(ax: Axes) -> None:

@@ -23,7 +23,7 @@ from instrument.facts.identification import (
     TheoryErrorRow,
 )
 from instrument.models.identification import Identified
-from instrument.results.rows_from import adjusted_from, held_out_from, law_rows_from
+from instrument.results.rows_from import adjusted_from, held_out_from, law_rows_from, points_set_aside_from
 
 
 def identification_from(found: Identified, specimen: Specimen | None = None) -> IdentificationResult:
@@ -39,6 +39,7 @@ def identification_from(found: Identified, specimen: Specimen | None = None) -> 
             a: _named(names, row) for a, row in zip(names, r.uncertainty.correlations, strict=True)
         },
         points=_points(r, found.sweep),
+        points_set_aside=points_set_aside_from(found.given, found.why_aside),
         rms_percent=r.rms_percent,
         max_percent=r.max_percent,
         chi2_per_dof=r.uncertainty.chi2_per_dof if r.chi2_means_something else None,

@@ -3,10 +3,14 @@
 from collections.abc import Sequence
 from dataclasses import asdict
 
+import numpy as np
+
+from fitting.aside import Reasons
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.result import LawBand
 from fitting.identification.validation import Validation
-from instrument.facts.rows import AdjustedNumber, HeldOut, LawRow
+from fitting.sweep import Sweep
+from instrument.facts.rows import AdjustedNumber, HeldOut, LawRow, PointSetAside
 
 
 def law_rows_from(b: LawBand) -> tuple[LawRow, ...]:
@@ -27,3 +31,23 @@ def held_out_from(v: Validation) -> tuple[HeldOut, ...]:
 def adjusted_from(found: Sequence[Adjusted]) -> tuple[AdjustedNumber, ...]:
     """The stated numbers beside what the fit found them to be."""
     return tuple(AdjustedNumber(**asdict(one)) for one in found)
+
+
+def points_set_aside_from(given: Sweep, why: Reasons) -> tuple[PointSetAside, ...]:
+    """Of all readings given those that have a reason, of shape (points,), to take no part."""
+    out = np.flatnonzero(why != "")
+    left = given.take(out)
+    columns = (
+        left.frequency_hz,
+        left.segment,
+        left.sweep,
+        left.commanded_m_s2,
+        np.abs(left.response_m_s),
+        why[out],
+    )
+    return tuple(
+        PointSetAside(
+            frequency_hz=f, segment=segment, sweep=number, level_m_s2=level, measured_m_s=v, why=one
+        )
+        for f, segment, number, level, v, one in zip(*(c.tolist() for c in columns), strict=True)
+    )

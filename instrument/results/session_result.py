@@ -65,7 +65,8 @@ def result_of(
         return _said(standing, diagnosed.after, verdict_line(diagnosed), conditions, points, diagnosed)
     if identified is not None:
         said = f"not diagnosed: {why}" if why else "not diagnosed"
-        return _said("not diagnosed", identified, said, conditions, len(identified.points), None)
+        points = len(identified.points) + len(identified.points_set_aside)
+        return _said("not diagnosed", identified, said, conditions, points, None)
     return SessionResult(
         words=f"no law identified{': ' if why else ''}{why}",
         standing="no law",

@@ -1,25 +1,30 @@
 """Results of several files, or of a structure other than the plate, read off what was found."""
 
 from collections.abc import Sequence
+from typing import TypeVar
 
 import numpy as np
 
+from fitting.arrays import Mask
 from instrument.facts.diagnosis import DiagnosisResult, PointLeft
 from instrument.facts.identification import IdentificationResult, PointFitted
-from instrument.facts.rows import StretchSetAside
+from instrument.facts.rows import PointSetAside, StretchSetAside
 from instrument.models.files import File, name_of, numbers_of
 from instrument.models.files_at_work import SetAside
 from instrument.models.together import DiagnosedTogether, Together
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 
+P = TypeVar("P", PointFitted, PointLeft, PointSetAside)
+
 
 def identified_together_from(found: Together, files: Sequence[File]) -> IdentificationResult:
     """The result of `identify`, each point with its file (from 1), and what was set aside."""
     result = identification_from(found.found)
-    owned = zip(result.points, _owners(files, result.points), strict=True)
+    used = found.found.why_aside == ""
     return result.but(
-        points=tuple(point.but(file=number, pickup=f.pickup) for point, (number, f) in owned),
+        points=_owned(result.points, files, used),
+        points_set_aside=_owned(result.points_set_aside, files, ~used),
         files=_names(files),
         set_aside=_set_aside(found.aside, files),
     )
@@ -28,9 +33,10 @@ def identified_together_from(found: Together, files: Sequence[File]) -> Identifi
 def diagnosed_together_from(found: DiagnosedTogether, files: Sequence[File]) -> DiagnosisResult:
     """The result of `diagnose`, each point with its file (from 1), and what was set aside."""
     result = diagnosis_from(found.found, found.sweep)
-    owned = zip(result.points, _owners(files, result.points), strict=True)
+    used = found.found.result.used
     return result.but(
-        points=tuple(point.but(file=number, pickup=f.pickup) for point, (number, f) in owned),
+        points=_owned(result.points, files, used),
+        points_set_aside=_owned(result.points_set_aside, files, ~used),
         files=_names(files),
         set_aside=_set_aside(found.aside, files),
     )
@@ -56,8 +62,9 @@ def _set_aside(aside: Sequence[SetAside], files: Sequence[File]) -> tuple[Stretc
     )
 
 
-def _owners(files: Sequence[File], points: Sequence[PointFitted | PointLeft]) -> list[tuple[int, File]]:
-    """By segments: every file's, and every spot's, are numbered on from the last one's."""
-    counts = np.cumsum([len(np.unique(f.sweep.segment)) for f in files])
-    owners = list(zip(numbers_of(files), files, strict=True))
-    return [owners[int(np.searchsorted(counts, point.segment))] for point in points]
+def _owned(points: Sequence[P], files: Sequence[File], mine: Mask) -> tuple[P, ...]:
+    """Each with its file and spot; `mine` are its readings among those of all files, shape (readings,)."""
+    owner = np.repeat(np.arange(len(files)), [len(f.sweep) for f in files])[mine]
+    numbers = numbers_of(files)
+    owned = zip(points, owner.tolist(), strict=True)
+    return tuple(point.but(file=numbers[k], pickup=files[k].pickup) for point, k in owned)

@@ -94,7 +94,10 @@ def test_a_resonance_at_an_end_is_no_lost_signal(seed):
     assert not strays(sweep(noisy(v, rng, 1e-5), f)).any()
 
 
-@pytest.mark.parametrize("at", [slice(0, 1), slice(0, 3), slice(119, 121), slice(117, 121)])
+ENDS = [slice(0, 1), slice(0, 3), slice(2, 5), slice(3, 5), slice(119, 121), slice(117, 121), slice(116, 119)]
+
+
+@pytest.mark.parametrize("at", ENDS)
 def test_a_signal_lost_at_an_end_is_found(at):
     v = noisy(modes(F, [19.0], [0.1]), np.random.default_rng(6))
     v[at] *= 1e-2

@@ -54,6 +54,8 @@ class Panel:
 
     series: tuple[Series, ...]
     noise: tuple[NoiseBand, ...]
+    aside_hz: tuple[float, ...] = ()
+    """Of readings that are not fitted, and so have no residual."""
 
     @property
     def range_hz(self) -> tuple[float, float]:
@@ -84,15 +86,16 @@ def segments(found: DiagnosisResult) -> tuple[int, ...]:
 def panel(found: DiagnosisResult, segment: int, stage: StageName, quantity: Quantity) -> Panel:
     """Points ascending in frequency, no sentinel far off: it would leave no room for the others."""
     points = together([p for p in found.points if p.segment == segment])
+    aside_hz = tuple(p.frequency_hz for p in found.points_set_aside if p.segment == segment)
     f = _column(points, "frequency_hz")
     left = [p.stage(stage) for p in points]
     if quantity == "whitened":
         parts = np.array([p.whitened for p in left], dtype=float).T
         names = _WHITENED if len(parts) > 1 else ("amplitude",)
         series = tuple(Series(name, f, part) for name, part in zip(names, parts, strict=True))
-        return Panel(series, (NoiseBand(f, np.full(len(f), TWO_STD)),))
+        return Panel(series, (NoiseBand(f, np.full(len(f), TWO_STD)),), aside_hz)
     series = tuple(Series(name, f, _column(left, key)) for name, key in _KEYS[quantity])
-    return Panel(series, _noise(points))
+    return Panel(series, _noise(points), aside_hz)
 
 
 def limit(found: DiagnosisResult, segment: int, stage: StageName, quantity: Quantity) -> float:

@@ -1,7 +1,9 @@
 """The residual before and after, side by side, each on a scale of its own, a row a segment."""
 
+from collections.abc import Collection
 from typing import Any
 
+import numpy as np
 from PySide6.QtCore import QEvent, QObject, QTimer
 from PySide6.QtWidgets import (
     QComboBox,
@@ -23,6 +25,7 @@ from gui.theme import Role, current_theme
 from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageName
 from instrument.results.diagnosis_words import segment_place
 from instrument.results.numbers import format_number
+from instrument.results.set_aside import NAME
 from instrument.results.standing import law_words, one_fit_words, stages_apart
 
 _ROOM = 1.12
@@ -31,8 +34,11 @@ _LOOKS: dict[str, tuple[Role, Symbol]] = {
     "real part": ("data", "o"),
     "imaginary part": ("third", "s"),
     "amplitude": ("data", "o"),
+    NAME: ("bad", "t"),
 }
-_SIGNS: dict[Symbol, str] = {"o": "●", "s": "■"}
+_SIGNS: dict[Symbol, str] = {"o": "●", "s": "■", "t": "▽"}
+_FOOT = -0.93
+"""Of a panel's height: where readings without a residual are marked."""
 _SHARE_OF_TYPE = 0.38
 """Size of a point to that of type."""
 _ALL = "all"
@@ -116,12 +122,12 @@ class ResidualPlots(QWidget):
         titled, unit = number == self._numbers[-1], "" if quantity == "whitened" else "%"
         plot.show_axes(Axis("Frequency", "Hz", titled=titled), Axis(f"Segment {number}", unit))
         shown = panel(self._found, number, stage, quantity)
-        _draw_panel(plot, shown)
         height = _ROOM * limit(self._found, number, stage, quantity)
+        _draw_panel(plot, shown, _FOOT * height)
         plot.setRange(xRange=shown.range_hz, yRange=(-height, height), padding=0)
         if number == self._numbers[0]:
             # Above the points: a legend among them would hide some.
-            _name_series(plot)
+            _name_series(plot, {*plot.names, *([NAME] if self._found.points_set_aside else [])})
         else:
             plot.getPlotItem().setTitle(None)
 
@@ -184,7 +190,7 @@ class _Twins(QObject):
                 box.setXRange(*moved.viewRange()[0], padding=0)
 
 
-def _draw_panel(plot: Plot, shown: Panel) -> None:
+def _draw_panel(plot: Plot, shown: Panel, foot: float) -> None:
     names, size = [], _SHARE_OF_TYPE * plot.fontMetrics().height()
     for k, noise in enumerate(shown.noise):
         names.append(f"noise {k + 1}")
@@ -193,15 +199,19 @@ def _draw_panel(plot: Plot, shown: Panel) -> None:
         role, symbol = _LOOKS[series.name]
         plot.points(series.name, series.frequency_hz, series.values, role, symbol=symbol, size=size)
         names.append(series.name)
+    if shown.aside_hz:
+        (role, symbol), at = _LOOKS[NAME], np.full(len(shown.aside_hz), foot)
+        plot.points(NAME, np.array(shown.aside_hz), at, role, symbol=symbol, size=size, hollow=True)
+        names.append(NAME)
     plot.keep(names)
 
 
-def _name_series(plot: Plot) -> None:
+def _name_series(plot: Plot, names: Collection[str]) -> None:
     theme = current_theme()
     said = [
         f'<span style="color: {theme.color(role).name()}">{_SIGNS[symbol]}</span> {name}'
         for name, (role, symbol) in _LOOKS.items()
-        if name in plot.names
+        if name in names
     ]
     size = f"{plot.font().pointSizeF():g}pt"
     plot.getPlotItem().setTitle("&nbsp;&nbsp; ".join(said), color=theme.text, size=size)

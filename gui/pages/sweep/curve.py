@@ -6,7 +6,7 @@ from typing import Self
 
 import numpy as np
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array, Complex, Mask
 from gui.pages.sweep.points import Index, PointsMeasured
 from instrument.check.piece import Region
 from instrument.facts.identification import PointFitted
@@ -89,12 +89,15 @@ def joined(stretches: list[Array]) -> Array:
     return np.concatenate([part for s in stretches for part in (s, gap)][:-1]) if stretches else np.zeros(0)
 
 
-def predictions(points: PointsMeasured, rows: Sequence[PointFitted], last_step: int) -> tuple[Index, Array]:
+def predictions(
+    points: PointsMeasured, rows: Sequence[PointFitted], last_step: int, left_out: Mask | None = None
+) -> tuple[Index, Array]:
     """What a fit's own rows say: number of each point it took, and its amplitude predicted in m/s.
 
-    Empty where the rows do not belong to these points. Shape (taken,) each.
+    `left_out` are points that it has set aside, shape (points,). Empty where the rows do not belong to these
+    points. Shape (taken,) each.
     """
-    taken = _as_fitted(points, last_step)
+    taken = [k for k in _as_fitted(points, last_step) if left_out is None or not left_out[k]]
     fits = len(rows) == len(taken) and all(
         _is_of(row, points.timed[k].point) for k, row in zip(taken, rows, strict=True)
     )

@@ -2,10 +2,12 @@
 
 from pathlib import Path
 
+import numpy as np
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QHideEvent, QKeySequence, QShortcut, QShowEvent
 from PySide6.QtWidgets import QCheckBox, QSplitter, QStackedLayout, QTabWidget, QVBoxLayout, QWidget
 
+from fitting.aside import Reasons
 from fitting.digits import two_digits
 from fitting.gravity import PUBLISHED_G_M_S2
 from gui.controller import AppController
@@ -30,6 +32,7 @@ from gui.widgets import hint
 from instrument.check.piece import Region
 from instrument.results.diagnosis_words import UNKNOWN
 from instrument.results.session_result import BEFORE_DIAGNOSIS
+from instrument.results.set_aside import why_aside
 from instrument.results.standing import stage_before
 from instrument.session.configuration import Configuration
 from instrument.stepped_sine.settings import SweepSettings
@@ -154,8 +157,12 @@ class SweepPage(Page):
         """Points, fits or regions are others."""
         points = self.seen.points.up_to(state.contents.points, state.limits)
         fit, sweep = state.contents.fit, state.plan.sweep
-        rows = fit.result.points if fit is not None and fit.result is not None else ()
-        predicted = Predicted(*predictions(points, rows, fit.last_step)) if fit is not None else Predicted()
+        result = fit.result if fit is not None else None
+        by_fit = why_aside([t.point for t in points.timed], result.points_set_aside if result else ())
+        points = points.setting_aside(self._why_aside(state, points, by_fit))
+        predicted = Predicted()
+        if fit is not None and result is not None:
+            predicted = Predicted(*predictions(points, result.points, fit.last_step, by_fit != ""))
         self.seen = self.seen.but(
             points=points,
             regions=regions,
@@ -169,6 +176,13 @@ class SweepPage(Page):
             planned_m_s2=sweep.level_g * PUBLISHED_G_M_S2 if sweep is not None else PUBLISHED_G_M_S2,
         )
         self._mark_all()
+
+    def _why_aside(self, state: SessionState, points: PointsMeasured, by_fit: Reasons) -> Reasons:
+        """By the fit, and by the diagnosis shown, which looks for more. Shape (points,)."""
+        shown = self.controller.rediagnosis.shown(state)
+        by_diagnosis = shown.found.points_set_aside if shown is not None else ()
+        found = why_aside([t.point for t in points.timed], by_diagnosis)
+        return np.where(by_fit == "", found, by_fit)
 
     def _follow(self, state: SessionState) -> None:
         began = state.run.segment
@@ -244,9 +258,12 @@ class SweepPage(Page):
             return f"fit {fit.number}: {fit.message}"
         count, rms = len(fit.result.points), two_digits(fit.result.rms_percent)
         said = f"fit of {count} points, rms {rms} %"
+        aside = int(self.seen.points.aside.sum())
         diagnosed = state.contents.diagnosis
         if diagnosed is not None and diagnosed.result is not None and stage_before(diagnosed.result):
             said = f"rms {rms} % {BEFORE_DIAGNOSIS}"
+        if aside:
+            said += f", {aside} set aside"
         if self._doubt(state):
             said += f", {UNKNOWN}"
         if self.model.failure:

@@ -50,7 +50,7 @@ class Pointed(Plot):
     def show_points(self, group: Group, x: Array, y: Array) -> None:
         """A group under its name. Shape (points,), as of its index."""
         self._index[group.name] = group.index
-        self.points(group.name, x, y, group.role, symbol=group.symbol)
+        self.points(group.name, x, y, group.role, symbol=group.symbol, hollow=group.hollow)
 
     def frame(self, band_hz: tuple[float, float] | None) -> None:
         """Bring a whole band into view, points there or not; None: all there is. Once for each."""
@@ -82,6 +82,7 @@ SIGNS = {
     "d": "\u25c6",
     "star": "\u2605",
     "t1": "\u25b2",
+    "t": "\u25bd",
     "x": "\u2716",
     "+": "\u271a",
 }

@@ -1,7 +1,7 @@
 """The sweep's points as arrays to draw, and in which groups. No Qt."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, Self
 
@@ -9,9 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, Mask
+from fitting.aside import Reasons
 from instrument.files.acceleration import acceleration_unit
 from instrument.files.point_columns import stored
 from instrument.results.quality import QUALITIES, quality_of
+from instrument.results.set_aside import NAME
 from instrument.session.contents import TimedPoint
 from instrument.session.points import place_of
 from instrument.stepped_sine.settings import SweepSettings
@@ -46,6 +48,7 @@ class Group:
     symbol: "Symbol"
     index: Index
     """Which points."""
+    hollow: bool = False
 
 
 _COLUMNS = tuple(column.field for column in stored())
@@ -58,11 +61,17 @@ class PointsMeasured:
     timed: tuple[TimedPoint, ...]
     table: Array
     """A row a point: `_COLUMNS`, then its time in s, whether it is a sentinel, its number in `QUALITIES`."""
+    why_aside: Reasons = field(default_factory=lambda: np.zeros(0, dtype=object))
+    """Why a fit leaves it out; empty where it does not."""
 
     @classmethod
     def of(cls, timed: Sequence[TimedPoint], settings: SweepSettings) -> Self:
         """Of a session so far."""
         return cls((), np.zeros((0, len(_COLUMNS) + 3))).up_to(timed, settings)
+
+    def setting_aside(self, why: Reasons) -> Self:
+        """The same points, some of them left out by a fit."""
+        return self if np.array_equal(why, self.why_aside) else replace(self, why_aside=why)
 
     def up_to(self, timed: Sequence[TimedPoint], settings: SweepSettings) -> Self:
         """With what was measured since; all of them again where these are no beginning of it."""
@@ -72,7 +81,12 @@ class PointsMeasured:
         if known == len(timed):
             return self
         rows = [_row(t, settings) for t in timed[known:]]
-        return type(self)(tuple(timed), np.concatenate([self.table, np.array(rows, dtype=float)]))
+        none = np.full(len(rows), "", dtype=object)
+        return type(self)(
+            tuple(timed),
+            np.concatenate([self.table, np.array(rows, dtype=float)]),
+            np.concatenate([self.why_aside, none]),
+        )
 
     def __len__(self) -> int:
         return len(self.timed)
@@ -112,6 +126,11 @@ class PointsMeasured:
         return np.asarray(self.table[:, -2] > 0)
 
     @cached_property
+    def aside(self) -> Mask:
+        """Whether a fit leaves it out."""
+        return np.asarray(self.why_aside != "", dtype=bool)
+
+    @cached_property
     def quality(self) -> Index:
         """Number in `QUALITIES`."""
         return self.table[:, -1].astype(np.intp)
@@ -141,10 +160,12 @@ class PointsMeasured:
         phase, f = np.degrees(np.angle(self.over_base_s)), self.frequency_hz
         for place in self.places:
             here = self.read_at(place)
-            for number in np.unique(self.segment[here & ~self.sentinel]):
-                mine = self.in_order(here & (self.segment == number) & ~self.sentinel)
+            # A signal that was lost has any phase.
+            followed = here & ~self.sentinel & ~self.aside
+            for number in np.unique(self.segment[followed]):
+                mine = self.in_order(followed & (self.segment == number))
                 phase[mine] = np.unwrap(phase[mine], period=360.0)
-                beside = here & (self.segment == number) & self.sentinel
+                beside = here & (self.segment == number) & (self.sentinel | self.aside)
                 off = np.interp(f[beside], f[mine], phase[mine]) - phase[beside]
                 phase[beside] += 360.0 * np.round(off / 360.0)
         return phase
@@ -174,8 +195,8 @@ class PointsMeasured:
         return ", ".join(said)
 
     def groups(self, wanted: Mask) -> list[Group]:
-        """The wanted points: good ones by pass, then those with remarks, out of limits, and sentinels."""
-        step = wanted & ~self.sentinel
+        """The wanted points: good ones by pass, those with remarks, out of limits, sentinels, set aside."""
+        step = wanted & ~self.sentinel & ~self.aside
         good = step & (self.quality == _GOOD)
         found = [
             Group(
@@ -188,7 +209,8 @@ class PointsMeasured:
         found += [
             Group("with remarks", "fair", "t1", np.flatnonzero(step & (self.quality == _REMARKS))),
             Group("out of limits", "bad", "x", np.flatnonzero(step & (self.quality == _OUT))),
-            Group("sentinel", "faint", "+", np.flatnonzero(wanted & self.sentinel)),
+            Group("sentinel", "faint", "+", np.flatnonzero(wanted & self.sentinel & ~self.aside)),
+            Group(NAME, "bad", "t", np.flatnonzero(wanted & self.aside), hollow=True),
         ]
         return [group for group in found if group.index.size]
 

@@ -8,6 +8,7 @@ from gui.pages.sweep.seen import PaneContents, Way
 from instrument.files.column import ColumnPoint
 from instrument.files.point_columns import in_record
 from instrument.results.quality import QUALITIES
+from instrument.results.set_aside import words_of
 from instrument.stepped_sine.settings import SweepSettings
 
 
@@ -25,11 +26,13 @@ def record_lines(seen: PaneContents, number: int, settings: SweepSettings) -> li
     """All of a point's record, what matters most first."""
     timed = seen.points.timed[number]
     row = ColumnPoint(timed.point, timed.time_s, tolerance_percent=100 * settings.control.tolerance)
+    why = seen.points.why_aside[number]
     first, *others = [RecordLine(shown.label, shown.text(row), shown.tip) for _, shown in in_record()]
     return [
         first,
         RecordLine("Quality", QUALITIES[seen.points.quality[number]], "Against the tolerances of the sweep"),
         *(RecordLine("Remark", remark) for remark in timed.point.remarks),
+        *([RecordLine("Set aside, not fitted", words_of(why))] if why else []),
         *_response(seen, number),
         *_prediction(seen, number),
         *others,

@@ -11,6 +11,7 @@ from gui.plots import Axis, Plot
 from gui.plots.curve import Symbol
 from gui.theme import Role
 from gui.widgets import hint
+from instrument.results.set_aside import NAME
 
 _ROLES: tuple[Role, ...] = ("data", "model", "second", "third", "fourth")
 _SYMBOLS: tuple[Symbol, ...] = ("o", "s", "t", "d", "t1", "star")
@@ -108,4 +109,8 @@ class FitPlot(QWidget):
             far = f"{one.title}, {_FAR}"
             self.plot.points(far, f[one.far], y[one.far], "bad", symbol="x", size=_FAR_SIZE, listed=False)
             names.append(far)
+        if whole and one.aside.size:
+            aside = f"{one.title}, {NAME}"
+            self.plot.points(aside, one.aside_hz, one.aside, "bad", symbol="t", hollow=True)
+            names.append(aside)
         return names

@@ -2,7 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from gui.together import Fitted
 from instrument.facts.diagnosis import DiagnosisResult, PointLeft, StageName
 from instrument.facts.identification import IdentificationResult, PointFitted
 from instrument.facts.modal import ModalResult
+from instrument.facts.rows import PointSetAside
 
 FAR_STD = 3.0
 """Standard deviations of noise and model error beyond which a point counts as not explained: of 1000 points
@@ -31,6 +32,9 @@ class FittedFile:
     predicted: Array
     far: Mask
     """Points further than `FAR_STD` off."""
+    aside_hz: Array = field(default_factory=lambda: np.zeros(0))
+    """Of readings that are not fitted. Shape (readings,)."""
+    aside: Array = field(default_factory=lambda: np.zeros(0))
 
     @property
     def title(self) -> str:
@@ -63,7 +67,7 @@ def has_stages(fit: Fitted) -> bool:
 _Place = tuple[int, int | None, int, float]
 
 
-def _number(point: PointFitted | PointLeft) -> int:
+def _number(point: PointFitted | PointLeft | PointSetAside) -> int:
     return point.file or 1
 
 
@@ -106,7 +110,9 @@ def _of_points(
                     far = bool(max(map(abs, residual.whitened), default=0.0) > FAR_STD)
             rows.append((p.frequency_hz, p.measured_m_s, predicted, far))
     f, measured, fitted, far_off = (np.array(column) for column in zip(*rows, strict=True))
-    return FittedFile(number, name, f, measured, f, fitted, far_off.astype(bool))
+    out = [p for p in fit.points_set_aside if _number(p) == number]
+    aside_hz, aside = (np.array([getattr(p, key) for p in out]) for key in ("frequency_hz", "measured_m_s"))
+    return FittedFile(number, name, f, measured, f, fitted, far_off.astype(bool), aside_hz, aside)
 
 
 def _of_modes(fit: ModalResult) -> list[FittedFile]:

@@ -4,14 +4,16 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from fitting.aside import DISTURBED
 from fitting.diagnosis.of_files import ALIKE, EACH, FILE
 from gui.pages.together.fits import FAR_STD, FittedFile
 from gui.together import Fitted
 from instrument.facts.diagnosis import CandidateFitted, DiagnosisResult
 from instrument.facts.modal import ModalResult
-from instrument.facts.rows import AdjustedNumber, StretchSetAside
+from instrument.facts.rows import AdjustedNumber, PointSetAside, StretchSetAside
 from instrument.results.diagnosis_words import probability_words
 from instrument.results.numbers import format_number, with_error
+from instrument.results.set_aside import NAME, words_of
 from instrument.results.standing import Standing, standing
 from instrument.results.typeset import typeset
 
@@ -67,9 +69,13 @@ def number_rows(adjusted: Sequence[AdjustedNumber], files: Sequence[str]) -> lis
 
 
 def left_rows(
-    fitted: Sequence[FittedFile], aside: Sequence[StretchSetAside], *, judged: bool
+    fitted: Sequence[FittedFile],
+    aside: Sequence[StretchSetAside],
+    points: Sequence[PointSetAside] = (),
+    *,
+    judged: bool,
 ) -> list[LeftRow]:
-    """Stretches set aside, then points further off than noise and model error explain, where `judged`."""
+    """Stretches and points set aside, then points further off than noise and model error, where `judged`."""
     rows = [
         LeftRow(
             f"{s.file} {s.name}",
@@ -79,6 +85,13 @@ def left_rows(
         )
         for s in aside
     ]
+    for one in fitted:
+        for why in dict.fromkeys(p.why for p in points if p.why != DISTURBED):
+            its = [p for p in points if (p.why, p.file or 1) == (why, one.number)]
+            if its:
+                f = sorted(p.frequency_hz for p in its)
+                where = f"{f[0]:.4g}" + (f" to {f[-1]:.4g}" if len(f) > 1 else "")
+                rows.append(LeftRow(one.title, where, f"{len(f)} {NAME}: {words_of(why)}", ""))
     for one in fitted if judged else ():
         off = one.difference_percent
         for k in one.far.nonzero()[0]:

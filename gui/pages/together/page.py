@@ -146,7 +146,8 @@ class TogetherPage(Page):
         self.numbers.show_numbers(number_rows(adjusted, found.files or ()))
         source = diagnosed if diagnosed is not None else found
         aside = () if isinstance(source, ModalResult) else source.set_aside or ()
-        rows = left_rows(fitted, aside, judged=judged)
+        points = () if isinstance(source, ModalResult) else source.points_set_aside
+        rows = left_rows(fitted, aside, points, judged=judged)
         self.left.show_left(rows)
         self.left_said.setText(_NOTHING_LEFT if judged else _NOT_JUDGED)
         self.left_said.setVisible(not judged or not rows)

@@ -230,15 +230,15 @@ def test_what_a_channel_shows_by_itself_is_said_and_its_points_set_aside(clean):
         def seen(self, sweep, noise):
             return ChannelFinding({"amplitude": (2.0, 0.1, "m/s")}, aside)
 
-    used, (one,), noise = seen_in_channels(clean.sweep, [GAIN, Shown()])
-    np.testing.assert_array_equal(used, ~aside)
+    why, (one,), noise = seen_in_channels(clean.sweep, [GAIN, Shown()])
+    np.testing.assert_array_equal(why, np.where(aside, "shown", ""))
     assert (one.name, one.parameters["amplitude"].value, one.parameters["amplitude"].unit) == (
         "shown",
         2.0,
         "m/s",
     )
-    assert len(noise.std_m_s) == used.sum()
-    used, found, noise = seen_in_channels(clean.sweep, [GAIN])
-    assert used.all()
+    assert len(noise.std_m_s) == np.sum(why == "")
+    why, found, noise = seen_in_channels(clean.sweep, [GAIN])
+    assert np.all(why == "")
     assert found == ()
     assert len(noise.std_m_s) == len(clean.sweep)

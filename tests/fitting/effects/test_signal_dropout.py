@@ -20,18 +20,18 @@ def spoilt(at, factor):
 
 def test_lost_readings_are_counted_and_set_aside():
     at = np.array([40, 41, 42, 200])
-    used, (found,), noise = seen_in_channels(spoilt(at, 0.02), [SignalDropoutEffect()])
-    assert (np.flatnonzero(~used) == at).all()
+    why, (found,), noise = seen_in_channels(spoilt(at, 0.02), [SignalDropoutEffect()])
+    assert (np.flatnonzero(why == "signal_dropout") == at).all()
     assert found.parameters["readings"].value == 4
-    assert len(noise.std_m_s) == used.sum()
+    assert len(noise.std_m_s) == np.sum(why == "")
     said = SignalDropoutEffect().story({"readings": 4.0, "size": 0.02})
     assert said.startswith("4 readings leave the curve")
 
 
 def test_a_clean_sweep_has_none():
     sweep = spoilt(np.array([], dtype=int), 1.0)
-    used, found, _ = seen_in_channels(sweep, [SignalDropoutEffect()])
-    assert used.all()
+    why, found, _ = seen_in_channels(sweep, [SignalDropoutEffect()])
+    assert np.all(why == "")
     assert not found
 
 
@@ -40,9 +40,9 @@ def test_one_of_several_lost_readings_near_a_multiple_is_no_hum():
     near = int(np.argmin(np.abs(sweep.frequency_hz - 100)))
     at = np.array([20, near, 300])
     both = [CATALOGUE["mains_hum"], CATALOGUE["signal_dropout"]]
-    used, found, _ = seen_in_channels(spoilt(at, 0.02), both)
+    why, found, _ = seen_in_channels(spoilt(at, 0.02), both)
     assert [one.name for one in found] == ["signal_dropout"]
-    assert (np.flatnonzero(~used) == at).all()
+    assert (np.flatnonzero(why == "signal_dropout") == at).all()
 
 
 def test_what_hums_is_not_said_twice():
@@ -51,6 +51,6 @@ def test_what_hums_is_not_said_twice():
     near = np.argmin(np.abs(sweep.frequency_hz - 100))
     v[near] *= 1.5
     both = [CATALOGUE["mains_hum"], CATALOGUE["signal_dropout"]]
-    used, found, _ = seen_in_channels(replace(sweep, velocity_m_s=v), both)
+    why, found, _ = seen_in_channels(replace(sweep, velocity_m_s=v), both)
     assert [one.name for one in found] == ["mains_hum"]
-    assert not used[near]
+    assert why[near] == "mains_hum"

@@ -65,6 +65,13 @@ def test_residuals_are_those_of_the_result():
     assert panel(found, 1, "before", "both").noise[0].height == pytest.approx(np.full(10, 0.2))
 
 
+def test_a_panel_knows_where_readings_have_no_residual():
+    found = diagnosis()
+    out = found.set_aside_hz
+    assert [panel(found, k, "before", "both").aside_hz for k in (1, 2, 3)] == [(), (out[0],), (out[1],)]
+    assert panel(found, 2, "after", "whitened").aside_hz == (out[0],)
+
+
 def test_before_and_after_have_scales_of_their_own():
     found = diagnosis()
     assert limit(found, 1, "before", "both") == pytest.approx(100 * BEFORE.real)

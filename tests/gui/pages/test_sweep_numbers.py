@@ -8,6 +8,7 @@ import pytest
 from session_cases import SyntheticSession, configuration
 from sessions import point
 
+from fitting.aside import LOST, reasons
 from gui.pages.sweep.curve import CurveStretch, grid, joined, predictions, regions_of
 from gui.pages.sweep.drifted import drifted
 from gui.pages.sweep.following import Following, latest_cycles, words
@@ -19,6 +20,7 @@ from gui.pages.sweep.segments import standings
 from gui.state import SessionState
 from instrument.facts.identification import PointFitted
 from instrument.interchange.found import Found
+from instrument.results.set_aside import NAME
 from instrument.session.contents import SegmentRun, TimedPoint
 from instrument.stepped_sine.settings import SweepSettings
 from instrument.stream.derived import SentinelCompared, StepSettled
@@ -165,6 +167,32 @@ def test_a_fits_predictions_are_taken_only_where_they_belong_to_the_points():
     assert (index.tolist(), predicted.tolist()) == ([0, 1], [0.1, 0.2])
     assert not predictions(points, rows, 3)[0].size
     assert not predictions(of(point(1, 20.5), point(2, 21.0)), rows, 2)[0].size
+
+
+def test_what_a_fit_set_aside_has_no_prediction_and_the_others_keep_theirs():
+    points = of(point(1, 20.0), point(2, 21.0), point(3, 22.0))
+    rest = {"segment": 1, "measured_m_s": 0.1, "difference_percent": 0.0}
+    rows = [PointFitted(frequency_hz=f, predicted_m_s=v, **rest) for f, v in ((20.0, 0.1), (22.0, 0.2))]
+    index, predicted = predictions(points, rows, 3, np.array([False, True, False]))
+    assert (index.tolist(), predicted.tolist()) == ([0, 2], [0.1, 0.2])
+
+
+def test_what_is_set_aside_is_a_group_of_its_own_turns_no_phase_and_says_why():
+    turned = [np.exp(1j * np.radians(p)) for p in (170, -170, 0, -150, -130)]
+    each = [
+        point(k, 20.0 + k, velocity_re_m_s=v.real, velocity_im_m_s=v.imag, base_accel_im_m_s2=0.0)
+        for k, v in enumerate(turned)
+    ]
+    points = of(*each).setting_aside(reasons(np.arange(5) == 2, LOST))
+    assert groups(points) == {"good": [0, 1, 3, 4], NAME: [2]}
+    assert points.phase_deg[[0, 1, 3, 4]] == pytest.approx([170, 190, 210, 230])
+    assert points.phase_deg[2] % 360 == pytest.approx(0, abs=1e-9)
+    assert points.setting_aside(points.why_aside) is points
+    more = points.up_to([*points.timed, *timed(point(9, 30.0))], SETTINGS)
+    assert np.flatnonzero(more.aside).tolist() == [2]
+    said = {line.name: line.value for line in record_lines(PaneContents(points), 2, SETTINGS)}
+    assert "signal lost" in said["Set aside, not fitted"]
+    assert "Set aside, not fitted" not in {x.name for x in record_lines(PaneContents(points), 1, SETTINGS)}
 
 
 def test_a_fits_rows_are_its_files_and_theirs_are_its_points_by_spot():

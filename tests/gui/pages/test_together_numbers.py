@@ -6,6 +6,7 @@ from diagnosis_cases import diagnosis
 from pair_files import write_pair
 from result_cases import identification
 
+from fitting.aside import DISTURBED, LOST
 from gui.pages.together.fits import FAR_STD, fitted_files, has_stages
 from gui.pages.together.looked import look
 from gui.pages.together.numbers import (
@@ -21,7 +22,7 @@ from gui.pairing import PairedFile
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import CandidateFitted, EffectFound, ParameterFound, PointLeft, Residual
 from instrument.facts.modal import ModalResult
-from instrument.facts.rows import AdjustedNumber, StretchSetAside
+from instrument.facts.rows import AdjustedNumber, PointSetAside, StretchSetAside
 
 FILES = ("light.csv", "heavy.csv")
 
@@ -202,3 +203,15 @@ def test_a_look_at_a_damaged_file_is_refused_in_a_line(tmp_path):
     with pytest.raises(BadInput) as refused:
         look(PairedFile(data, data.with_suffix(".toml")))
     assert "\n" not in str(refused.value)
+
+
+def test_readings_set_aside_are_drawn_by_themselves_and_listed_by_file():
+    rest = {"segment": 1, "sweep": 1, "level_m_s2": 9.81, "measured_m_s": 0.001, "file": 1}
+    aside = [PointSetAside(frequency_hz=f, why=LOST, **rest) for f in (22.0, 21.0)]
+    aside.append(PointSetAside(frequency_hz=250.0, why=DISTURBED, **rest))
+    one, other = fitted_files(FIT.but(points_set_aside=tuple(aside)))
+    assert one.aside_hz.tolist() == [22.0, 21.0, 250.0]
+    assert not other.aside_hz.size
+    (row,) = left_rows([one, other], [], aside, judged=False)
+    assert (row.file, row.where) == ("1 light.csv", "21 to 22")
+    assert row.what.startswith("2 set aside, not fitted: far off")

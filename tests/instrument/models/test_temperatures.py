@@ -10,6 +10,7 @@ from temperature_cases import LAW, NOISE, REFERENCE, OneProcess, T, TwoProcesses
 
 from fitting.bare_modes import bare_modes
 from fitting.plate import Plate
+from fitting.strays import strays
 from fitting.temperature.shifts import Shift
 from instrument.cli.main import run
 from instrument.errors import BadInput
@@ -49,6 +50,25 @@ def test_free_factors_are_those_of_the_form_that_made_them(plate):
     truth = wlf()
     found = identify_shifted(sweeps(plate, [OneProcess(a) for a in truth]), plate, "free", REFERENCE)
     assert np.all(np.abs(found.fit.log_shift - truth) < 3.5 * found.fit.log_shift_errors + 1e-9)
+
+
+def test_readings_lost_at_one_temperature_are_left_out_and_said(plate):
+    truth = wlf()
+    every = sweeps(plate, [OneProcess(a) for a in truth])
+    spoilt = every[2].data.velocity_m_s.copy()
+    spoilt[[20, 40]] *= 0.03
+    every[2] = replace(every[2], data=replace(every[2].data, velocity_m_s=spoilt))
+    found = identify_shifted(every, plate, "wlf", REFERENCE)
+    assert np.all(np.abs(found.fit.log_shift - truth) < 3.5 * found.fit.log_shift_errors + 1e-9)
+    (said,) = (text for text in found.warnings if "set aside" in text)
+    assert said.startswith(f"{every[2].name}: 2 readings leave the curve")
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_last_resonance_of_sixty_readings_over_the_band_is_not_lost(plate, seed):
+    """An antiresonance at 200 Hz, two readings at the top at 280 Hz, one after them."""
+    every = sweeps(plate, [OneProcess(a) for a in wlf()], seed)
+    assert not any(strays(one.data).any() for one in every)
 
 
 def test_a_vertical_shift_is_found_beside_the_horizontal_one(coarse):

@@ -9,6 +9,7 @@ from diagnosis_cases import diagnosis as diagnosed
 from diagnosis_cases import sweep
 from result_cases import identification
 
+from fitting.aside import LOST, reasons
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.fit import Fit
 from fitting.identification.result import Identification, law_band
@@ -26,6 +27,7 @@ from instrument.report.identification import (
 )
 from instrument.report.law_figures import law_figure, residual_figures
 from instrument.report.measured import Measured
+from instrument.results.set_aside import NAME
 
 SWEEP = sweep()
 PLATE = SimpleNamespace(kind="plate")
@@ -62,8 +64,10 @@ def found(std=0.01, *, noise="stated", adjusted=(), warnings=(), bound=None, **v
     )
 
 
-def reported(result, bare=None, specimen=PLATE):
-    return ReportedFit(SessionFit(SimpleNamespace(result=result), SWEEP, specimen, bare))
+def reported(result, bare=None, specimen=PLATE, aside=0):
+    why = reasons(np.arange(len(SWEEP)) < aside, LOST)
+    identified = SimpleNamespace(result=result, sweep=SWEEP.take(why == ""), given=SWEEP, why_aside=why)
+    return ReportedFit(SessionFit(identified, SWEEP, specimen, bare))
 
 
 def contents(*, live=None, diagnosis=None, points=()):
@@ -87,7 +91,7 @@ def section(result, **what):
 @pytest.fixture(autouse=True)
 def _no_points(monkeypatch):
     """Residuals have a figure of their own test."""
-    monkeypatch.setattr("instrument.report.identification.segments_of", lambda contents: [])
+    monkeypatch.setattr("instrument.report.identification.segments_of", lambda contents, aside: [])
 
 
 def test_a_page_without_a_law_says_why():
@@ -105,6 +109,11 @@ def test_a_law_has_its_parameters_with_errors_and_says_which_sits_at_a_bound():
     assert (alpha[1], alpha[2]) == ("-", "at its upper bound")
     assert sorted(row[1] for row in rows.values()) == ["-", "1", "1", "1"]
     assert [row[1 + k] for k, row in enumerate(correlations.rows)] == 4 * ["+1.000"]
+
+
+def test_a_page_counts_what_was_set_aside_apart():
+    made = identification_section(contents(), reported(found(), aside=2))
+    assert made.blocks[0].text.startswith("fractional-zener law from 28 points (2 set aside) by direct")
 
 
 def test_the_law_in_the_band_is_a_few_rows_with_both_ends():
@@ -224,7 +233,7 @@ def test_the_law_is_drawn_with_its_band_and_ticks_where_it_was_measured():
 
 def test_a_residual_is_the_model_less_what_was_measured_beside_the_noise():
     f = np.array([20.0, 30.0])
-    measured = Measured(1, f, np.array([1.0, 1.0j]), np.array([0.01, 0.02]), ())
+    measured = Measured(1, f, np.array([1.0, 1.0j]), np.array([0.01, 0.02]), (), np.ones(2, bool))
     model = SimpleNamespace(over_base=lambda at: np.array([1.1, 1.0j * np.exp(0.1j)]))
     (figure,) = residual_figures([measured], model)
     above, below = figure.axes
@@ -234,6 +243,18 @@ def test_a_residual_is_the_model_less_what_was_measured_beside_the_noise():
     assert (noise.min(), noise.max()) == pytest.approx((-4.0, 4.0))
     assert len(residual_figures(5 * [measured], model)) == 2
     assert residual_figures([], model) == []
+
+
+def test_what_is_set_aside_has_no_residual_and_is_marked_at_the_foot():
+    f, kept = np.array([20.0, 25.0, 30.0]), np.array([True, False, True])
+    measured = Measured(1, f, np.array([1.0, 1e-3, 1.0j]), np.full(3, 0.01), (), kept)
+    model = SimpleNamespace(over_base=lambda at: np.full(len(at), 1.1 + 0j))
+    (figure,) = residual_figures([measured], model)
+    for ax in figure.axes:
+        by_name = {line.get_label(): line for line in ax.lines}
+        assert list(by_name["model less measured"].get_xdata()) == [20.0, 30.0]
+        assert list(by_name[NAME].get_xdata()) == [25.0]
+    assert NAME in [text.get_text() for text in figure.legends[0].get_texts()]
 
 
 def test_a_section_has_the_law_s_picture_with_what_its_bands_are():

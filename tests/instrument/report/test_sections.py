@@ -9,6 +9,7 @@ import pytest
 from matplotlib.figure import Figure
 from session_cases import GAIN
 
+from fitting.aside import LOST, reasons
 from instrument.interchange.point_table import columns
 from instrument.interchange.read_session import read_session
 from instrument.report.blocks import FigureBlock, Sentence, TableBlock
@@ -19,7 +20,9 @@ from instrument.report.hammer import hammer_section
 from instrument.report.picture import as_svg
 from instrument.report.sweep import sweep_section
 from instrument.report.sweep_figures import quality_figure
+from instrument.results.set_aside import NAME
 from instrument.session.contents import contents_of
+from instrument.session.points import sweep_of
 from instrument.session.storage import SessionFile
 from instrument.stream.raw import SessionEnded
 
@@ -107,6 +110,23 @@ def test_a_page_without_a_fit_says_so_and_draws_what_was_measured(contents):
     assert len(blocks(section, TableBlock)[-1].rows) == len(contents.measured)
     empty = sweep_section(replace(contents, points=[]), ReportedFit(None))
     assert empty.blocks[0].text == "There is no point of a sweep in this session."
+
+
+def test_what_a_fit_set_aside_is_drawn_and_listed_apart(contents):
+    n = len(contents.measured)
+    lost = reasons(np.arange(n) == 4, LOST)
+    sweep = sweep_of(contents.measured)
+    fit = SimpleNamespace(identified=SimpleNamespace(given=sweep, why_aside=lost))
+    without_model = SimpleNamespace(
+        fit=None, points_set_aside=ReportedFit(fit).points_set_aside, over_base=lambda f: None
+    )
+    section = sweep_section(contents, without_model)
+    (table,) = (b for b in blocks(section, TableBlock) if "set aside" in b.title)
+    assert table.title == "1 reading set aside, not fitted"
+    assert [row[0] for row in table.rows] == [str(contents.measured[4].step)]
+    figure = blocks(section, FigureBlock)[0].figure
+    drawn = [line for ax in figure.axes for line in ax.lines if line.get_label() == NAME]
+    assert [line.get_xdata().tolist() for line in drawn] == 2 * [[contents.measured[4].frequency_hz]]
 
 
 def test_quality_is_drawn_point_after_point(contents):

@@ -16,6 +16,7 @@ from instrument.results.diagnosis_figures import (
     save_diagnosis_figures,
 )
 from instrument.results.diagnosis_words import verdict_line
+from instrument.results.set_aside import NAME
 
 
 @pytest.fixture(scope="module")
@@ -88,6 +89,8 @@ def test_points_carry_what_either_fit_leaves(found):
 
 def test_points_with_hum_are_named_and_not_among_the_others(found):
     assert len(found["set_aside_hz"]) == 2
+    assert [p["frequency_hz"] for p in found["points_set_aside"]] == found["set_aside_hz"]
+    assert {p["why"] for p in found["points_set_aside"]} == {"mains_hum"}
     assert not set(found["set_aside_hz"]) & {p["frequency_hz"] for p in found["points"]}
 
 
@@ -203,3 +206,12 @@ def test_of_two_effects_together_one_alone_is_neither_accepted_nor_its_equal(res
     first, second, third, fourth, _ = (bar.get_facecolor() for bar in ax.patches)
     assert len({first, second, third}) == 3
     assert third == fourth
+
+
+def test_where_a_reading_was_set_aside_is_marked_in_its_segment_and_named(result):
+    figure = residual_figure(result)
+    marked = [[line for line in ax.lines if line.get_label() == NAME] for ax in figure.axes]
+    at = [[x for line in lines for x in line.get_xdata()] for lines in marked]
+    one, other = result.set_aside_hz
+    assert at == [[], [], [one], [one], [other], [other]]
+    assert NAME in [text.get_text() for text in figure.legends[0].get_texts()]
