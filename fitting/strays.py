@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, Mask
-from fitting.noise import FEWEST, WINDOW, groups_of, local_model, local_residuals
+from fitting.noise import FEWEST, WINDOW, around, groups_of, local_model, local_residuals
 from fitting.sweep import Sweep
 
 Places = NDArray[np.intp]
@@ -202,14 +202,16 @@ def _leaves(f: Array, v: Complex) -> Array:
 def _scatter(left: Array, size: Array, finest: float) -> Array:
     """By medians, that strays hardly move: a floor by the smaller half, a share by the larger one.
 
-    None is below the `finest`, which is what steps of the reading itself leave.
+    More where readings around scatter by more, as those of a blow do where its force has little. None is
+    below the `finest`, which is what steps of the reading itself leave.
     """
     inner = slice(WINDOW // 2, -(WINDOW // 2))
     small = size[inner] <= np.median(size[inner])
     floor = np.median(left[inner][small])
     share = np.median(left[inner][~small] / size[inner][~small]) if not small.all() else 0.0
     least = max(finest, 1e-9 * size.max() + 1e-300)
-    return np.asarray(np.maximum(np.hypot(floor, share * size) / _MEDIAN, least))
+    scatter = np.maximum(np.hypot(floor, share * size) / _MEDIAN, least)
+    return np.asarray(scatter * np.maximum(around(left[inner] / scatter[inner], len(left)) / _MEDIAN, 1.0))
 
 
 def _steps(x: Array) -> float:
