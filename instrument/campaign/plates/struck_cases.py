@@ -17,7 +17,9 @@ from instrument.campaign.plates.hidden.struck import (
     NONE,
     OF_CLAMPED,
     OF_FREE,
+    PLACES,
     STRUCK_KINDS,
+    Place,
     draw_hidden_in_struck,
 )
 from instrument.campaign.plates.materials import PlateMaterialLaw, draw_law, fits
@@ -32,8 +34,6 @@ from instrument.campaign.plates.stated import (
 )
 from instrument.campaign.plates.struck import resonance
 from instrument.campaign.plates.struck_readings import (
-    PLACES,
-    Place,
     aimed,
     mobilities,
     on_plate,

@@ -12,25 +12,11 @@ from instrument.campaign.plates import kept
 from instrument.campaign.plates.blows import Blows
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden.base import Hidden
-from instrument.campaign.plates.hidden.struck import HiddenOfBlows
+from instrument.campaign.plates.hidden.struck import PLACES, HiddenOfBlows, Place
 from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.reduced import MODULI_PA, ReducedSolid, reduced
 from instrument.campaign.plates.response import BaseMotion, remaining_damping
 from instrument.campaign.plates.solid import Build, Solid
-
-Place = tuple[float, float]
-
-PLACES: tuple[Place, ...] = (
-    (0.03, 0.05),
-    (0.95, 0.08),
-    (0.97, 0.93),
-    (0.31, 0.96),
-    (0.62, 0.03),
-    (0.46, 0.36),
-    (0.22, 0.58),
-    (0.76, 0.71),
-)
-"""Of length and width: where a plate may be struck or read."""
 
 
 def places_on(true: TruePlate) -> tuple[Place, ...]:

@@ -11,6 +11,7 @@ from instrument.campaign.plates.hidden import HIDDEN
 from instrument.campaign.plates.hidden.attached import plate_mass_kg
 from instrument.campaign.plates.hidden.struck import (
     NONE,
+    PLACES,
     STRUCK_KINDS,
     HiddenCable,
     HiddenDoubleHit,
@@ -24,7 +25,6 @@ from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.reduced import reduced
 from instrument.campaign.plates.solid import Build, Solid
 from instrument.campaign.plates.struck_readings import (
-    PLACES,
     aimed,
     mobilities,
     on_plate,

@@ -17,6 +17,18 @@ from instrument.campaign.plates.response import BaseMotion
 
 Place = tuple[float, float]
 
+PLACES: tuple[Place, ...] = (
+    (0.03, 0.05),
+    (0.95, 0.08),
+    (0.97, 0.93),
+    (0.31, 0.96),
+    (0.62, 0.03),
+    (0.46, 0.36),
+    (0.22, 0.58),
+    (0.76, 0.71),
+)
+"""Of length and width: where a plate may be struck, read or held."""
+
 _CABLE_N_M = (150.0, 1500.0)
 """Thin coaxial cables to thick ones, taped down a hand's width away."""
 _ON_PADS = (0.12, 0.3)
@@ -128,24 +140,24 @@ class HiddenDoubleHit(HiddenOfBlows):
 
 @dataclass(frozen=True)
 class HiddenCable(HiddenTether):
-    """A cable from the plate to a table."""
+    """A cable from one of the points, but the one by the root, to a table."""
+
+    changes_solid: ClassVar[bool] = False
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenCable":
-        k, length, width = log_uniform(rng, *_CABLE_N_M), at.plate.length_m, at.plate.width_m
+        k, (x, y) = log_uniform(rng, *_CABLE_N_M), PLACES[int(rng.integers(1, len(PLACES)))]
         damping = k * log_uniform(rng, 0.05, 0.4) / (2 * np.pi * at.resonances_hz[0])
-        x, y = length * float(rng.uniform(0.5, 0.98)), width * float(rng.uniform(0.05, 0.95))
-        return cls(k, damping, x, y, to_floor=True)
+        return cls(k, damping, x * at.plate.length_m, y * at.plate.width_m, to_floor=True)
 
 
 @dataclass(frozen=True)
 class HiddenPads(Hidden):
-    """Four pads of foam hold a plate that is meant to be free."""
+    """Four pads of foam, by three corners and an edge, hold a plate that is meant to be free."""
 
     name: ClassVar[str] = "pads"
     place: ClassVar[str] = "cable"
     in_catalogue: ClassVar[bool] = False
-    changes_solid: ClassVar[bool] = True
 
     stiffness_n_m: float
     """Of each."""
@@ -155,15 +167,9 @@ class HiddenPads(Hidden):
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenPads":
         bounces = 2 * np.pi * at.resonances_hz[0] * float(rng.uniform(*_ON_PADS))
-        places = [(x, y) for x in (0.15, 0.85) for y in (0.15, 0.85)]
-        off = rng.uniform(-0.08, 0.08, (4, 2))
-        length, width = at.plate.length_m, at.plate.width_m
-        corners = [
-            (length * (x + float(dx)), width * (y + float(dy)))
-            for (x, y), (dx, dy) in zip(places, off, strict=True)
-        ]
-        stiffness = plate_mass_kg(at.plate) * bounces**2 / 4
-        return cls(float(stiffness), float(rng.uniform(0.1, 0.4)), tuple(corners))
+        stiffness = float(plate_mass_kg(at.plate) * bounces**2 / 4)
+        corners = tuple((x * at.plate.length_m, y * at.plate.width_m) for x, y in PLACES[:4])
+        return cls(stiffness, float(rng.uniform(0.1, 0.4)), corners)
 
     def points(self) -> tuple[Place, ...]:
         return self.corners_m
