@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array
 from fitting.chances import chi2_density, chi2_median, f_above
-from fitting.noise import FEWEST, Noise, groups_of, local_model
+from fitting.noise import FEWEST, Noise, around, groups_of, local_model
 from fitting.sweep import Sweep
 
 Points = NDArray[np.bool_]
@@ -200,7 +200,10 @@ def _in_group(f: Array, v: NDArray[Any], std: Array, aside: Points) -> _Deviatio
     scale2 = np.median(z2[quiet]) / chi2_median(parts)
     if not scale2 > 0:
         return None
-    z2 = z2 / scale2
+    # Blows scatter by more where their force has little, and a curve is worst where a response turns.
+    order = np.argsort(f[quiet], kind="stable")
+    places = np.searchsorted(f[quiet][order], f).clip(max=len(order) - 1)
+    z2 = z2 / np.maximum(scale2, around(z2[quiet][order], len(order))[places] / chi2_median(parts))
     chance = f_above(z2 / parts, parts, _freedom(int(quiet.sum()), parts))
     between = (apart.min(axis=1) < 0) & (apart.max(axis=1) > 0)
     chance = np.where(between | _is_near(f, apart), chance, 1.0)

@@ -24,6 +24,9 @@ STRUCK_GAIN = 1e-2
 Shapes of neighbours mix by what the theory's error is of their distance, and at points near the nodes of one
 little is left of it. A judgement: of solids struck without bounces 0.2 % did as well.
 """
+AGAIN, AGAIN_WITHIN_S = 3e-3, 0.025
+"""Of a mean over a few blows: how large second blows are in it that nobody saw, in size and in phase, and how
+late they come. A judgement: a hammer touches again after some milliseconds, with a hundredth of its force."""
 DRIFT = 1e-3
 """Of an instrument's gain from one end of a segment to the other."""
 

@@ -24,6 +24,9 @@ _LEAST = 0.15
 """Of the points, that lie in no window of a resonance however sharp: a choice."""
 _SPLITS = 24
 """Of a floor's part in the variance at the peak, that are tried: a choice, fine beside what scatter tells."""
+_AROUND = 41
+"""Points whose median says how much is left around the middle one: eight that are off do not move it. A
+choice."""
 _WIDE = 1e-4
 """Of the peak's square: what is smaller is read in a sweep over many resonances, where a floor far below the
 first split is seen too."""
@@ -129,6 +132,18 @@ def local_model(t: Array, v: NDArray[Any]) -> NDArray[Any]:
     if np.iscomplexobj(v):
         return np.stack([np.ones_like(t), t, t**2, v * t], axis=-1)
     return np.stack([t**k for k in range(6)], axis=-1)
+
+
+def around(left: Array, count: int) -> Array:
+    """Median of what is left around each of `count` points, of those in their middle. Shape (count,).
+
+    Zero where there are too few to speak of places.
+    """
+    if len(left) < 2 * _AROUND:
+        return np.zeros(count)
+    medians = np.median(np.lib.stride_tricks.sliding_window_view(left, _AROUND), axis=1)
+    before = (count - len(medians)) // 2
+    return np.pad(medians, (before, count - len(medians) - before), mode="edge")
 
 
 def _variance_model(size_squared: Array, square: Array, parts: int) -> tuple[float, float]:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, Mask
-from fitting.noise import FEWEST, WINDOW, groups_of, local_model, local_residuals
+from fitting.noise import FEWEST, WINDOW, around, groups_of, local_model, local_residuals
 from fitting.sweep import Sweep
 
 Places = NDArray[np.intp]
@@ -138,8 +138,10 @@ def _missing(f: Array, v: Complex, scatter: Array, suspect: Mask) -> Mask:
         if not gaps:
             continue
         inner, outer = (np.concatenate(part) for part in zip(*gaps, strict=True))
-        off, beside = _over(f, v, scatter, inner, outer)
-        far = (off > BEYOND) & (beside < _BESIDE)
+        off, beside, scatters = _over(f, v, scatter, inner, outer)
+        # At an end there is little around: noise may grow within the few readings beside.
+        scatters[:between] = 1.0
+        far = (off > BEYOND * np.maximum(scatters, 1.0)) & (beside < _BESIDE)
         far[between:] = [
             is_far and _at_once(f, v, inner[k], outer[k]) for k, is_far in enumerate(far[between:], between)
         ]
@@ -171,11 +173,11 @@ def _parted(at: Places, first: int, count: int) -> tuple[Places, Places]:
     return at[:, first : first + count], np.delete(at, np.s_[first : first + count], axis=1)
 
 
-def _over(f: Array, v: Complex, scatter: Array, inner: Places, outer: Places) -> tuple[Array, Array]:
+def _over(f: Array, v: Complex, scatter: Array, inner: Places, outer: Places) -> tuple[Array, Array, Array]:
     """How far gaps leave the curve through what is beside: the least in each; and how far that itself does.
 
-    `inner` has shape (gaps, readings), `outer` (gaps, beside). In scatters, the curve's doubt counted.
-    Shape (gaps,) each.
+    At most, and what it scatters by. `inner` has shape (gaps, readings), `outer` (gaps, beside). In scatters,
+    the curve's doubt counted. Shape (gaps,) each.
     """
     middle = f[outer].mean(axis=1, keepdims=True)
     half = np.ptp(f[outer], axis=1)[:, None] / 2
@@ -192,7 +194,9 @@ def _over(f: Array, v: Complex, scatter: Array, inner: Places, outer: Places) ->
     passed = np.einsum("pnu,pum->pnm", full, solve) / denominator[..., None]
     doubt = np.sqrt(scatter[inner] ** 2 + np.sum(np.abs(passed * scatter[outer][:, None]) ** 2, axis=2))
     off = np.abs(v[inner] - curve) / doubt
-    return np.asarray(off.min(axis=1)), np.asarray(beside.max(axis=1))
+    # Of both parts, four unknowns fitted.
+    scatters = np.sqrt(np.sum(beside**2, axis=1) / (2 * (outer.shape[1] - model.shape[2])))
+    return np.asarray(off.min(axis=1)), np.asarray(beside.max(axis=1)), np.asarray(scatters)
 
 
 def _leaves(f: Array, v: Complex) -> Array:
@@ -206,14 +210,16 @@ def _leaves(f: Array, v: Complex) -> Array:
 def _scatter(left: Array, size: Array, finest: float) -> Array:
     """By medians, that strays hardly move: a floor by the smaller half, a share by the larger one.
 
-    None is below the `finest`, which is what steps of the reading itself leave.
+    More where readings around scatter by more, as those of a blow do where its force has little. None is
+    below the `finest`, which is what steps of the reading itself leave.
     """
     inner = slice(WINDOW // 2, -(WINDOW // 2))
     small = size[inner] <= np.median(size[inner])
     floor = np.median(left[inner][small])
     share = np.median(left[inner][~small] / size[inner][~small]) if not small.all() else 0.0
     least = max(finest, 1e-9 * size.max() + 1e-300)
-    return np.asarray(np.maximum(np.hypot(floor, share * size) / _MEDIAN, least))
+    scatter = np.maximum(np.hypot(floor, share * size) / _MEDIAN, least)
+    return np.asarray(scatter * np.maximum(around(left[inner] / scatter[inner], len(left)) / _MEDIAN, 1.0))
 
 
 def _steps(x: Array) -> float:

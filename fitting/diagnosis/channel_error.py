@@ -8,8 +8,8 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from fitting.arrays import Complex, Mask
-from fitting.model_error import DRIFT, GAIN
+from fitting.arrays import Array, Complex, Mask
+from fitting.model_error import AGAIN, AGAIN_WITHIN_S, DRIFT, GAIN
 from fitting.sweep import Sweep
 
 
@@ -36,6 +36,19 @@ def channel_rows(
         if len(passes) > 1:
             rows.append(DRIFT * v * here)
     return [*rows, *(1j * row for row in rows)] if has_phase else rows
+
+
+def blow_rows(frequency_hz: Array, v: Complex) -> Complex:
+    """Changes of what blows read, `v`, by further ones that nobody saw, one standard deviation each.
+
+    A second blow a time T after the first, of which the force's window has cut off the pulse, multiplies the
+    reading by 1 + a e^{-i 2 pi f T}. As many T as a band tells apart. Shape (points,); (any, points).
+    """
+    band = float(np.ptp(frequency_hz))
+    delays = np.arange(1, int(AGAIN_WITHIN_S * band) + 1) / max(band, 1e-9)
+    size = AGAIN / np.sqrt(max(1, len(delays)))
+    rows = size * np.exp(-2j * np.pi * np.outer(delays, frequency_hz)) * v
+    return np.concatenate([rows, 1j * rows])
 
 
 def _passes(sweep: Sweep, inside: Mask) -> Iterator[Mask]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
-from fitting.diagnosis.channel_error import channel_rows
+from fitting.diagnosis.channel_error import blow_rows, channel_rows
 from fitting.diagnosis.plate_answer import Asked, motions
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.effects.change import Change
@@ -87,6 +87,8 @@ def own_errors(problem: DiagnosisProblem, reduced: ReducedPlate, law: CoreLaw, v
         channels += channel_rows(
             problem.sweep, inside, v, has_phase=problem.points.has_phase, parts=gains, gain=gain
         )
+    if problem.specimen.drive == "force":
+        channels += list(blow_rows(problem.sweep.frequency_hz, v))
     return OwnErrors(tuple(keys), np.array([common, *rows]), np.array(channels))
 
 

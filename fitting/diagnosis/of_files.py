@@ -178,12 +178,14 @@ class OfFiles(Effect):
 
     def story(self, u: Mapping[str, float]) -> str:
         every = "in every file" if 0 not in self.mounted else "in every file where it can be"
-        where = every if u[FILE] <= ALIKE else f"in file {u[FILE]:.0f}"
-        if u[FILE] == EACH:
+        # What channels show by themselves names no file where there is one.
+        file = u.get(FILE, ALIKE)
+        where = every if file <= ALIKE else f"in file {file:.0f}"
+        if file == EACH:
             where = f"{every}, in each of another size (that of the first is said),"
         if u.get(PICKUP, _ALL) != _ALL:
             at = f"at pickup {u[PICKUP]:.0f}"
-            where = at if u[FILE] <= ALIKE else f"{where} {at}"
+            where = at if file <= ALIKE else f"{where} {at}"
         elif self.files == 1:
             where = "at every pickup"
         return f"{where} {self.inner.story(u)}"

@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from fitting.arrays import Mask
 from fitting.chances import chi2_above, chi2_exceeded, normal_above, normal_exceeded
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.refitted import Refitted
@@ -51,8 +52,13 @@ def temper(none: Refitted, best: Refitted, alone: Mapping[str, float] = NONE_ALO
     return 1.0 + form_error(none, best, alone) / VERDICT.formula_shapes
 
 
-def checks(sweep: Sweep, evidence: Evidence, none: Refitted, fitted: Refitted) -> Mapping[str, float]:
-    """Tail probabilities by what was looked at. Empty where the noise is unknown."""
+def checks(
+    sweep: Sweep, evidence: Evidence, none: Refitted, fitted: Refitted, struck: Mask | None = None
+) -> Mapping[str, float]:
+    """Tail probabilities by what was looked at. Empty where the noise is unknown.
+
+    `struck` as `fitting.diagnosis.structure.along_frequency` takes it. Shape (points,).
+    """
     if not evidence.scale_known:
         return {}
     dof = max(1, fitted.data - fitted.parameter_count)
@@ -69,7 +75,7 @@ def checks(sweep: Sweep, evidence: Evidence, none: Refitted, fitted: Refitted) -
     if fitted.stated:
         found["tolerances"] = float(chi2_above(fitted.unexplained / t, fitted.stated))
     parts = 2 if evidence.has_phase else 1
-    runs, memory = along_frequency(sweep, whitened, parts, VERDICT.longest_trace)
+    runs, memory = along_frequency(sweep, whitened, parts, VERDICT.longest_trace, struck)
     excess = may_leave / dof
     found["signs"] = float(normal_above(runs / (VERDICT.wider_along * (1 + VERDICT.formula_along * excess))))
     found["memory"] = float(

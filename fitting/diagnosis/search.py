@@ -91,7 +91,8 @@ class Search:
 
     def judged(self, fitted: Refitted) -> ScoredFit:
         """A fit with what it is worth."""
-        found = checks(self.problem.sweep, self.evidence, self._none, fitted)
+        struck = self.problem.points.struck
+        found = checks(self.problem.sweep, self.evidence, self._none, fitted, struck)
         doubt = stands_in(self.problem, fitted)
         if len(fitted.effects) == 1:
             (name,) = (e.name for e in fitted.effects)

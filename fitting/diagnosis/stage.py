@@ -47,7 +47,9 @@ def stage_of(
         whitened=whitened,
         chi2_per_dof=chi2,
         validation=validation,
-        structure=structure(problem.sweep, evidence, whitened, chi2, problem.specimen.kind),
+        structure=structure(
+            problem.sweep, evidence, whitened, chi2, problem.specimen.kind, problem.points.struck
+        ),
         adjusted=adjusted_of(problem, fitted, C),
     )
 

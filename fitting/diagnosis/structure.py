@@ -4,10 +4,12 @@ Thresholds are those that clean sweeps of a solid plate stay below (`fitting.dia
 """
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Mask
 from fitting.chances import chi2_exceeded
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.thresholds import VERDICT
@@ -21,11 +23,16 @@ _FEWEST = 20
 
 
 def structure(
-    sweep: Sweep, evidence: Evidence, whitened: Array, chi2_per_dof: float, kind: str = "plate"
+    sweep: Sweep,
+    evidence: Evidence,
+    whitened: Array,
+    chi2_per_dof: float,
+    kind: str = "plate",
+    struck: Mask | None = None,
 ) -> tuple[str, ...]:
     """What is not random in whitened residuals, in words; nothing where the noise is unknown.
 
-    Shape (data,). `kind` is the specimen's.
+    Shape (data,). `kind` is the specimen's, `struck` as `along_frequency` takes it.
     """
     if not evidence.scale_known:
         return ()
@@ -34,7 +41,7 @@ def structure(
         said.append(
             f"the residual is {written_out(chi2_per_dof, 3)} times what noise and model error explain"
         )
-    runs, memory = along_frequency(sweep, whitened, parts=2 if evidence.has_phase else 1)
+    runs, memory = along_frequency(sweep, whitened, 2 if evidence.has_phase else 1, struck=struck)
     if runs > VERDICT.runs_sigma:
         said.append(f"its signs keep together along frequency ({runs:.1f} sigma, runs test)")
     if memory > VERDICT.memory_sigma:
@@ -65,27 +72,35 @@ def roughness(sweep: Sweep, whitened: Array, parts: int) -> float:
 
 
 def along_frequency(
-    sweep: Sweep, whitened: Array, parts: int, longest: int | None = None
+    sweep: Sweep, whitened: Array, parts: int, longest: int | None = None, struck: Mask | None = None
 ) -> tuple[float, float]:
     """Fewer runs than chance, and Ljung-Box's statistic above its mean, both in standard deviations.
 
     Of whitened residuals, `parts` of every point one after the other. Shape (data,). What is beyond chance
     grows with the readings, however little they have in common: a trace counts as `longest` at most.
+
+    Points that are `struck` (shape (points,)) state as noise what blows scatter by: their force, their places
+    and second blows differ, alike at neighbouring lines. What is smooth there and smaller is none of the
+    plate's: it counts as it would beside white noise that is as large as stated.
     """
     runs_short, runs_variance, box, expected, traces = 0.0, 0.0, 0.0, 0.0, 0
-    for r in _traces(sweep, whitened, parts):
+    of_blows = np.zeros(len(sweep), bool) if struck is None else struck
+    for r, blown in zip(
+        _traces(sweep, whitened, parts), _traces(sweep, np.tile(of_blows, parts), parts), strict=True
+    ):
         if len(r) < _FEWEST:
             continue
-        short, variance = _runs(r)
+        share = min(1.0, float(np.mean(r**2))) if blown.all() else 1.0
+        short, variance = _runs(r, share)
         counted = 1.0 if longest is None else min(1.0, longest / len(r))
         runs_short, runs_variance = runs_short + counted * short, runs_variance + counted * variance
-        box, expected, traces = box + counted * _ljung_box(r), expected + counted * LAGS, traces + 1
+        box, expected, traces = box + counted * _ljung_box(r, share), expected + counted * LAGS, traces + 1
     runs = runs_short / np.sqrt(runs_variance) if runs_variance > 0 else 0.0
     memory = (box - expected) / np.sqrt(2 * LAGS * traces) if traces else 0.0
     return float(runs), float(memory)
 
 
-def _traces(sweep: Sweep, whitened: Array, parts: int) -> Iterator[Array]:
+def _traces(sweep: Sweep, whitened: NDArray[Any], parts: int) -> Iterator[NDArray[Any]]:
     """Residuals along frequency, every pass of a segment and every part for itself."""
     keys = np.column_stack([sweep.segment, sweep.sweep, np.round(sweep.commanded_m_s2, 9)])
     _, which = np.unique(keys, axis=0, return_inverse=True)
@@ -96,8 +111,11 @@ def _traces(sweep: Sweep, whitened: Array, parts: int) -> Iterator[Array]:
             yield whitened[inside + part * len(sweep)]
 
 
-def _runs(r: Array) -> tuple[float, float]:
-    """How many runs of one sign are missing, and the variance of their number (Wald and Wolfowitz)."""
+def _runs(r: Array, share: float = 1.0) -> tuple[float, float]:
+    """How many runs of one sign are missing, and the variance of their number (Wald and Wolfowitz).
+
+    `share`: of the variance that r has beside white noise.
+    """
     above = r > 0
     n_1, n_2 = int(above.sum()), int((~above).sum())
     if not n_1 or not n_2:
@@ -105,12 +123,20 @@ def _runs(r: Array) -> tuple[float, float]:
     n = n_1 + n_2
     expected = 1 + 2 * n_1 * n_2 / n
     variance = (expected - 1) * (expected - 2) / (n - 1)
-    return expected - (1 + int((above[1:] != above[:-1]).sum())), max(variance, 1e-9)
+    short = expected - (1 + int((above[1:] != above[:-1]).sum()))
+    if share < 1.0:
+        # Neighbours that agree by rho change their sign in arccos(rho) / pi of steps.
+        short = n * np.arcsin(share * np.sin(np.pi * np.clip(short / n, -0.5, 0.5))) / np.pi
+    return float(short), max(variance, 1e-9)
 
 
-def _ljung_box(r: Array) -> float:
-    """Q over `LAGS` lags, about chi-square with as many degrees of freedom where r has no memory."""
+def _ljung_box(r: Array, share: float = 1.0) -> float:
+    """Q over `LAGS` lags, about chi-square with as many degrees of freedom where r has no memory.
+
+    `share` as in `_runs`: what is not r's is as white noise has it.
+    """
     n, r = len(r), r - r.mean()
     power = float(r @ r)
     rho = np.array([float(r[k:] @ r[:-k]) / power for k in range(1, LAGS + 1)])
-    return float(n * (n + 2) * np.sum(rho**2 / (n - np.arange(1, LAGS + 1))))
+    q = float(n * (n + 2) * np.sum(rho**2 / (n - np.arange(1, LAGS + 1))))
+    return q if share >= 1.0 else share**2 * q + (1 - share**2) * LAGS

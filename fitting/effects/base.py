@@ -122,6 +122,11 @@ class Points:
         return len(np.unique(np.round(self.acceleration_m_s2, 9)))
 
     @property
+    def struck(self) -> NDArray[np.bool_]:
+        """Which points a force drives. Shape (points,)."""
+        return np.full(len(self.omega), self.drive == "force") if self.at_rest is None else self.at_rest
+
+    @property
     def base_m_s(self) -> Complex | float:
         """The base's own velocity, as far as it is read. Shape (points,), or zero."""
         if self.reads == "relative":

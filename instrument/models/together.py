@@ -135,7 +135,7 @@ def diagnose_together(
         for k, file in enumerate(files):
             why, seen, _ = seen_in_channels(file.sweep, [e for e, on in among_files if on[k]])
             work.leave_out(k, why)
-            channels += [_with_file(one, numbers[k], count) for one in seen]
+            channels += [_of_spot(_with_file(one, numbers[k], count), file.pickup) for one in seen]
         work.problem()
         ready = perf_counter()
         with progress("tracing the residual") as report:
@@ -187,6 +187,14 @@ def _with_file(one: FoundEffect, file: int, files: int) -> FoundEffect:
         return one
     return replace(
         one, parameters={**one.parameters, "file": ParameterEstimate(float(file), float("nan"), "1")}
+    )
+
+
+def _of_spot(one: FoundEffect, spot: int | None) -> FoundEffect:
+    if spot is None:
+        return one
+    return replace(
+        one, parameters={**one.parameters, "pickup": ParameterEstimate(float(spot), float("nan"), "1")}
     )
 
 

@@ -208,3 +208,19 @@ def test_hum_at_a_sweeps_end_is_set_aside_where_it_shows_inside_too():
     seen = found(replace(sweep, velocity_m_s=sweep.velocity_m_s + hum(rng, f, 5e-2, dwell_s=2.0)))
     assert {2, 10} < set(seen.multiples)
     assert seen.points[[0, -1]].all()
+
+
+def test_noise_of_blows_that_grows_along_the_band_is_no_hum():
+    """The force of a blow fades: the upper lines scatter by twelve times as much as the lower ones."""
+    f = np.linspace(60.0, 900.0, 700)
+    ones = np.ones(len(f), dtype=int)
+    grows = np.exp(2.5 * ((f - f[0]) / np.ptp(f)) ** 4)
+    damped = ((150.0, 0.08, 0.3), (330.0, 0.05, 0.2), (620.0, 0.05, 0.1))
+    v = sum(size / (1 - (f / at) ** 2 + 1j * loss) for at, loss, size in damped)
+    for seed in range(60):
+        rng = np.random.default_rng(seed)
+        noise = 2e-3 * grows * (rng.normal(size=len(f)) + 1j * rng.normal(size=len(f)))
+        data = Sweep(f, v + noise, 9.81 * ones, segment=ones, sweep=ones)
+        assert found(data) is None
+    loud = hum(rng, f, 0.2, multiples=[10])
+    assert found(replace(data, velocity_m_s=data.velocity_m_s + loud)).multiples == (10,)

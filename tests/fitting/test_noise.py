@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from conftest import DATA
 
-from fitting.noise import noise_of
+from fitting.noise import around, noise_of
 from fitting.sweep import Sweep, resonance_points, segments_by_gap
 from instrument.files.sweep_file import read_sweep
 
@@ -117,3 +117,14 @@ def test_noise_in_proportion_is_seen_as_such_over_many_resonances_in_one_segment
     # A floor a fiftieth of the peak's, the least that was tried, made them 0.45 and 14.
     assert np.median(at_peak) == pytest.approx(1.0, abs=0.06)
     assert np.median(at_least) == pytest.approx(1.0, abs=0.25)
+
+
+def test_what_is_left_around_follows_where_it_grows_and_not_what_is_off():
+    grows = np.linspace(1.0, 3.0, 201)
+    left = grows * np.abs(np.random.default_rng(0).normal(size=201)) / 0.6745
+    left[100:108] = 1e3
+    found = around(left, 207)
+    assert found.shape == (207,)
+    assert found[[40, 104, 166]] == pytest.approx([1.4, 2.0, 2.6], rel=0.45)
+    assert found[0] == found[3]
+    assert not around(left[:50], 56).any()

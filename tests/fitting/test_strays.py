@@ -127,3 +127,22 @@ def test_a_frequency_that_is_there_again_leaves_the_others_judged():
     again = np.append(F, F[30]), np.append(v, v[30])
     off = strays(sweep(again[1], again[0]))
     assert (np.flatnonzero(off) == [70]).all()
+
+
+def blown(seed, lines):
+    """An FRF of blows: the force fades along the band, so noise grows by a factor of twelve."""
+    f = np.linspace(60.0, 900.0, lines)
+    rng = np.random.default_rng(seed)
+    v = modes(f, np.geomspace(90, 850, 9), [0.05] * 9, seed)
+    grows = np.exp(2.5 * ((f - f[0]) / np.ptp(f)) ** 4)
+    return f, v + 1e-3 * grows * np.median(np.abs(v)) * (rng.normal(size=lines) + 1j * rng.normal(size=lines))
+
+
+@pytest.mark.parametrize("lines", [300, 900])
+def test_where_a_blow_s_force_has_little_noise_is_no_stray(lines):
+    for seed in range(25):
+        f, v = blown(seed, lines)
+        assert not strays(sweep(v, f)).any()
+        v[lines // 3] *= 3
+        # Three hundred lines are too few to follow these resonances by.
+        assert set(np.flatnonzero(strays(sweep(v, f)))) in ([{300}] if lines == 900 else [{100}, set()])

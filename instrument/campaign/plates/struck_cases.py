@@ -1,11 +1,11 @@
 """A case of a struck plate: an FRF over a whole band, free or in its clamp, read at one to three points."""
 
 from dataclasses import dataclass, replace
+from functools import reduce
 from typing import Any
 
 import numpy as np
 
-from drivers.simulated.plant.one_thread import one_thread
 from fitting.arrays import Array, Complex
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
@@ -13,10 +13,17 @@ from fitting.theory_error import theory_error
 from instrument.campaign.plates.blows import Blows, draw_blows
 from instrument.campaign.plates.geometry import PLATES, TruePlate, plate_named
 from instrument.campaign.plates.hidden.base import Hidden
-from instrument.campaign.plates.kept import struck_plate
+from instrument.campaign.plates.hidden.struck import (
+    NONE,
+    OF_CLAMPED,
+    OF_FREE,
+    PLACES,
+    STRUCK_KINDS,
+    Place,
+    draw_hidden_in_struck,
+)
 from instrument.campaign.plates.materials import PlateMaterialLaw, draw_law, fits
 from instrument.campaign.plates.reduced import ReducedSolid
-from instrument.campaign.plates.response import remaining_damping
 from instrument.campaign.plates.stated import (
     CAREFUL,
     digits,
@@ -26,21 +33,17 @@ from instrument.campaign.plates.stated import (
     specimen_from,
 )
 from instrument.campaign.plates.struck import resonance
+from instrument.campaign.plates.struck_readings import (
+    aimed,
+    mobilities,
+    on_plate,
+    plate_of,
+    solid_of,
+    struck_so,
+    through_channels,
+)
 from instrument.impact.mobility import GAIN
 
-Place = tuple[float, float]
-
-PLACES: tuple[Place, ...] = (
-    (0.03, 0.05),
-    (0.95, 0.08),
-    (0.97, 0.93),
-    (0.31, 0.96),
-    (0.62, 0.03),
-    (0.46, 0.36),
-    (0.22, 0.58),
-    (0.76, 0.71),
-)
-"""Of length and width: where a plate may be struck or read."""
 _FREE = 0.75
 """Of cases; the others stand in their clamp."""
 _FEWEST, _MOST = 5, 14
@@ -62,7 +65,7 @@ _STIFF_PA, _SOFT_PA = 2e6, 0.3e6
 
 @dataclass(frozen=True)
 class StruckTruth:
-    """What was hidden: the law alone."""
+    """What was hidden: the law, and perhaps an effect."""
 
     plate: TruePlate
     free: bool
@@ -99,13 +102,21 @@ class StruckCase:
     specimen: Specimen
     specimen_toml: str
     truth: StruckTruth
-    kind: str = "none"
+    kind: str = NONE
     exact: bool = False
     hammer: tuple[Array, Array] | None = None
 
 
-def draw_struck(seed: int, *, plate: str | None = None, free: bool | None = None) -> StruckCase:
-    """A random case, always the same for the same arguments. Raises `ArithmeticError` where none is found."""
+def draw_struck(
+    seed: int, kind: str = NONE, *, plate: str | None = None, free: bool | None = None
+) -> StruckCase:
+    """A random case of one of `STRUCK_KINDS`, always the same for the same arguments.
+
+    Plate, points, law and lines of a seed are the same for all kinds, but for those that ask for a clamp or
+    for none. Raises `ArithmeticError` where no law is found, `ValueError` for another kind.
+    """
+    if kind not in STRUCK_KINDS:
+        raise ValueError(f"kind {kind!r}, expected one of {', '.join(STRUCK_KINDS)}")
 
     def rng(purpose: str) -> np.random.Generator:
         return np.random.default_rng([seed, 7, *purpose.encode()])
@@ -113,21 +124,22 @@ def draw_struck(seed: int, *, plate: str | None = None, free: bool | None = None
     chance = rng("plate")
     true = plate_named(plate) if plate else PLATES[int(chance.integers(len(PLATES)))]
     hangs = bool(chance.random() < _FREE) if free is None else free
+    hangs = kind in OF_FREE or (hangs and kind not in OF_CLAMPED)
     at = chance.permutation(len(PLACES))[: 2 + int(chance.integers(3))]
     # In a clamp what is next to it hardly moves.
     places = [PLACES[k] for k in at if hangs or PLACES[k][0] > 0.2]
     if len(places) < 2:
         places = [PLACES[4], PLACES[7]]
     force, *spots = ((x * true.length_m, y * true.width_m) for x, y in places)
-    solid = struck_plate(true, tuple((x * true.length_m, y * true.width_m) for x, y in PLACES), free=hangs)
-    law, found = _law_and_resonances(rng("law"), true, solid, free=hangs)
+    law, found = _law_and_resonances(rng("law"), true, solid_of(true, (), free=hangs), free=hangs)
     f = _lines(rng("lines"), found)
     blows = draw_blows(rng("blows"), float(f[-1]))
-    judged = [found[k] for k in np.round(np.linspace(0, len(found) - 1, _JUDGED)).astype(int)]
-    truth = StruckTruth(true, hangs, law, blows, force, tuple(spots), tuple(judged))
-    sweep = _measured(truth, solid, f, rng("noise"))
+    judged = tuple(found[k] for k in np.round(np.linspace(0, len(found) - 1, _JUDGED)).astype(int))
+    hidden = draw_hidden_in_struck(kind, np.random.default_rng([seed, 7, *kind.encode()]), true, judged)
+    truth = StruckTruth(true, hangs, law, blows, force, tuple(spots), judged, hidden)
+    sweep = _measured(truth, solid_of(true, hidden, free=hangs), f, rng("noise"))
     text = _stated(rng("stated"), truth)
-    return StruckCase(seed, sweep, specimen_from(text), text, truth)
+    return StruckCase(seed, sweep, specimen_from(text), text, truth, kind)
 
 
 def _law_and_resonances(
@@ -169,20 +181,19 @@ def _lines(rng: np.random.Generator, found: list[float]) -> Array:
     return np.asarray(step * np.arange(np.ceil(low / step), np.floor(high / step) + 1))
 
 
-@one_thread
 def _measured(truth: StruckTruth, solid: ReducedSolid, f: Array, rng: np.random.Generator) -> Sweep:
-    hits = [_on(truth.plate, truth.force_m, off) for off in truth.blows.offsets_m]
-    push = np.array([solid.reading(*at) for at in hits])
-    spots = [_on(truth.plate, at, CAREFUL.pickup_m * rng.standard_normal(2)) for at in truth.spots_m]
-    read = np.array([solid.reading(*at) for at in spots])
-    ratios = np.array([] if truth.free else truth.plate.ratios)
-    C_1 = remaining_damping(solid, ratios) if len(ratios) else 0.0
-    each = np.empty((len(spots), len(hits), len(f)), complex)
-    for k, w in enumerate(2 * np.pi * f):
-        Z = solid.K_0 + truth.law.modulus(w) * solid.whole_core - w**2 * solid.M + 1j * w * C_1
-        each[:, :, k] = 1j * w * (read @ np.linalg.solve(Z, push.T.astype(complex)))
+    hidden, plate = truth.effects, plate_of(truth.plate, truth.effects)
+    hits = [aimed(plate, truth.force_m, off, hidden) for off in truth.blows.offsets_m]
+    spots = [
+        aimed(plate, at, CAREFUL.pickup_m * rng.standard_normal(2), hidden, k)
+        for k, at in enumerate(truth.spots_m)
+    ]
+    ratios = reduce(lambda r, h: h.ratios(r), hidden, np.array([] if truth.free else truth.plate.ratios))
+    each = mobilities(solid, truth.law, f, hits, spots, hidden, ratios)
     channels = np.exp(GAIN * rng.standard_normal() - 2j * np.pi * f * CAREFUL.delay_s * rng.standard_normal())
-    found = [truth.blows.read(rng, f, own * channels) for own in each]
+    blows = struck_so(truth.blows, hidden)
+    seen = [through_channels(own, 2 * np.pi * f, hidden, k) for k, own in enumerate(each)]
+    found = [blows.read(rng, f, own * channels) for own in seen]
     ones, count = np.ones(len(f) * len(spots)), len(spots)
     return Sweep(
         frequency_hz=np.tile(f, count),
@@ -195,15 +206,10 @@ def _measured(truth: StruckTruth, solid: ReducedSolid, f: Array, rng: np.random.
     )
 
 
-def _on(plate: TruePlate, at: Place, off: Any) -> Place:
-    x, y = np.clip(np.add(at, off), 0.0, (plate.length_m, plate.width_m))
-    return float(x), float(y)
-
-
 def _stated(rng: np.random.Generator, truth: StruckTruth) -> str:
     """The specimen file. Spots and the force are where they were meant to be."""
     believed = draw_stated(rng, truth.plate)
-    places = [_on(believed, at, 0.0) for at in (truth.force_m, *truth.spots_m)]
+    places = [on_plate(believed, at, 0.0) for at in (truth.force_m, *truth.spots_m)]
     middle = float(np.median(truth.resonances_hz))
     return _toml(believed, places[0], places[1:], free=truth.free, middle_hz=middle)
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from fitting.diagnosis.channel_error import channel_rows
-from fitting.model_error import DRIFT, GAIN, STRUCK_GAIN
+from fitting.diagnosis.channel_error import blow_rows, channel_rows
+from fitting.model_error import AGAIN, DRIFT, GAIN, STRUCK_GAIN
 from fitting.sweep import Sweep
 
 F = np.tile(np.linspace(20.0, 30.0, 5), 2)
@@ -43,3 +43,17 @@ def test_passes_and_levels_are_read_by_instruments_that_have_drifted_apart(passe
     # What sets both passes apart at every frequency, as softening would: in size as far as they drift.
     apart = np.real(rows / V) @ np.repeat([1, -1], 5) / 10
     assert np.sqrt(np.sum(apart**2)) == pytest.approx(DRIFT / np.sqrt(2))
+
+
+def test_a_second_blow_that_nobody_saw_is_among_what_blows_read_wrongly():
+    f = np.linspace(100.0, 900.0, 400)
+    rows = blow_rows(f, 2 * np.ones(400, complex))
+    assert len(rows) == 2 * 20
+    size = np.sqrt(np.sum(np.abs(rows / 2) ** 2, axis=0))
+    assert size == pytest.approx(np.full(400, AGAIN * np.sqrt(2)))
+    second = 2 * 4e-3 * np.exp(-2j * np.pi * f * 0.0113)
+    parts = np.concatenate([rows.real, rows.imag], axis=1)
+    data = np.concatenate([second.real, second.imag])
+    left = data - parts.T @ np.linalg.lstsq(parts.T, data, rcond=None)[0]
+    assert np.linalg.norm(left) < 0.25 * np.linalg.norm(data)
+    assert blow_rows(np.array([100.0, 120.0]), np.ones(2, complex)).shape == (0, 2)

@@ -119,3 +119,10 @@ def test_a_clamp_is_one_in_all_files_of_one_mounting():
     assert each.story({"k": 5e13, "k_4": 5e13, "file": EACH}).startswith("in every file where it can be")
     # A channel is another matter in each.
     assert [f.file for f in among(GAIN, 4, (), mounted=(1, 1, 3, 4)).variants()] == [0, 1, 2, 3, 4]
+
+
+def test_what_a_channel_shows_by_itself_is_said_of_its_spot_or_file():
+    lost, seen = CATALOGUE["signal_dropout"], {"readings": 1.0, "size": 1e-3}
+    of_spot, of_both = OfFiles(lost, 1, spots=(0, 1)), OfFiles(lost, 2, spots=(0, 1))
+    assert of_spot.story({**seen, "pickup": 1.0}).startswith("at pickup 1 one reading")
+    assert of_both.story({**seen, "file": 2.0, "pickup": 0.0}).startswith("in file 2 at pickup 0 one reading")

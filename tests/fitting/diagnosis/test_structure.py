@@ -113,3 +113,25 @@ def test_what_jumps_from_point_to_point_is_noise_whatever_is_missed_smoothly():
     wave = 5 * np.sin(2 * np.pi * np.arange(2 * len(data)) / 60)
     for left in (noise, noise + wave):
         assert abs(roughness(data, left, parts=2) / 0.49 - 1) < 0.2
+
+
+def test_what_blows_scatter_by_alike_at_neighbouring_lines_is_no_structure_below_their_noise():
+    data = sweep(1)
+    rng, struck = np.random.default_rng(4), np.ones(N, bool)
+    slow = np.tile(np.sin(np.linspace(0, 20, N)), 2)
+    for size, told in ((0.2, False), (1.5, True)):
+        r = size * slow + 0.05 * rng.normal(size=2 * N)
+        assert min(along_frequency(data, r, 2)) > 6
+        runs, memory = along_frequency(data, r, 2, struck=struck)
+        assert (runs > VERDICT.runs_sigma) == told
+        assert (memory > VERDICT.memory_sigma) == told
+        assert along_frequency(data, r, 2, struck=~struck) == along_frequency(data, r, 2)
+
+
+def test_white_noise_of_blows_has_as_little_structure_as_any():
+    data, found = sweep(1), []
+    for seed in range(200):
+        r = 0.7 * np.random.default_rng(seed).normal(size=2 * N)
+        found.append(along_frequency(data, r, 2, struck=np.ones(N, bool)))
+    assert np.abs(np.mean(found, axis=0)).max() < 0.2
+    assert np.std(found, axis=0).max() < 1.0

@@ -99,3 +99,17 @@ def test_two_spots_of_one_file_are_fitted_together_where_each_was_read():
     assert max(off(found.fit.law)) < 0.05
     names = [one.name for one in found.fit.adjusted]
     assert {"pickup_x [pickup 0]", "pickup_x [pickup 1]", "force_x"} <= set(names)
+
+
+def test_a_reading_lost_at_one_spot_of_a_file_is_said_with_the_spot():
+    beam = replace(FREE, pickup_m=0.05, further_pickups_m=(0.15,))
+    files = [
+        File(read(beam.at_pickup(k), None, (), k), beam.at_pickup(k), pickup=k, number=1) for k in (0, 1)
+    ]
+    spoiled = files[1].sweep.velocity_m_s.copy()
+    spoiled[60] *= 3
+    files[1] = replace(files[1], sweep=replace(files[1].sweep, velocity_m_s=spoiled))
+    result = diagnose_together(files, accept=[]).found.result
+    (lost,) = [one for one in result.channels if one.name == "signal_dropout"]
+    assert lost.parameters["pickup"].value == 1
+    assert "at pickup 1 one reading leaves" in " ".join(result.explanation).lower()
