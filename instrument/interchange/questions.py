@@ -12,6 +12,7 @@ from fitting.arrays import Array
 from fitting.mode_tables.fit import ModalFit
 from fitting.mode_tables.table import ModalTable
 from fitting.specimen import Specimen
+from fitting.structures import ShearPair
 from instrument.errors import BadInput
 from instrument.files.plausible import INSIST
 from instrument.interchange.given import Given
@@ -34,17 +35,21 @@ _LOSSY = 3.0
 
 
 def question_data(given: Given, path: Path, progress: Progress = quiet, like: Specimen | None = None) -> None:
-    """Ask about the sweep of a plate shaken at its base and seen at one spot, or of one like it.
+    """Ask about the sweep of a specimen, or of one like it, as its first spot sees it.
 
-    Raises `BadInput`, and `FittingError` where the plate cannot be modelled over these frequencies.
+    Raises `BadInput`, and `FittingError` where it cannot be modelled over these frequencies.
     """
     plate = given.specimen
     if not given.session:
         doubt = kelvin_doubt(given.temperature_c) or _drifted(given.temperature_range_c)
         _ask(doubt or _many(len(given.sweep), isinstance(plate, Specimen)), [path])
-    if given.session or not isinstance(plate, Specimen) or plate.core is None or plate.pickup_m is None:
+    if (
+        given.session
+        or plate.core is None
+        or not (isinstance(plate, ShearPair) or plate.pickup_m is not None)
+    ):
         return
-    if plate.force_m is not None or plate.further_pickups_m or plate.masses:
+    if isinstance(plate, Specimen) and plate.masses:
         return
     _ask(data_doubt(given.sweep, like or plate, progress), [path])
 
