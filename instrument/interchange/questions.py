@@ -12,11 +12,12 @@ from fitting.arrays import Array
 from fitting.mode_tables.fit import ModalFit
 from fitting.mode_tables.table import ModalTable
 from fitting.specimen import Specimen
-from fitting.structures import ShearPair
+from fitting.structures import AnySpecimen, ShearPair
 from instrument.errors import BadInput
 from instrument.files.plausible import INSIST
 from instrument.interchange.given import Given
 from instrument.models.modal_look import modal_doubt
+from instrument.models.modal_mistakes import table_doubt
 from instrument.models.quick_look import data_doubt
 from instrument.progress import Progress, quiet
 
@@ -54,13 +55,24 @@ def question_data(given: Given, path: Path, progress: Progress = quiet, like: Sp
     _ask(data_doubt(given.sweep, like or plate, progress), [path])
 
 
-def question_modes(tables: Sequence[ModalTable], fit: ModalFit, paths: Sequence[Path]) -> None:
-    """Ask about tables beside their fit without any effect. Raises `BadInput`."""
+def question_modes(
+    tables: Sequence[ModalTable],
+    fit: ModalFit,
+    paths: Sequence[Path],
+    specimens: Sequence[AnySpecimen] = (),
+    progress: Progress = quiet,
+) -> None:
+    """Ask about tables beside their fit without any effect; with `specimens` also how they may be meant.
+
+    Raises `BadInput`.
+    """
     question_tables(tables, paths)
     question_temperatures(
         [None if t.temperature_c is None else float(t.temperature_c.mean()) for t in tables], paths
     )
     question_modes_at(tables, np.concatenate(fit.predicted_hz), paths)
+    if specimens:
+        _ask(table_doubt(tables, specimens, fit.uncertainty.chi2_per_dof, progress), paths)
 
 
 def question_tables(tables: Sequence[ModalTable], paths: Sequence[Path]) -> None:

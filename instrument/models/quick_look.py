@@ -44,6 +44,12 @@ def data_doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress = quiet) 
     Of several spots the first one in the data is looked at. Raises `FittingError` where it cannot be modelled
     over these frequencies.
     """
+    with np.errstate(all="ignore"):
+        # What is meant otherwise may well divide by zero.
+        return _doubt(sweep, specimen, progress)
+
+
+def _doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> str:
     f = sweep.frequency_hz
     if f.max() < _LOWEST_HZ:
         return f"{f.min():g} to {f.max():g} Hz: the frequencies are in kHz, expected Hz"
