@@ -19,9 +19,10 @@ from instrument.results.modal_from import mean_temperature, modal_from
 def identified_modes(data: Path, specimen: Path, *, insist: bool) -> tuple[ModalResult, dict[str, Any]]:
     """What `identify` says of the table; points and band of it. Raises `BadInput`, `FittingError`."""
     tables = [read_modal_table(data)]
-    found = identify_tables(tables, [read_structure(specimen)])
+    specimens = [read_structure(specimen)]
+    found = identify_tables(tables, specimens)
     if not insist:
-        question_modes(tables, found.fit, [data])
+        question_modes(tables, found.fit, [data], specimens)
     result = modal_from(found, tables, [data.name])
     return result, _measured(tables[0].frequency_hz, mean_temperature(tables))
 
@@ -29,9 +30,10 @@ def identified_modes(data: Path, specimen: Path, *, insist: bool) -> tuple[Modal
 def diagnosed_modes(data: Path, specimen: Path, *, insist: bool) -> tuple[DiagnosisResult, dict[str, Any]]:
     """What `diagnose` says of it, and the same. Raises `BadInput`, `FittingError`."""
     tables = [read_modal_table(data)]
-    found = diagnose_tables(tables, [read_structure(specimen)])
+    specimens = [read_structure(specimen)]
+    found = diagnose_tables(tables, specimens)
     if not insist:
-        question_modes(tables, modal_fit_of(found.found.begun), [data])
+        question_modes(tables, modal_fit_of(found.found.begun), [data], specimens)
     result = modal_diagnosis_from(found, tables, [data.name])
     return result, _measured(tables[0].frequency_hz, mean_temperature(tables))
 

@@ -23,7 +23,7 @@ def diagnose_modes(
     tables, read = read_tables(data, specimens, insist=insist)
     found = diagnose_tables(tables, read, without, bar)
     if not insist:
-        question_modes(tables, modal_fit_of(found.found.begun), data)
+        question_modes(tables, modal_fit_of(found.found.begun), data, read, bar)
     result = modal_diagnosis_from(found, tables, [path.name for path in data])
     print_diagnosis(out, result)
     out.result(result)

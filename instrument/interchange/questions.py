@@ -12,10 +12,12 @@ from fitting.arrays import Array
 from fitting.mode_tables.fit import ModalFit
 from fitting.mode_tables.table import ModalTable
 from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen, ShearPair
 from instrument.errors import BadInput
 from instrument.files.plausible import INSIST
 from instrument.interchange.given import Given
 from instrument.models.modal_look import modal_doubt
+from instrument.models.modal_mistakes import table_doubt
 from instrument.models.quick_look import data_doubt
 from instrument.progress import Progress, quiet
 
@@ -34,28 +36,43 @@ _LOSSY = 3.0
 
 
 def question_data(given: Given, path: Path, progress: Progress = quiet, like: Specimen | None = None) -> None:
-    """Ask about the sweep of a plate shaken at its base and seen at one spot, or of one like it.
+    """Ask about the sweep of a specimen, or of one like it, as its first spot sees it.
 
-    Raises `BadInput`, and `FittingError` where the plate cannot be modelled over these frequencies.
+    Raises `BadInput`, and `FittingError` where it cannot be modelled over these frequencies.
     """
     plate = given.specimen
     if not given.session:
         doubt = kelvin_doubt(given.temperature_c) or _drifted(given.temperature_range_c)
         _ask(doubt or _many(len(given.sweep), isinstance(plate, Specimen)), [path])
-    if given.session or not isinstance(plate, Specimen) or plate.core is None or plate.pickup_m is None:
+    if (
+        given.session
+        or plate.core is None
+        or not (isinstance(plate, ShearPair) or plate.pickup_m is not None)
+    ):
         return
-    if plate.force_m is not None or plate.further_pickups_m or plate.masses:
+    if isinstance(plate, Specimen) and plate.masses:
         return
     _ask(data_doubt(given.sweep, like or plate, progress), [path])
 
 
-def question_modes(tables: Sequence[ModalTable], fit: ModalFit, paths: Sequence[Path]) -> None:
-    """Ask about tables beside their fit without any effect. Raises `BadInput`."""
+def question_modes(
+    tables: Sequence[ModalTable],
+    fit: ModalFit,
+    paths: Sequence[Path],
+    specimens: Sequence[AnySpecimen] = (),
+    progress: Progress = quiet,
+) -> None:
+    """Ask about tables beside their fit without any effect; with `specimens` also how they may be meant.
+
+    Raises `BadInput`.
+    """
     question_tables(tables, paths)
     question_temperatures(
         [None if t.temperature_c is None else float(t.temperature_c.mean()) for t in tables], paths
     )
     question_modes_at(tables, np.concatenate(fit.predicted_hz), paths)
+    if specimens:
+        _ask(table_doubt(tables, specimens, fit.uncertainty.chi2_per_dof, progress), paths)
 
 
 def question_tables(tables: Sequence[ModalTable], paths: Sequence[Path]) -> None:

@@ -1,150 +1,199 @@
-"""Data beside the stated plate before they are fitted: a wrong unit, sign, cable or plate is asked about.
+"""Data beside the stated specimen before they are fitted: a wrong unit, sign, cable or plate is asked about.
 
 Any core from soft to stiff is tried. Where none comes near, the same is asked of the data with one mistake
 taken back; the mistake that explains by far the most is named. Whoever knows better insists.
 """
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Complex
 from fitting.errors import FittingError
-from fitting.gravity import STANDARD_GRAVITY_M_S2
-from fitting.identification.model import velocity
-from fitting.rational import RationalSweep, rational_sweep
-from fitting.specimen import Specimen
+from fitting.specimen import Drive, Reading, Specimen
+from fitting.structures import AnySpecimen, Beam
 from fitting.sweep import Sweep
-from instrument.models.specimen_models import Models
+from instrument.models.any_core import FURTHEST, AnyCore, Nearest, any_core
+from instrument.models.mistake_in_part import mistake_in_a_segment
+from instrument.models.mistakes import Mistake, lacks_phase, mistakes, of_another_scale, response_of, words_of
+from instrument.models.specimen_mistakes import specimen_mistakes
 from instrument.progress import Progress, quiet
 
-NEAR, FAR = 0.55, 1.1
-"""Median distance ln(measured/predicted) of the best core: nothing to ask below, another plate above."""
-_BETTER = 0.4
-"""A mistake taken back has to leave at most this part of the distance."""
+NEAR, DOUBTFUL, SCALED, FAR = 0.1, 0.35, 0.5, 0.65
+"""Distance of the best core: nothing to ask below the first; phases are asked about above the second,
+powers, dB and stated numbers above the third; another specimen is certain above the last."""
+EXPLAINED, BETTER = 0.12, 0.35
+"""A mistake taken back has to leave no more, and at most this part of the distance."""
 _LOWEST_HZ = 1.0
-_ENOUGH = 2000
-"""Points, spread over the sweep: the median of more is the same one."""
-_MODULI, _LOSSES = 25, (0.05, 0.3, 1.0)
+_ENOUGH = 400
+"""Points, spread over the sweep: more say the same."""
+_WITH_EFFECTS = 0.45
+"""What effects of usual size leave at most."""
+_MANY = 24
+"""Numbers from which on they say more than a core and a factor can follow: fewer have to be far off."""
+_DELAYS_S = np.linspace(-3e-3, 3e-3, 1201)
+"""Of one channel beside the other: more than a decoder's, in steps that turn no phase below 2 kHz far."""
+_LOOKED_AT = 3
+"""Mistakes that come nearest on the grid of cores: the best is among them."""
 
 
-class _Mistake(NamedTuple):
-    words: str
-    taken_back: Callable[[Sweep, Complex], Complex | None]
-    """The response as it should have been; None where these data cannot have it."""
+def data_doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress = quiet) -> str:
+    """What seems wrong with data of this specimen, in a sentence; empty where a core of some kind comes near.
 
-
-def _times(factor: float) -> Callable[[Sweep, Complex], Complex | None]:
-    return lambda sweep, v: v * factor
-
-
-def _by_frequency(power: int) -> Callable[[Sweep, Complex], Complex | None]:
-    return lambda sweep, v: v * (2j * np.pi * sweep.frequency_hz) ** power
-
-
-def _with_phase(change: Callable[[Complex], Complex]) -> Callable[[Sweep, Complex], Complex | None]:
-    return lambda sweep, v: change(v) if sweep.has_phase else None
-
-
-def _uncrossed(sweep: Sweep, v: Complex) -> Complex | None:
-    if sweep.base_m_s2 is None:
-        return None
-    return np.asarray(sweep.base_m_s2 / sweep.velocity_m_s * sweep.commanded_m_s2)
-
-
-_MISTAKES = (
-    _Mistake("the velocity is in mm/s, expected m/s", _times(1e-3)),
-    _Mistake("the velocity is in um/s, expected m/s", _times(1e-6)),
-    _Mistake("the velocity is 1000 times too small, expected m/s", _times(1e3)),
-    _Mistake("the base acceleration is in g, expected m/s^2", _times(1 / STANDARD_GRAVITY_M_S2)),
-    _Mistake("level_g is in m/s^2, expected g", _times(STANDARD_GRAVITY_M_S2)),
-    _Mistake("displacement stands for velocity, or has to be named so", _by_frequency(1)),
-    _Mistake("acceleration stands for velocity, or has to be named so", _by_frequency(-1)),
-    _Mistake("the phase is conjugated, expected e^{+i omega t}", _with_phase(np.conj)),
-    _Mistake(
-        "the sign is turned, expected velocity and base acceleration in one direction",
-        _with_phase(np.negative),
-    ),
-    _Mistake("velocity and base acceleration are swapped: cables, or columns", _uncrossed),
-)
-
-
-def data_doubt(sweep: Sweep, specimen: Specimen, progress: Progress = quiet) -> str:
-    """What seems wrong with data of this plate, in a sentence; empty where a core of some kind comes near.
-
-    Raises `FittingError` where the plate cannot be modelled over these frequencies.
+    Of several spots the first one in the data is looked at. Raises `FittingError` where it cannot be modelled
+    over these frequencies.
     """
-    sweep = sweep.thinned(_ENOUGH)
+    with np.errstate(all="ignore"):
+        # What is meant otherwise may well divide by zero.
+        return _doubt(sweep, specimen, progress)
+
+
+def _doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> str:
     f = sweep.frequency_hz
     if f.max() < _LOWEST_HZ:
         return f"{f.min():g} to {f.max():g} Hz: the frequencies are in kHz, expected Hz"
+    sweep, specimen = _one_spot(sweep, specimen)
     try:
-        sums = _sums(specimen, f, progress)
+        model = any_core(specimen, sweep.frequency_hz, progress)
     except FittingError:
         if not _near_in_rad_s(sweep, specimen, progress):
             raise
         return _RAD_S
-    response = np.asarray(sweep.response_m_s, dtype=complex)
-    as_is = _distance(sweep, response, sums, specimen)
-    if as_is < NEAR or _distance(sweep, response, sums, _read_otherwise(specimen)) < NEAR:
+    as_is = _as_is(sweep, model)
+    near = NEAR if len(sweep) * (1 + sweep.has_phase) >= _MANY else SCALED
+    if as_is.distance < near or _as_is(sweep, replace(model, reads=_other(model))).distance < NEAR:
         # That the laser reads otherwise than stated is the diagnosis's to say.
         return ""
-    taken_back = {
-        m.words: _distance(sweep, v, sums, specimen)
-        for m in _MISTAKES
-        if (v := m.taken_back(sweep, response)) is not None
-    }
-    words = min(taken_back, key=taken_back.__getitem__)
-    if taken_back[words] < min(NEAR, _BETTER * as_is):
-        return f"it looks as if {words}"
+    said = _of_data(sweep, model, as_is, specimen.drive)
+    if said is not None:
+        return f"it looks as if {said}" if said else ""
     if _near_in_rad_s(sweep, specimen, progress):
         return _RAD_S
-    if as_is > FAR:
-        return (
-            f"no core makes this plate answer so (typically {np.exp(as_is):.2g} times off): another plate or "
-            "layer, unit, level or pickup"
-        )
-    return ""
+    if as_is.distance < SCALED:
+        return ""
+    for words, other in specimen_mistakes(specimen):
+        if _explains(_distance_of(sweep, other, progress), as_is.distance):
+            return f"it looks as if {words}"
+    if as_is.distance < FAR:
+        return ""
+    return (
+        f"no core makes this {specimen.kind} answer so (typically {np.exp(_median(sweep, model, as_is)):.2g} "
+        "times off): another specimen or layer, unit, level or pickup"
+    )
 
 
 _RAD_S = "it looks as if the frequencies are in rad/s, expected Hz"
 
 
-def _read_otherwise(specimen: Specimen) -> Specimen:
-    return replace(specimen, reads="relative" if specimen.reads == "absolute" else "absolute")
+def _explains(distance: float, as_is: float) -> bool:
+    return distance < min(EXPLAINED, BETTER * as_is)
 
 
-def _near_in_rad_s(sweep: Sweep, specimen: Specimen, progress: Progress) -> bool:
-    f = sweep.frequency_hz / (2 * np.pi)
+def _of_data(sweep: Sweep, model: AnyCore, as_is: Nearest, drive: Drive) -> str | None:
+    """The mistake in the data that explains them; empty where a diagnosis finds it, None where none does."""
+    mistake, found = _most_likely(sweep, model, list(mistakes(sweep)))
+    if _explains(found.distance, as_is.distance):
+        slight = mistake.is_slight(found.factor) and not mistake.is_habit(found.factor)
+        return "" if slight else words_of(mistake, found.factor, drive)
+    if as_is.distance > FAR:
+        # Data with an effect are as far off in the right unit, and nothing else makes a thousand of it.
+        alone, left = _most_likely(sweep, model, [Mistake(response_of)])
+        if left.distance < _WITH_EFFECTS and alone.is_unit(left.factor, drive):
+            return words_of(alone, left.factor, drive)
+    in_part = mistake_in_a_segment(sweep, model, as_is, drive)
+    if in_part is not None:
+        return in_part
+    if lacks_phase(sweep):
+        return (
+            "real and imaginary parts have no phase, expected velocity_m_s where amplitudes alone are known"
+        )
+    if as_is.distance < DOUBTFUL:
+        return None
+    of_size = _sizes(response_of(sweep), model)
+    if _explains(of_size, as_is.distance) and of_size < BETTER * found.distance:
+        if _is_late(sweep, model):
+            return ""
+        return "the amplitudes are this specimen's and the phases are not: unit, sign, delay or filter"
+    if as_is.distance < SCALED:
+        return None
+    scaled = [
+        (_sizes(response, model), mistake.words)
+        for mistake in of_another_scale()
+        if (response := mistake.taken_back(sweep)) is not None
+    ]
+    distance, words = min(scaled)
+    return words if _explains(distance, min(of_size, as_is.distance)) else None
+
+
+def _sizes(response: Complex, model: AnyCore) -> float:
+    """Distance of amplitudes alone, up to a factor."""
+    return model.nearest(response, has_phase=False, free=True).distance
+
+
+def _is_late(sweep: Sweep, model: AnyCore) -> bool:
+    """Whether phases are those of a delay: a diagnosis finds it."""
+    if not sweep.has_phase:
+        return False
+    core = model.nearest(response_of(sweep), has_phase=False, free=False).core
+    off = np.log(response_of(sweep)) - model.log_velocity(core[None])[0]
+    turned = np.exp(1j * (off.imag + sweep.omega * _DELAYS_S[:, None]))
+    left = np.abs(np.angle(turned)).mean(axis=1).min()
+    return bool(np.hypot(np.minimum(np.abs(off.real), FURTHEST).mean(), left) < EXPLAINED)
+
+
+def _distance_of(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> float:
     try:
-        sums = _sums(specimen, f, progress)
+        return _as_is(sweep, any_core(specimen, sweep.frequency_hz, progress)).distance
+    except FittingError:
+        return float("inf")
+
+
+def _other(model: AnyCore) -> Reading:
+    return "relative" if model.reads == "absolute" else "absolute"
+
+
+def _one_spot(sweep: Sweep, specimen: AnySpecimen) -> tuple[Sweep, AnySpecimen]:
+    """Of not too many points."""
+    if sweep.pickup is not None and isinstance(specimen, Specimen | Beam):
+        first = int(sweep.pickup.min())
+        sweep = replace(sweep.take(sweep.pickup == first), pickup=None)
+        specimen = specimen.at_pickup(first)
+    return sweep.thinned(_ENOUGH), specimen
+
+
+def _as_is(sweep: Sweep, model: AnyCore) -> Nearest:
+    return model.nearest(response_of(sweep), has_phase=sweep.has_phase, free=False)
+
+
+def _most_likely(sweep: Sweep, model: AnyCore, some: Sequence[Mistake]) -> tuple[Mistake, Nearest]:
+    tried: list[tuple[float, int, Mistake, Complex]] = []
+    for mistake in some:
+        response = mistake.taken_back(sweep)
+        if response is None:
+            continue
+        rough = model.nearest(response, has_phase=sweep.has_phase, free=True, refine=False)
+        tried.append((rough.distance, len(tried), mistake, response))
+    tried.sort(key=lambda one: one[:2])
+    refined = [
+        (mistake, model.nearest(response, has_phase=sweep.has_phase, free=True))
+        for _, _, mistake, response in tried[:_LOOKED_AT]
+    ]
+    return min(refined, key=lambda one: one[1].distance)
+
+
+def _median(sweep: Sweep, model: AnyCore, found: Nearest) -> float:
+    off = np.log(response_of(sweep)) - model.log_velocity(found.core[None])[0]
+    return float(np.median(np.abs(off.real)))
+
+
+def _near_in_rad_s(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> bool:
+    if not isinstance(specimen, Specimen | Beam):
+        # Of a pair any frequency is as good: its modulus goes along.
+        return False
+    slower = replace(sweep, frequency_hz=sweep.frequency_hz / (2 * np.pi))
+    try:
+        model = any_core(specimen, slower.frequency_hz, progress)
     except FittingError:
         return False
-    return _distance(sweep, np.asarray(sweep.response_m_s, dtype=complex), sums, specimen, f) < NEAR
-
-
-def _sums(specimen: Specimen, frequency_hz: Array, progress: Progress) -> RationalSweep:
-    models = Models.of(specimen, frequency_hz, progress)
-    return rational_sweep(models.reduced, 2 * np.pi * frequency_hz)
-
-
-def _distance(
-    sweep: Sweep,
-    response: Complex,
-    sums: RationalSweep,
-    specimen: Specimen,
-    frequency_hz: Array | None = None,
-) -> float:
-    """Median over the points of |ln(measured/predicted)|, of the core that makes it least."""
-    omega = 2 * np.pi * (sweep.frequency_hz if frequency_hz is None else frequency_hz)
-    low, high = np.log10(np.abs(sums.G_ref)) + np.array([-2.0, 2.0])
-    G = np.logspace(low, high, _MODULI)[:, None] * (1 + 1j * np.array(_LOSSES))
-    laws = G.reshape(-1, 1) * np.ones(len(omega))
-    assert specimen.core is not None
-    laws = np.concatenate([laws, specimen.core.law.modulus(omega)[None]])
-    v = velocity(omega, sums.displacement(laws), specimen.reads)
-    off = np.log(response / (v * sweep.commanded_m_s2))
-    size = np.abs(off) if sweep.has_phase else np.abs(off.real)
-    return float(np.min(np.median(size, axis=1)))
+    return _as_is(slower, model).distance < EXPLAINED

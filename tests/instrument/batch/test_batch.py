@@ -85,7 +85,7 @@ def test_a_sweep_in_another_unit_is_a_row_that_fails_unless_someone_insists(tmp_
     lines = [head] + [[row[0], *(repr(1e3 * float(x)) for x in row[1:])] for row in rows]
     (tmp_path / "mm.csv").write_text("\n".join(map(",".join, lines)) + "\n")
     task = BatchTask(str(tmp_path / "mm.csv"), str(plate))
-    said = "it looks as if the velocity is in mm/s, expected m/s; --force to go on all the same"
+    said = "it looks as if the pickup is read in mm (mm/s, mm/s^2), expected m; --force to go on all the same"
     assert outcome_of(task)["failed"] == said
     assert batch(task.data, "--specimen", plate, "--out", tmp_path, "--force") == 0
     assert rows_of(tmp_path)[0]["status"] == "done"

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import shear_pair_cases
 
 from fitting.gravity import STANDARD_GRAVITY_M_S2 as G
 from fitting.sweep import Sweep
@@ -17,16 +18,16 @@ F = np.geomspace(14.0, 70.0, 15)
 @pytest.fixture(scope="module", autouse=True)
 def _models_are_made_once():
     """Of one plate at the same frequencies."""
-    known, made = {}, quick_look._sums
+    known, made = {}, quick_look.any_core
     with pytest.MonkeyPatch.context() as patch:
 
-        def sums(specimen, f, progress):
-            key = specimen.length_m, f.tobytes()
+        def core(specimen, f, progress):
+            key = specimen, f.tobytes()
             if key not in known:
                 known[key] = made(specimen, f, progress)
             return known[key]
 
-        patch.setattr(quick_look, "_sums", sums)
+        patch.setattr(quick_look, "any_core", core)
         yield
 
 
@@ -51,24 +52,71 @@ def times(factor):
 
 
 OMEGA = 2j * np.pi * F
+TURNED = "the sign is turned, expected the pickup's and the drive's in one direction"
+HOLDS = ": a column's name says what it holds"
+MM = "the pickup is read in mm (mm/s, mm/s^2), expected m"
+IN_G = "the base acceleration is in g, or level_g in m/s^2"
 WRONG = {
-    "mm/s": (times(1e3), "the velocity is in mm/s, expected m/s"),
-    "um/s": (times(1e6), "the velocity is in um/s, expected m/s"),
-    "too small": (times(1e-3), "the velocity is 1000 times too small, expected m/s"),
-    "base in g": (
-        lambda s: replace(s, base_m_s2=s.base_m_s2 / G),
-        "the base acceleration is in g, expected m/s^2",
+    "mm/s": (times(1e3), MM),
+    "um/s": (times(1e6), "the pickup is read in um (um/s), expected m"),
+    "inches": (times(1 / 0.0254), "the pickup is read in inches, expected m"),
+    "too small": (
+        times(1e-3),
+        "the base acceleration is in mm/s^2, or the pickup's reading 1000 times too small",
     ),
-    "displacement": (times(1 / OMEGA), "displacement stands for velocity, or has to be named so"),
-    "acceleration": (times(OMEGA), "acceleration stands for velocity, or has to be named so"),
+    "base in g": (lambda s: replace(s, base_m_s2=s.base_m_s2 / G), IN_G),
+    "mm/s and g": (
+        lambda s: replace(s, velocity_m_s=1e3 * s.velocity_m_s, base_m_s2=s.base_m_s2 / G),
+        "the pickup is read in mm (mm/s) and the base acceleration in g",
+    ),
+    "some factor": (
+        times(25),
+        "the reading is 25 times this specimen's at all frequencies alike: unit, level or gain",
+    ),
+    "rms": (times(0.5**0.5), "the pickup's reading is rms and the base acceleration an amplitude"),
+    "peak to peak": (times(2), "the pickup's reading is peak to peak and the base acceleration an amplitude"),
+    "displacement": (
+        times(1 / OMEGA),
+        f"displacement stands for velocity, or velocity for acceleration{HOLDS}",
+    ),
+    "displacement in mm": (
+        times(1e3 / OMEGA),
+        f"{MM}, and displacement stands for velocity, or velocity for acceleration{HOLDS}",
+    ),
+    "acceleration": (
+        times(OMEGA),
+        f"acceleration stands for velocity, or velocity for the base's acceleration{HOLDS}",
+    ),
     "conjugated": (
         lambda s: replace(s, velocity_m_s=s.velocity_m_s.conj(), base_m_s2=s.base_m_s2.conj()),
         "the phase is conjugated, expected e^{+i omega t}",
     ),
-    "turned": (times(-1), "the sign is turned, expected velocity and base acceleration in one direction"),
+    "turned": (times(-1), TURNED),
+    "exchanged parts": (
+        lambda s: replace(s, velocity_m_s=1j * (s.velocity_m_s * np.exp(-0.1j)).conj()),
+        "real and imaginary part of one channel are exchanged",
+    ),
     "swapped": (
         lambda s: replace(s, velocity_m_s=s.base_m_s2, base_m_s2=s.velocity_m_s),
-        "velocity and base acceleration are swapped: cables, or columns",
+        "what the pickup reads and what drives are swapped: cables, or columns",
+    ),
+    "polar": (
+        lambda s: replace(
+            s, velocity_m_s=np.abs(s.velocity_m_s) + 1j * np.degrees(np.angle(s.velocity_m_s)), base_m_s2=None
+        ),
+        "amplitude and phase (in degrees) stand for real and imaginary part",
+    ),
+    "no phase": (
+        lambda s: replace(s, velocity_m_s=np.abs(s.velocity_m_s) + 0j, base_m_s2=None),
+        "real and imaginary parts have no phase, expected velocity_m_s where amplitudes alone are known",
+    ),
+    "power": (
+        lambda s: replace(s, velocity_m_s=np.abs(s.velocity_m_s) ** 2, base_m_s2=None),
+        "the response is a power (a square), expected an amplitude",
+    ),
+    "dB": (
+        lambda s: replace(s, velocity_m_s=20 * np.log10(np.abs(s.velocity_m_s) / 1e-9), base_m_s2=None),
+        "the response is in dB, expected an amplitude",
     ),
 }
 
@@ -103,23 +151,59 @@ def test_frequencies_in_radians_a_second_are_asked_about(plate, right):
 
 def test_what_no_core_and_no_mistake_explains_is_another_plate(monkeypatch, plate, right):
     monkeypatch.setattr(quick_look, "_near_in_rad_s", lambda *_: False)
+    monkeypatch.setattr(quick_look, "specimen_mistakes", lambda _: ())
     rng = np.random.default_rng(1)
     nonsense = times(np.exp(rng.normal(0, 3, len(F)) + 1j * rng.uniform(0, 6, len(F))))(right)
     said = data_doubt(nonsense, plate)
     assert said.startswith("no core makes this plate answer so (typically ")
-    assert said.endswith("another plate or layer, unit, level or pickup")
+    assert said.endswith("another specimen or layer, unit, level or pickup")
 
 
 def test_a_sweep_of_very_many_lines_is_looked_at_in_a_part_of_them(monkeypatch, plate, right):
     seen = []
 
-    def sums(specimen, f, progress):
+    def core(specimen, f, progress):
         seen.append(f)
         return known
 
-    known = quick_look._sums(plate, F, quick_look.quiet)
-    monkeypatch.setattr(quick_look, "_sums", sums)
+    known = quick_look.any_core(plate, F, quick_look.quiet)
+    monkeypatch.setattr(quick_look, "any_core", core)
     monkeypatch.setattr(quick_look, "_ENOUGH", len(F))
     many = right.take(np.repeat(np.arange(len(F)), 500)[::-1])
     assert data_doubt(many, plate) == ""
     np.testing.assert_allclose(seen, [F])
+
+
+def test_a_delay_is_left_to_the_diagnosis(plate, right):
+    assert data_doubt(times(np.exp(-1e-3 * OMEGA))(right), plate) == ""
+
+
+def test_a_factor_that_is_no_habit_is_left_to_the_diagnosis(plate, right):
+    assert data_doubt(times(1.2)(right), plate) == ""
+
+
+def test_a_pickup_stated_from_the_free_end_is_said_to_be(plate, right):
+    x, y = plate.pickup_m
+    said = data_doubt(right, replace(plate, pickup_m=(plate.length_m - x, y)))
+    assert said == "it looks as if pickup.x_mm is from the free end, expected from the clamp"
+
+
+def pair_data():
+    pair = shear_pair_cases.pair(0.573)
+    return shear_pair_cases.sweep(pair), pair
+
+
+def test_a_shear_pair_is_looked_at_too():
+    sweep, pair = pair_data()
+    assert data_doubt(sweep, pair) == ""
+    assert data_doubt(times(1e3)(sweep), pair) == f"it looks as if {MM}"
+    assert data_doubt(replace(sweep, base_m_s2=sweep.base_m_s2 / G), pair) == f"it looks as if {IN_G}"
+    rms = replace(sweep, base_m_s2=sweep.base_m_s2 * 0.5**0.5)
+    assert "base acceleration is rms" in data_doubt(rms, pair)
+    conjugated = data_doubt(
+        replace(sweep, velocity_m_s=(sweep.velocity_m_s * OMEGA_1).conj() / OMEGA_1), pair
+    )
+    assert "conjugated" in conjugated
+
+
+OMEGA_1 = 2j * np.pi * pair_data()[0].frequency_hz

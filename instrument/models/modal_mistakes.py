@@ -1,0 +1,118 @@
+"""Tables of modes that fit far better if they are read otherwise: damping ratios, a mode that is missing.
+
+The law of a mode's loss and the slope of its stiffness belong together: losses half as large leave a misfit
+that another law, or an effect, takes up for certain. So it is asked before either is believed.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from fitting.errors import FittingError
+from fitting.mode_tables.fit import fit_modes
+from fitting.mode_tables.table import ModalTable
+from fitting.structures import AnySpecimen
+from instrument.progress import Progress, quiet
+
+_BETTER = 12.0
+"""In chi-square: e^6 times likelier, four hundred to one."""
+_PART, _PART_OF_HALF = 0.2, 0.4
+"""Of chi-square per degree may be left, whatever the errors of the table are; the second of damping ratios,
+the commonest mistake."""
+_FITS = 3.0
+"""Chi-square per degree up to which a table follows its law."""
+_GROSS = 3.0
+"""Chi-square per degree from which numbers of modes, too, are asked about."""
+
+_Reading = tuple[str, list[ModalTable], float]
+"""In words, the tables, and the part of chi-square per degree that they may leave."""
+
+
+def table_doubt(
+    tables: Sequence[ModalTable],
+    specimens: Sequence[AnySpecimen],
+    chi2_per_dof: float,
+    progress: Progress = quiet,
+) -> str:
+    """What to ask of tables whose fit leaves so much; empty where no mistake explains it."""
+    numbers = 2 * sum(len(t.mode) for t in tables)
+    if not numbers * chi2_per_dof > _BETTER:
+        return ""
+    gross = chi2_per_dof > _GROSS
+    with progress("reading the modes otherwise"), threadpool_limits(1, "blas"), np.errstate(all="ignore"):
+        for some in _readings(tables, gross=gross):
+            left, words, part = min((_left(other, specimens), words, part) for words, other, part in some)
+            enough = numbers * (chi2_per_dof - left) > _BETTER and left < part * chi2_per_dof
+            if enough and left < _FITS:
+                return (
+                    f"the modes follow a law far better (chi-square per degree {left:.2g}, not "
+                    f"{chi2_per_dof:.2g}) if {words}: is it so?"
+                )
+    return ""
+
+
+def _left(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> float:
+    """Chi-square per degree."""
+    try:
+        return float(fit_modes(tables, specimens).uncertainty.chi2_per_dof)
+    except FittingError:
+        return float("inf")
+
+
+def _readings(tables: Sequence[ModalTable], *, gross: bool) -> Iterator[list[_Reading]]:
+    """How they may be meant, the likeliest first: of each list the best counts."""
+    losses: list[_Reading] = [
+        ("loss_factor holds damping ratios, half of it", [_times(t, 2.0) for t in tables], _PART_OF_HALF),
+        ("loss_factor is twice what it should be", [_times(t, 0.5) for t in tables], _PART),
+    ]
+    if not gross:
+        yield losses
+        return
+    yield [
+        *losses,
+        (
+            "loss_factor holds logarithmic decrements, pi times it",
+            [_times(t, 1 / np.pi) for t in tables],
+            _PART,
+        ),
+        ("frequency_hz is in rad/s", [_slower(t) for t in tables], _PART),
+    ]
+    for k, table in enumerate(tables):
+        whose = f"{table.name}: " if len(tables) > 1 and table.name else ""
+        for words, other in _renumbered(table):
+            yield [(whose + words, [*tables[:k], other, *tables[k + 1 :]], _PART)]
+
+
+def _times(table: ModalTable, factor: float) -> ModalTable:
+    std = table.loss_factor_std
+    return replace(
+        table,
+        loss_factor=factor * table.loss_factor,
+        loss_factor_std=None if std is None else factor * std,
+    )
+
+
+def _slower(table: ModalTable) -> ModalTable:
+    std, once = table.frequency_std_hz, 2 * np.pi
+    return replace(
+        table,
+        frequency_hz=table.frequency_hz / once,
+        frequency_std_hz=None if std is None else std / once,
+    )
+
+
+def _renumbered(table: ModalTable) -> Iterator[tuple[str, ModalTable]]:
+    for first in table.mode:
+        later = table.mode + (table.mode >= first)
+        yield f"a mode is missing before mode {first:g}", replace(table, mode=later)
+    for k, one in enumerate(table.mode):
+        rest = np.arange(len(table.mode)) != k
+        columns = {
+            name: value[rest]
+            for name, value in vars(table).items()
+            if isinstance(value, np.ndarray) and name != "mode"
+        }
+        earlier = table.mode[rest] - (table.mode[rest] > one)
+        yield f"mode {one:g} is none of the specimen", replace(table, mode=earlier, **columns)

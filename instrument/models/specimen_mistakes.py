@@ -1,0 +1,100 @@
+"""Stated numbers that are right for something else: from the other end, exchanged, in another unit."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen, Beam
+
+_CM, _INCH = 10.0, 25.4
+"""Times a length that was taken for mm."""
+_MSI = 6.894757
+"""GPa of a million psi."""
+
+Stated = tuple[str, AnySpecimen]
+
+
+def specimen_mistakes(specimen: AnySpecimen) -> Iterator[Stated]:
+    """What seems to be stated, in a phrase, and the specimen that would be meant; the likeliest first."""
+    if isinstance(specimen, Specimen):
+        yield from _spots(specimen)
+        yield from _sides(specimen)
+        yield from _faces(specimen)
+    elif isinstance(specimen, Beam):
+        yield from _spot_of_beam(specimen)
+        yield from _length_of_beam(specimen)
+        yield from _faces(specimen)
+
+
+def _spots(plate: Specimen) -> Iterator[Stated]:
+    assert plate.pickup_m is not None
+    (x, y), length, width = plate.pickup_m, plate.length_m, plate.width_m
+    yield "pickup.x_mm is from the free end, expected from the clamp", _at(plate, length - x, y)
+    if y <= width / 2:
+        yield "pickup.y_mm is from the middle, expected from a long edge", _at(plate, x, width / 2 + y)
+    if x <= length / 2 and y <= width / 2:
+        middle = _at(plate, length / 2 + x, width / 2 + y)
+        yield "the pickup is stated from the plate's middle, expected from its corner at the clamp", middle
+    if y <= length and x <= width and x != y:
+        yield "pickup.x_mm and pickup.y_mm are exchanged", _at(plate, y, x)
+
+
+def _at(plate: Specimen, x: float, y: float) -> Specimen:
+    return replace(plate, pickup_m=(x, y))
+
+
+def _sides(plate: Specimen) -> Iterator[Stated]:
+    assert plate.pickup_m is not None
+    length, width, (x, y) = plate.length_m, plate.width_m, plate.pickup_m
+    sides = replace(plate, length_m=width, width_m=length)
+    if x <= width and y <= length:
+        yield "plate.length_mm and plate.width_mm are exchanged", sides
+    yield "length and width are exchanged, and the pickup's with them", _at(sides, y, x)
+    for unit, times in (("cm", _CM), ("inches", _INCH)):
+        other = replace(plate, length_m=times * length, width_m=times * width)
+        yield f"length, width and pickup are in {unit}, expected mm", _at(other, times * x, times * y)
+
+
+def _spot_of_beam(beam: Beam) -> Iterator[Stated]:
+    x, force, length = beam.pickup_m, beam.force_m, beam.span_m
+    if x is not None and x <= length:
+        yield (
+            "pickup.x_mm is from the free end, expected from the clamped one",
+            replace(beam, pickup_m=length - x),
+        )
+    if force is not None and force <= length:
+        yield "excitation.x_mm is from the other end", replace(beam, force_m=length - force)
+        if x is not None and x <= length:
+            both = replace(beam, force_m=length - force, pickup_m=length - x)
+            yield "pickup and excitation are from the free end, expected from the clamped one", both
+            yield "pickup.x_mm and excitation.x_mm are exchanged", replace(beam, force_m=x, pickup_m=force)
+
+
+def _length_of_beam(beam: Beam) -> Iterator[Stated]:
+    for unit, times in (("cm", _CM), ("inches", _INCH)):
+        other = replace(
+            beam,
+            length_m=times * beam.length_m,
+            width_m=times * beam.width_m,
+            pickup_m=None if beam.pickup_m is None else times * beam.pickup_m,
+            force_m=None if beam.force_m is None else times * beam.force_m,
+        )
+        yield f"length, width and places are in {unit}, expected mm", other
+
+
+def _faces(one: Specimen | Beam) -> Iterator[Stated]:
+    upper, core = one.constraining, one.core
+    if upper is None or core is None:
+        return
+    thinner = replace(one, constraining=replace(upper, thickness_m=core.thickness_m))
+    exchanged = replace(thinner, core=replace(core, thickness_m=upper.thickness_m))
+    yield "the thicknesses of core and constraining layer are exchanged", exchanged
+    lower = replace(one.substrate, thickness_m=upper.thickness_m)
+    turned = replace(one, substrate=lower, constraining=replace(upper, thickness_m=one.substrate.thickness_m))
+    yield "the thicknesses of substrate and constraining layer are exchanged", turned
+    stiff = replace(
+        one,
+        substrate=replace(one.substrate, young_pa=_MSI * one.substrate.young_pa),
+        constraining=replace(upper, young_pa=_MSI * upper.young_pa),
+    )
+    yield "young_gpa is in millions of psi, expected GPa", stiff
