@@ -1,5 +1,10 @@
 """Numbers in sentences."""
 
+from math import exp, floor, log
+
+_WRITTEN = 1e4
+"""Odds up to which they are written out: of larger ones the power of ten says enough."""
+
 
 def written_out(value: float, digits: int) -> str:
     """Some significant digits without an exponent: 97400 and not 9.74e+04."""
@@ -14,3 +19,11 @@ def all_digits(value: float, digits: int) -> str:
 def two_digits(value: float) -> str:
     """The same of two: 630 and not 6.3e+02; a share of 99.8 is 100."""
     return written_out(value, 2)
+
+
+def times(log_odds: float) -> str:
+    """Natural logarithm of odds as how many times as likely one is as the other: 3 are `20 times`."""
+    if log_odds < log(_WRITTEN):
+        odds = exp(log_odds)
+        return f"{odds:.1f} times" if odds < 10 else f"{two_digits(odds)} times"
+    return f"over 10^{floor(log_odds / log(10))} times"

@@ -48,8 +48,8 @@ _AGREE = 3.0
 _AT_ONCE = 0.4
 """Of the largest share by which readings at an end are off: none of them is off by less. A choice."""
 _LOST = 0.5
-"""Of the curve: readings at an end are off by more, as what is lost is; what is off by less may be a
-resonance there."""
+"""Of the curve: one of the readings at an end is off by more, as what is lost is; what is off by less may be
+a resonance there."""
 _REPEATED = 0.1
 """Of the numbers: as many are there twice where they were read or written in steps."""
 
@@ -133,7 +133,7 @@ def _missing(f: Array, v: Complex, scatter: Array, suspect: Mask) -> Mask:
         # Between as many on either side where something is suspect; at an end, with what is there before it.
         gaps = [_parted(at[suspect[at].any(axis=1)], _SIDE, count)] if count > 1 else []
         between = sum(len(inner) for inner, _ in gaps)
-        for k in range(_SIDE if count < _SIDE else 1):
+        for k in range(_SIDE - count + (1 if count == 1 else 2)):
             gaps += [_parted(at[:1], k, count), _parted(at[-1:], 2 * _SIDE - k, count)]
         if not gaps:
             continue
@@ -164,7 +164,7 @@ def _at_once(f: Array, v: Complex, inner: Places, outer: Places) -> bool:
     freer = _curve(f[near], v[near], f[inner], poles=2)
     off = np.abs(v[inner] - curve)
     share = off * np.abs(curve).max() / np.maximum(np.abs(curve), 1e-9 * np.abs(curve).max())
-    at_once = share.min() > max(_AT_ONCE * share.max(), _LOST * np.abs(curve).max())
+    at_once = share.min() > _AT_ONCE * share.max() and share.max() > _LOST * np.abs(curve).max()
     return bool(at_once and np.all(off > _AGREE * np.abs(freer - curve)))
 
 

@@ -14,10 +14,11 @@ from functools import cached_property
 from typing import Protocol
 
 import numpy as np
+import scipy.linalg as la
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array, Complex, Mask
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate, Names
 from fitting.errors import OutsideModel
@@ -28,6 +29,10 @@ from fitting.placed import Placed
 from fitting.rational import RationalSweep
 from fitting.specimen import StatedSpecimen
 
+_ROUNDED = 1e-13
+"""Of the largest: smaller eigenvalues are rounding."""
+_NEAR = 1e4
+"""Of g/|g - G|, G the nearest modulus of a resonance without losses."""
 _SHARED, _BANDS = 100, 4
 """Points from which on two threads share them, a millisecond's work, and the bands that they share."""
 _STILL = 1e-9
@@ -298,7 +303,24 @@ def rational_of(
 
 
 def _terms(system: EnrichedReducedPlate, omega: Array, G_ref: complex) -> tuple[Complex, Complex]:
-    """Terms c and mu of the sum at each frequency. Shape (n, k) each."""
+    """Terms c and mu of the sum at each frequency. Shape (n, any) each."""
+    try:
+        B = _only_core_loses(system, omega, G_ref)
+        if B is None:
+            return _complex_terms(system, omega, G_ref)
+        c, mu, near = _real_terms(system, B, omega, G_ref)
+    except np.linalg.LinAlgError:
+        # A resonance to the last digit.
+        return _complex_terms(system, omega, G_ref)
+    if near.any():
+        # Beside a resonance of real numbers these are of no use.
+        c[near], mu[near] = 0.0, 0.0
+        c[near, 1:], mu[near, 1:] = _complex_terms(system, omega[near], G_ref)
+    return c, mu
+
+
+def _complex_terms(system: EnrichedReducedPlate, omega: Array, G_ref: complex) -> tuple[Complex, Complex]:
+    """Whatever loses energy. Shape (n, k) each."""
     w = omega[:, None, None]
     C_1 = (system.U * system.d) @ system.U.T
     A = system.K_0 + G_ref * system.K_1 - w**2 * system.M + 1j * w * C_1
@@ -307,6 +329,47 @@ def _terms(system: EnrichedReducedPlate, omega: Array, G_ref: complex) -> tuple[
     mu, Y = np.linalg.eig(solved[:, :, :-1])
     weights = np.linalg.solve(Y, solved[:, :, -1:])[:, :, 0]
     return (system.observe @ Y) * weights, mu
+
+
+def _only_core_loses(system: EnrichedReducedPlate, omega: Array, G_ref: complex) -> Array | None:
+    """B with K_1 = B B^T, where K_0 is real and nothing damps; else None. Shape (k, k)."""
+    if np.any(np.imag(system.K_0)) or np.any(system.d):
+        return None
+    # In units of all that moves: sizes of unknowns differ by orders, and what is small counts as much.
+    whole = np.real(system.K_0) + abs(G_ref) * system.K_1 + omega.max() ** 2 * system.M
+    L = np.linalg.cholesky(whole)
+    values, Q = np.linalg.eigh(
+        la.solve_triangular(L, la.solve_triangular(L, system.K_1, lower=True).T, lower=True)
+    )
+    if values[0] < -_ROUNDED * values[-1]:
+        return None
+    return np.asarray(L @ Q * np.sqrt(np.maximum(values, 0.0)))
+
+
+def _real_terms(
+    system: EnrichedReducedPlate, B: Array, omega: Array, G_ref: complex
+) -> tuple[Complex, Complex, Mask]:
+    """The same in real numbers, and where they are near a resonance. Shapes (n, k + 1) twice, (n,).
+
+    About g = |G_ref| A = K_0 + g K_1 - w^2 M is real and symmetric.
+
+    With H = B^T A^-1 B = Z diag(h) Z^T the response o^T (A + (G - g) B B^T)^-1 f is, by Woodbury's identity,
+    o^T A^-1 f - sum p q (G - g) / (1 + (G - g) h), p = Z^T B^T A^-1 o, q = Z^T B^T A^-1 f.
+    """
+    g = abs(G_ref)
+    A = np.real(system.K_0) + g * system.K_1 - omega[:, None, None] ** 2 * system.M
+    sides = np.concatenate([B, system.load[:, None]], axis=1)
+    solved = np.linalg.solve(A, np.broadcast_to(sides, (len(omega), *sides.shape)))
+    h, Z = np.linalg.eigh(B.T @ solved[:, :, :-1])
+    p, q = ((v[:, None, :] @ Z)[:, 0] for v in (system.observe @ solved[:, :, :-1], solved[:, :, -1] @ B))
+    # What hardly depends on G is left to the term without it.
+    moves = np.abs(h) > _ROUNDED * np.abs(h).max(axis=1, keepdims=True)
+    c = np.where(moves, p * q / np.where(moves, h, 1.0), 0.0)
+    rest = solved[:, :, -1] @ system.observe - c.sum(axis=1)
+    # About the modulus wanted: 1 + (G - g) h = s (1 + (G - G_ref) h / s).
+    s = 1 + (G_ref - g) * h
+    c, mu = np.column_stack([rest, c / s]), np.column_stack([np.zeros(len(omega)), h / s])
+    return c.astype(complex), mu.astype(complex), g * np.abs(h).max(axis=1) > _NEAR
 
 
 def displacement(system: EnrichedReducedPlate, omega: Array, G: Complex) -> Complex:

@@ -16,6 +16,7 @@ from fitting.diagnosis.several import SeveralProblem
 from fitting.diagnosis.small_problem import SmallProblem
 from fitting.diagnosis.stage import stage_of
 from fitting.diagnosis.structure import structure
+from fitting.digits import times
 from fitting.effects import CATALOGUE
 from fitting.identification.result import differences_percent
 from fitting.laws import CoreLaw
@@ -68,7 +69,7 @@ def with_transfer(result: Diagnosis, work: ProblemSource) -> Diagnosis:
     story = CATALOGUE["fixture_transfer"].story({k: p.value for k, p in effect.parameters.items()})
     said = (
         f"{story[0].upper()}{story[1:]}; with that factor free at every frequency, and stretches that were "
-        f"set aside back again, the files follow one law (e^{found.nats:.0f} times as likely as with each "
+        f"set aside back again, the files follow one law ({times(found.nats)} as likely as with each "
         "file off by itself)."
     )
     return replace(

@@ -142,7 +142,8 @@ def evidence_figure(found: DiagnosisResult) -> Figure:
     ax.invert_yaxis()
     label(
         ax,
-        x="ln odds over the fit without any effect (labels: probability, chi² per degree of freedom)",
+        x="times as likely as no effect, in powers of e: 3 is 20 times "
+        "(labels: probability, chi² per degree of freedom)",
     )
     handles = [Patch(color=colour, label=name) for colour, name in _BAR_NAMES.items() if colour in colours]
     figure.legend(handles=handles, loc="outside upper center", ncols=4, fontsize=8, frameon=False)

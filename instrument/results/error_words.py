@@ -1,6 +1,6 @@
 """Standard errors as people read them. Numbers in files keep all their digits."""
 
-from math import isfinite
+from math import floor, isfinite, log10
 
 from fitting.digits import two_digits
 from instrument.results.numbers import with_error
@@ -19,12 +19,11 @@ def percent_words(error: float, value: float) -> str:
 
 def ratio_words(ratio: float, error: float, sign: str = "+-") -> str:
     """A damping ratio in percent with its error; the floor where the error is below it."""
-    least = FLOOR_PERCENT / 100 * abs(ratio)
-    return (
-        f"{100 * ratio:.4f} {sign} <{100 * least:.1g}"
-        if error < least
-        else with_error(ratio, error, 100, sign)
-    )
+    if not is_below_floor(error, ratio):
+        return with_error(ratio, error, 100, sign)
+    # As many digits as the next power of ten above the floor has.
+    digits = max(0, floor(-log10(FLOOR_PERCENT * abs(ratio))))
+    return f"{100 * ratio:.{digits}f} {sign} below {10.0**-digits:.{digits}f}"
 
 
 def is_below_floor(error: float, value: float) -> bool:

@@ -2,10 +2,11 @@
 
 from collections.abc import Sequence
 
+from fitting.digits import times
 from instrument.facts.follow_up import FollowUp, FollowUpKind
 
 NEXT_TITLE = "what would tell the explanations apart, best first"
-NEXT_COLUMNS = ("what to measure", "s of rig and hands", "settles it", "nats apart")
+NEXT_COLUMNS = ("what to measure", "s of rig and hands", "settles it", "likelier by")
 
 _FOLLOWING: dict[FollowUpKind, str] = {
     "frequencies": "more steps",
@@ -37,7 +38,7 @@ def kind_words(kind: FollowUpKind) -> str:
 
 def next_row(offer: FollowUp) -> tuple[str, ...]:
     """One row under `NEXT_COLUMNS`."""
-    return offer.todo, f"{offer.seconds:.0f}", _percent(offer), f"{offer.separation:.1f}"
+    return offer.todo, f"{offer.seconds:.0f}", _percent(offer), times(offer.separation)
 
 
 def apart_words(between: Sequence[str]) -> str:

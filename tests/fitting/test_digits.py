@@ -2,7 +2,7 @@
 
 import pytest
 
-from fitting.digits import all_digits, two_digits, written_out
+from fitting.digits import all_digits, times, two_digits, written_out
 
 
 @pytest.mark.parametrize(
@@ -25,3 +25,8 @@ def test_zeros_at_the_end_are_kept_where_numbers_stand_beside_each_other():
         "7.039",
         "1234",
     ]
+
+
+def test_odds_are_said_as_how_many_times_as_likely():
+    assert [times(x) for x in (0.0, 0.7, 3.0, 9.2)] == ["1.0 times", "2.0 times", "20 times", "9900 times"]
+    assert times(200.0) == "over 10^86 times"

@@ -22,7 +22,8 @@ _COLUMNS = {
     "standing": "Found: accepted by the data. Not told from it: fits as well, within the data's power. "
     "Or your word: accepted effects are fitted, declined ones left out of the search",
     "probability": "Of this explanation, one of those that were tried being right: prior times marginal "
-    "likelihood. The bar is the evidence: ln odds over the fit without any effect.",
+    "likelihood. The bar is the evidence: how many times as likely as no effect, in powers of e (3 is 20 "
+    "times).",
     "χ²/degree": "What is left, in units of noise and model error: 1 where nothing is",
     "parameters ± standard error": "Of the effect, as fitted with the law",
 }

@@ -18,8 +18,8 @@ _TIPS = (
     "Expected logarithm of the odds between the two it separates best; 3 are odds of twenty",
 )
 _SAID = (
-    "Settles it: the chance that one explanation holds 95 % afterwards. Nats apart: how far the two that it "
-    "separates best are expected to part; 3 are odds of twenty."
+    "Settles it: the chance that one explanation holds 95 % afterwards. Likelier by: of the two that it "
+    "separates best, how many times as likely the true one is expected to be as the other."
 )
 
 
@@ -57,11 +57,11 @@ class NextTable(QWidget):
 
 
 def _cells(offer: FollowUp) -> list[Cell]:
-    todo, seconds, settles, nats = next_row(offer)
+    todo, seconds, settles, odds = next_row(offer)
     return [
         Cell(todo, offer.why, left=True),
         Cell(seconds),
         Cell(settles, fill="data", share=float(offer.probability_resolved)),
-        Cell(nats),
+        Cell(odds),
         Cell(separated_words(offer.between), separated_words(offer.between, len(offer.between)), left=True),
     ]

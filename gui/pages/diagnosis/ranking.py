@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from inspect import getdoc, getmodule
 from typing import Literal
 
+from fitting.digits import times
 from fitting.effects import CATALOGUE
 from gui.rediagnosis import effects_of
 from instrument.facts.diagnosis import DiagnosisResult
@@ -39,7 +40,9 @@ class CandidateRow:
         """What the bar means."""
         if self.gain is None:
             return "not among the candidates of this search"
-        return f"ln odds {self.gain:+.1f} over the fit without any effect"
+        if self.gain < 0:
+            return f"no effect is {times(-self.gain)} as likely as this"
+        return f"{times(self.gain)} as likely as no effect"
 
 
 def ranked(found: DiagnosisResult) -> list[CandidateRow]:

@@ -30,7 +30,7 @@ def test_a_group_is_named_whole():
 def test_evidence_is_what_is_gained_over_no_effect():
     rows = {row.name: row for row in ranked(diagnosis())}
     assert rows["added_mass"].gain == pytest.approx(200.0)
-    assert rows["added_mass"].gain_words == "ln odds +200.0 over the fit without any effect"
+    assert rows["added_mass"].gain_words == "over 10^86 times as likely as no effect"
     assert rows["added_mass"].probability == "82.0 %"
     assert rows["none"].probability == "< 0.1 %"
     assert rows["clamp_compliance"].probability == "–"
