@@ -32,6 +32,11 @@ _MOST_GB = 5.0
 _HUNDRED_SQUARE = (80.0, 8.0)
 """What a response of 100 x 100 elements took: seconds, GB. Both go with the longer side, and with the third
 and second power of the shorter one: its lines are factorised."""
+_FASTEST_M_S, _SLOWEST_M_S = 13_500.0, 2_200.0
+"""Of sound along a bar: beryllium has 12,900, and what is stiffer for its weight are fibres; aluminium and
+steel have 5000, brass 3500, tin 2600."""
+_METALS_KG_M3 = (2500.0, 9000.0)
+"""From aluminium to copper: lead and gold are slower."""
 SPOT_MM = 0.3
 """No laser's spot is so near an edge: it would be half beside it."""
 
@@ -86,6 +91,8 @@ def specimen_doubts(tables: dict[str, Any]) -> list[str]:
     found: list[str] = []
     for name, usual in wanted.items():
         found += outside(name, tables.get(name), usual)
+    for name in _LAYERS:
+        found += _metal(name, tables.get(name))
     placed = tables.get("mass")
     for mass in placed if isinstance(placed, list) else []:
         found += outside("mass", mass, _PLACED)
@@ -110,6 +117,21 @@ def outside(place: str, table: Any, usual: dict[str, Usual]) -> Iterator[str]:
                 f"{place}.{key} = {value:g} is outside {limits.low:g} to {limits.high:g} ({limits.known})"
                 f"{_mistaken(value, limits)}"
             )
+
+
+def _metal(name: str, table: Any) -> Iterator[str]:
+    """Whether some solid has both its modulus and its density, by the speed of sound along a bar."""
+    if not isinstance(table, dict):
+        return
+    E, density = table.get("young_gpa"), table.get("density_kg_m3")
+    if not (isinstance(E, int | float) and isinstance(density, int | float) and E > 0 and density > 0):
+        return
+    speed = math.sqrt(1e9 * E / density)
+    said = f"{name}.young_gpa = {E:g} with density_kg_m3 = {density:g}"
+    if speed > _FASTEST_M_S:
+        yield f"{said}: no solid is so stiff and so light: is one of them another layer's?"
+    elif speed < _SLOWEST_M_S and _METALS_KG_M3[0] < density < _METALS_KG_M3[1]:
+        yield f"{said}: no metal is so soft: is it in millions of psi (6.9 GPa)?"
 
 
 def _mistaken(value: float, usual: Usual) -> str:

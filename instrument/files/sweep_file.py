@@ -205,7 +205,7 @@ def _check_twice(path: Path, lines: list[int], columns: dict[str, Array]) -> Non
         if key in seen:
             raise BadInput(
                 f"{path}: line {line}: the same point as line {seen[key]} "
-                f"({', '.join(names)} all equal), expected each once"
+                f"({', '.join(names)} all equal), expected each once, or a column sweep that numbers passes"
             )
         seen[key] = line
 

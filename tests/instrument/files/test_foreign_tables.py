@@ -147,3 +147,24 @@ def test_a_mass_in_grams_is_questioned():
     (doubt,) = specimen_doubts({"mass": [{"mass_kg": 0.005}, {"mass_kg": 5}]})
     assert doubt.startswith("mass.mass_kg = 5 is outside 1e-05 to 2")
     assert doubt.endswith("is it in g?")
+
+
+@pytest.mark.parametrize(
+    ("young_gpa", "density", "asked"),
+    [
+        (209.0, 789.5, "is one of them another layer's"),
+        (10.0, 2700.0, "in millions of psi"),
+        (30.0, 7850.0, "in millions of psi"),
+    ],
+)
+def test_a_face_that_is_no_solid_is_asked_about(young_gpa, density, asked):
+    (doubt,) = specimen_doubts({"constraining": {"young_gpa": young_gpa, "density_kg_m3": density}})
+    assert asked in doubt
+
+
+@pytest.mark.parametrize(
+    ("young_gpa", "density"),
+    [(69.0, 2700.0), (205.0, 7850.0), (287.0, 1850.0), (3.0, 1200.0), (16.0, 11_340.0), (50.0, 7300.0)],
+)
+def test_metals_and_polymers_are_not_asked_about(young_gpa, density):
+    assert specimen_doubts({"substrate": {"young_gpa": young_gpa, "density_kg_m3": density}}) == []
