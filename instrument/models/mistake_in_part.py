@@ -8,10 +8,12 @@ from fitting.sweep import Sweep
 from instrument.models.any_core import FURTHEST, AnyCore, Nearest
 from instrument.models.mistakes import Mistake, response_of, words_of
 
-_LEFT = 0.12
+_LEFT = 0.2
 """Distance that may be left where each segment has a factor of its own."""
-_BETTER = 0.35
+_BETTER = 0.5
 """Of the distance without."""
+_TURN = 0.35
+"""Rad from none or half a turn: in between a resonance lies elsewhere."""
 
 
 def mistake_in_a_segment(sweep: Sweep, model: AnyCore, as_is: Nearest, drive: Drive) -> str | None:
@@ -27,14 +29,16 @@ def mistake_in_a_segment(sweep: Sweep, model: AnyCore, as_is: Nearest, drive: Dr
         left[part] = size
         mistake = Mistake(response_of, conjugated=conjugated)
         words = words_of(mistake, factor, drive)
-        if words and mistake.is_slight(factor):
+        if mistake.is_slight(factor) and abs(np.log(abs(factor))) > _TURN:
             slight += 1
-        elif words:
+        elif words and abs(np.sin(np.angle(factor))) < np.sin(_TURN):
             f = sweep.frequency_hz[part]
             said.append(f"in segment {number} ({f.min():g} to {f.max():g} Hz) {words}")
-    if left.mean() > min(_LEFT, _BETTER * as_is.distance) or 2 * (len(said) + slight) >= len(numbers):
+    if left.mean() > min(_LEFT, _BETTER * as_is.distance) or 2 * len(said) >= len(numbers):
         return None
-    return ", and ".join(said)
+    if said:
+        return ", and ".join(said)
+    return "" if 0 < 2 * slight < len(numbers) else None
 
 
 def _own(off: Complex, part: Mask, has_phase: bool) -> tuple[np.ndarray, complex]:

@@ -208,4 +208,6 @@ def _size(size: float, drive: Drive) -> list[str]:
     nearest = min(known, key=lambda value: abs(np.log(size / value)))
     if abs(np.log(size / nearest)) < _SAME:
         return [known[nearest].format(drive=name)]
+    if SLIGHT[0] < size < SLIGHT[1]:
+        return []
     return [f"the reading is {size:.2g} times this specimen's at all frequencies alike: unit, level or gain"]

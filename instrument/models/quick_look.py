@@ -96,11 +96,6 @@ def _of_data(sweep: Sweep, model: AnyCore, as_is: Nearest, drive: Drive) -> str 
     if _explains(found.distance, as_is.distance):
         slight = mistake.is_slight(found.factor) and not mistake.is_habit(found.factor)
         return "" if slight else words_of(mistake, found.factor, drive)
-    if as_is.distance > FAR:
-        # Data with an effect are as far off in the right unit, and nothing else makes a thousand of it.
-        alone, left = _most_likely(sweep, model, [Mistake(response_of)])
-        if left.distance < _WITH_EFFECTS and alone.is_unit(left.factor, drive):
-            return words_of(alone, left.factor, drive)
     in_part = mistake_in_a_segment(sweep, model, as_is, drive)
     if in_part is not None:
         return in_part
@@ -123,7 +118,14 @@ def _of_data(sweep: Sweep, model: AnyCore, as_is: Nearest, drive: Drive) -> str 
         if (response := mistake.taken_back(sweep)) is not None
     ]
     distance, words = min(scaled)
-    return words if _explains(distance, min(of_size, as_is.distance)) else None
+    if _explains(distance, min(of_size, as_is.distance)):
+        return words
+    if as_is.distance > FAR:
+        # Data with an effect are as far off in the right unit, and nothing else makes a thousand of it.
+        alone, left = _most_likely(sweep, model, [Mistake(response_of)])
+        if left.distance < _WITH_EFFECTS and alone.is_unit(left.factor, drive):
+            return words_of(alone, left.factor, drive)
+    return None
 
 
 def _sizes(response: Complex, model: AnyCore) -> float:

@@ -38,7 +38,7 @@ def questions(monkeypatch):
     asked = []
     for command in (diagnosing, identifying):
         monkeypatch.setattr(command, "read_tables", lambda data, specimens, insist: ([TABLE], [BEAM]))
-        monkeypatch.setattr(command, "question_modes", lambda tables, fit, data: asked.append(data))
+        monkeypatch.setattr(command, "question_modes", lambda tables, fit, data, *_: asked.append(data))
     return asked
 
 
