@@ -261,7 +261,7 @@ def test_the_report_ranks_what_would_tell_the_explanations_apart(contents):
     assert hidden.rows[0][:4] == ("temperature_drift", "warming 2.27 K", "4", "26.9")
     (table,) = (b for b in section.blocks if b.kind == "table" and "tell the explanations apart" in b.title)
     assert [row[0] for row in table.rows] == [SPOT["todo"], BACKWARDS["todo"]]
-    assert table.rows[0][1:] == ("30", "80 %", "4.0", "spot_offset and gain_error", SPOT["why"])
+    assert table.rows[0][1:] == ("30", "80 %", "55 times", "spot_offset and gain_error", SPOT["why"])
     # Where the first is made is drawn below the table.
     drawn = section.blocks[section.blocks.index(table) + 1]
     assert drawn.kind == "picture"
