@@ -20,9 +20,9 @@ from fitting.structures.small import (
     SmallSystem,
     check_driven,
     nuisances_of,
-    rational_of,
     widened_system_of,
 )
+from fitting.structures.small_sum import rational_of
 from fitting.sweep import Sweep
 
 _PLACES, _FEWEST = 24, 8

@@ -19,7 +19,8 @@ from fitting.identification.model import velocity
 from fitting.rational import RationalSweep, rational_sweep
 from fitting.specimen import Reading, Specimen
 from fitting.structures import AnySpecimen
-from fitting.structures.small import check_driven, rational_of, system_of
+from fitting.structures.small import check_driven, system_of
+from fitting.structures.small_sum import rational_of
 from instrument.models.specimen_models import Models
 from instrument.progress import Progress
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from fitting.arrays import Mask
+from fitting.arrays import Array, Mask
 from fitting.aside import DISTURBED, INSENSITIVE, LOST, Reasons, reasons
 from fitting.diagnosis.begin import Begun, begin
 from fitting.diagnosis.evidence import BareModes
@@ -148,12 +148,23 @@ class FilesAtWork:
                 continue
             aside, stretches = glitches(m, begun.none.law, begun.none.velocity_m_s[part])
             f = m.sweep.frequency_hz
+            number = numbers_of(self.files)[k]
             for g in stretches:
                 count = int(np.sum((f >= g.low_hz) & (f <= g.high_hz)))
-                self._add(SetAside(numbers_of(self.files)[k], g, count))
+                self._add(SetAside(number, g, count))
             if aside.any():
-                self._leave_out_of_used(k, aside, DISTURBED)
+                self._leave_out_of_used(k, aside | self._between(number, f, aside), DISTURBED)
                 found = True
+        return found
+
+    def _between(self, file: int, f: Array, aside: Mask) -> Mask:
+        """What lies between two stretches that became one: counted with it. Shape (points in use,) each."""
+        found = np.zeros(len(f), bool)
+        for k, one in enumerate(self.aside):
+            if one.file == file:
+                inside = (f >= one.glitch.low_hz) & (f <= one.glitch.high_hz) & ~aside
+                self.aside[k] = replace(one, points=one.points + int(inside.sum()))
+                found |= inside
         return found
 
     def _leave_out_of_used(self, k: int, aside: Mask, why: str) -> None:

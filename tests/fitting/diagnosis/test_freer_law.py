@@ -12,7 +12,8 @@ from fitting.laws import LAWS
 from fitting.noise import Noise
 from fitting.specimen import Core, Face
 from fitting.structures.beam import Beam
-from fitting.structures.small import rational_of, system_of
+from fitting.structures.small import system_of
+from fitting.structures.small_sum import rational_of
 from fitting.sweep import Sweep
 
 FORMULA = LAWS["fractional-zener"](1.2e8, 9e8, 6e-5, 0.5)

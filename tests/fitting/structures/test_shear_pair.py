@@ -8,8 +8,9 @@ from shear_pair_cases import LAW, pair, transmissibility
 
 from fitting.laws.constant import ConstantModulus
 from fitting.structures.shear_pair import EDGE, disc, pad
-from fitting.structures.small import displacement, nuisances_of, rational_of, system_of
+from fitting.structures.small import displacement, nuisances_of, system_of
 from fitting.structures.small_modes import small_modes, small_velocity
+from fitting.structures.small_sum import rational_of
 
 
 @settings(max_examples=40, deadline=None)

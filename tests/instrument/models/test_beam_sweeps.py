@@ -10,7 +10,8 @@ from fitting.errors import OutsideModel
 from fitting.laws import LAWS
 from fitting.specimen import Core, Face
 from fitting.structures.beam import Beam
-from fitting.structures.small import rational_of, system_of
+from fitting.structures.small import system_of
+from fitting.structures.small_sum import rational_of
 from fitting.sweep import Sweep
 from instrument.models.files import File
 from instrument.models.together import diagnose_together, identify_together

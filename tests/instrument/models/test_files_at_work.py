@@ -1,5 +1,6 @@
 """Which points of files take part, and what is said of what they are worth."""
 
+import numpy as np
 import pytest
 from shear_pair_cases import pair, sweep
 
@@ -40,6 +41,17 @@ def test_two_lobes_of_one_disturbance_are_one_stretch():
     for low_hz, high_hz in ((200.0, 264.0), (280.5, 373.6), (600.0, 700.0)):
         work._add(SetAside(1, Glitch(low_hz, high_hz, 0.01, 0.001), 10))
     assert [(s.glitch.low_hz, s.glitch.high_hz) for s in work.aside] == [(200.0, 373.6), (600.0, 700.0)]
+
+
+def test_what_lies_between_lobes_is_set_aside_with_them():
+    work = FilesAtWork(FILES, quiet, with_effects=False)
+    for low_hz, high_hz in ((200.0, 264.0), (280.5, 373.6)):
+        work._add(SetAside(1, Glitch(low_hz, high_hz, 0.01, 0.001), 10))
+    f = np.array([190.0, 250.0, 270.0, 275.0, 300.0, 400.0])
+    already = np.array([False, True, False, False, True, False])
+    assert f[work._between(1, f, already)].tolist() == [270.0, 275.0]
+    assert not work._between(2, f, already).any()
+    assert [one.points for one in work.aside] == [22]
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,8 @@ import scipy.linalg as la
 from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Core, Face
 from fitting.structures import Beam, ShearPair
-from fitting.structures.small import displacement, rational_of, system_of
+from fitting.structures.small import displacement, system_of
+from fitting.structures.small_sum import rational_of
 
 FACE = Face(2e-3, 70e9, 0.3, 2700.0)
 SANDWICH = Beam(
