@@ -301,10 +301,10 @@ class Nuisances:
 
     def reading(self, v: Complex, omega: Array, z: Array) -> Complex:
         """What the velocity channel makes of a velocity. Shape (points,)."""
-        gain, delay = self._points.by("gain", z), self._points.by("delay", z)
-        if not gain and not delay:
+        gain, delay, phase = (self._points.by(kind, z) for kind in ("gain", "delay", "phase"))
+        if not gain and not delay and not phase:
             return v
-        return np.asarray(v * ((1 + gain) * np.exp(-1j * omega * delay)))
+        return np.asarray(v * ((1 + gain) * np.exp(1j * (phase - omega * delay))))
 
     def by_reading(self, read: Complex, omega: Array, z: Array) -> dict[int, Complex]:
         """Derivatives of what has been read. Shape (points,) each."""
@@ -315,4 +315,7 @@ class Nuisances:
         k = self._places.get("delay")
         if k is not None:
             found[k] = read * (-1j * omega * self._sigma[k])
+        k = self._places.get("phase")
+        if k is not None:
+            found[k] = read * (1j * self._sigma[k])
         return found

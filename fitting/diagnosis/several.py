@@ -182,7 +182,24 @@ class SeveralProblem(DiagnosisProblem):
             rows.append(self.own_cores(law, v) * v)
         elif (alike := self.alike) > 0:
             rows.append(alike * np.array([v, 1j * v]))
+        rows.append(self.of_one_rig * v)
         return np.concatenate(rows)
+
+    @property
+    def of_one_rig(self) -> Complex:
+        """Gain and delay that all masses of a shear pair have in common, besides each file's own.
+
+        The same two accelerometers read them. Relative, one standard deviation each; shape (any, points).
+        """
+        pairs = all(m.specimen.kind == "shear-pair" for m in self.members)
+        if not pairs or len({b.file for b in self.belongs}) < 2:
+            return np.zeros((0, len(self.sweep)), complex)
+        sizes = {
+            kind: np.concatenate([np.full(len(m.sweep), _sigma(m, kind)) for m in self.members])
+            for kind in ("gain", "delay")
+        }
+        rows = np.array([sizes["gain"] + 0j, -1j * self.sweep.omega * sizes["delay"]])
+        return rows[rows.any(axis=1)]
 
     def own_temperatures(self, law: CoreLaw, v: Complex) -> Complex:
         """What a core by `KELVIN` warmer in one file than in the others does to ln of the reading.
@@ -232,6 +249,10 @@ class SeveralProblem(DiagnosisProblem):
             )
             found.append(replace(one, name=n.name))
         return tuple(found)
+
+
+def _sigma(member: DiagnosisProblem, kind: str) -> float:
+    return sum(n.sigma for n in member.nuisances.each if n.kind == kind)
 
 
 @dataclass(frozen=True)

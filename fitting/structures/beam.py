@@ -63,6 +63,7 @@ class Beam:
     """That its faces have; None: the one their moduli are stated for."""
 
     kind = "beam"
+    channels = ("gain", "delay")
     modal_ratios: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:

@@ -31,8 +31,8 @@ EDGE = 0.1153
 solids, to 0.4 % up to a thickness of half their width (`tests/drivers/simulated/plant/test_solid_pad.py`)."""
 MOST_BY_EDGES = 0.5
 """Of G A/t: thicker discs are blocks that bend and tip, of which no formula here holds."""
-TYPICAL = {"mass": 2e-3}
-"""Of a moving mass, weighed."""
+TYPICAL = {"mass": 2e-3, "gain": 5e-3}
+"""Of a moving mass, weighed; of two accelerometers, each calibrated by comparison."""
 
 
 @dataclass(frozen=True)
@@ -59,6 +59,7 @@ class ShearPair(BaseDriven):
 
     kind = "shear-pair"
     numbers = NUMBERS
+    channels = ("gain", "delay", "phase")
     places: ClassVar[Mapping[str, float]] = MappingProxyType({})
     modal_ratios: tuple[float, ...] = ()
 
@@ -147,6 +148,7 @@ class ShearPair(BaseDriven):
             "core_density": (self.core.density_kg_m3, 1.0, "kg/m^3"),
             "gain": (1.0, 1.0, "1"),
             "delay": (0.0, 1e6, "us"),
+            "phase": (0.0, 180 / np.pi, "deg"),
             "free_edges": (1.0, 1.0, "1"),
         }[kind]
 

@@ -70,6 +70,10 @@ class SmallSpecimen(StatedSpecimen, Protocol):
         """Kinds of stated numbers that move its matrices."""
 
     @property
+    def channels(self) -> tuple[str, ...]:
+        """Kinds of stated numbers of what reads it: amplitudes feel the gain alone."""
+
+    @property
     def places(self) -> Mapping[str, float]:
         """Points along it that are stated in m: `pickup`, `force`. None where it has no length."""
 
@@ -174,7 +178,8 @@ def _real_where_it_is(c: Complex) -> Complex | Array:
 
 def nuisances_of(specimen: SmallSpecimen, parts: Parts, *, has_phase: bool) -> SmallNuisances:
     """All its stated numbers, and those of the channels."""
-    kinds = {n: n for n in (*specimen.numbers, "gain", *(["delay"] if has_phase else []))}
+    heard = [n for n in specimen.channels if has_phase or n == "gain"]
+    kinds = {n: n for n in (*specimen.numbers, *heard)}
     kinds |= {f"{n}_x": n for n in specimen.places}
     each = [Nuisance(name, kind, specimen.tolerance(kind)) for name, kind in kinds.items()]
     return SmallNuisances(specimen, tuple(n for n in each if n.sigma > 0), None, parts)

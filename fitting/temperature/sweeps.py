@@ -143,12 +143,16 @@ class Sweeps:
 
 
 def _alike(evidence: Evidence, begun: Sequence[Begun]) -> Evidence:
-    """With a gain and a delay that all sweeps have in common, besides each one's own: one rig read them."""
+    """With a gain, a delay and a phase that all sweeps have in common, besides each one's own: one rig read them."""
     v = np.concatenate([b.none.velocity_m_s for b in begun])
-    gain, delay = ([_sigma(b, kind) for b in begun] for kind in ("gain", "delay"))
+    gain, delay, phase = ([_sigma(b, kind) for b in begun] for kind in ("gain", "delay", "phase"))
     omega = np.concatenate([b.problem.sweep.omega for b in begun])
     points = [len(b.problem.sweep) for b in begun]
-    rows = [np.repeat(gain, points) * v, -1j * omega * np.repeat(delay, points) * v]
+    rows = [
+        np.repeat(gain, points) * v,
+        -1j * omega * np.repeat(delay, points) * v,
+        1j * np.repeat(phase, points) * v,
+    ]
     felt = np.array([row for row in rows if row.any()])
     if not len(felt) or not evidence.scale_known:
         return evidence

@@ -114,6 +114,7 @@ class TolerancesSection(TomlTable):
     damping_percent: NotNegative | None = None
     gain_percent: NotNegative | None = None
     delay_us: NotNegative | None = None
+    phase_deg: NotNegative | None = None
     substrate_young_per_k_percent: NotNegative | None = None
     constraining_young_per_k_percent: NotNegative | None = None
     substrate_young_y_percent: NotNegative | None = None
@@ -133,8 +134,8 @@ class TolerancesSection(TomlTable):
 
 _OF_LAYERS = tuple(name for name in STATED if name.startswith(("substrate", "constraining")))
 _NOT_OF = {
-    "plate": ("area", *OF_TEMPERATURE),
-    "beam": ("area", "place", *OF_FEW),
+    "plate": ("area", "phase", *OF_TEMPERATURE),
+    "beam": ("area", "phase", "place", *OF_FEW),
     "shear-pair": (*_OF_LAYERS, *OF_FEW, "length", "width", "pickup", "force", "place"),
 }
 """Stated numbers that a kind of specimen has not."""

@@ -13,7 +13,7 @@ from fitting.arrays import Array, Mask
 from fitting.aside import DISTURBED, INSENSITIVE, LOST, Reasons, reasons
 from fitting.diagnosis.begin import Begun, begin
 from fitting.diagnosis.evidence import BareModes
-from fitting.diagnosis.glitch import Glitch, are_one, glitches
+from fitting.diagnosis.glitch import Glitch, glitches
 from fitting.diagnosis.of_files import Place
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.several import SeveralProblem
@@ -31,8 +31,6 @@ from instrument.models.files import File, name_of, numbers_of, plates_of
 from instrument.models.set_up import Hammer
 from instrument.progress import Progress
 
-_ROUNDS = 4
-"""A bound on time."""
 _NO_RIG = 0.1
 """Of a reading: a misfit beyond it is another specimen, unit or sign."""
 _MISFIT = 3.0
@@ -46,7 +44,6 @@ class SetAside:
     file: int
     """From 1."""
     glitch: Glitch
-    points: int
 
     def words(self, files: Sequence[File]) -> str:
         """Where, in a sentence."""
@@ -54,7 +51,7 @@ class SetAside:
         of = f"{name}: " if name else ""
         return (
             f"{of}{self.glitch.low_hz:.0f} to {self.glitch.high_hz:.0f} Hz is a local disturbance (up to "
-            f"{100 * self.glitch.largest:.2g} %), as of a fixture's resonance: {self.points} points set aside"
+            f"{100 * self.glitch.largest:.2g} %), as of a fixture's resonance: {self.glitch.points} points set aside"
         )
 
 
@@ -130,62 +127,26 @@ class FilesAtWork:
             self.made[k] = used, SmallProblem.of_small(sweep, specimen)
         return self.made[k][1]
 
-    def without_glitches(self) -> tuple[Begun, Noise]:
-        """The fit of what is no local disturbance."""
-        for left in reversed(range(_ROUNDS)):
-            problem, noise = self.problem()
-            begun = begin(problem, None, noise, self.bare, self.start)
-            # The last fit is of the points that are left.
-            if not left or not self._set_aside(begun):
-                break
-        return begun, noise
-
-    def _set_aside(self, begun: Begun) -> bool:
-        assert isinstance(begun.problem, SeveralProblem)
-        found = False
-        for k, (m, part) in enumerate(zip(begun.problem.members, begun.problem.starts_at, strict=True)):
-            if not isinstance(m, SmallProblem) or not isinstance(m.specimen, ShearPair):
+    def set_disturbances_aside(self) -> None:
+        """Leave out what no core explains of any shear pair's curves."""
+        for k, (file, used) in enumerate(zip(self.files, self.used, strict=True)):
+            if not isinstance(file.specimen, ShearPair):
                 continue
-            aside, stretches = glitches(m, begun.none.law, begun.none.velocity_m_s[part])
-            f = m.sweep.frequency_hz
-            number = numbers_of(self.files)[k]
-            for g in stretches:
-                count = int(np.sum((f >= g.low_hz) & (f <= g.high_hz)))
-                self._add(SetAside(number, g, count))
-            if aside.any():
-                self._leave_out_of_used(k, aside | self._between(number, f, aside), DISTURBED)
-                found = True
-        return found
+            small = self._small(k, file.sweep.take(used), file.specimen)
+            disturbed, stretches = glitches(small, self.start)
+            self.aside += [SetAside(numbers_of(self.files)[k], g) for g in stretches]
+            self._leave_out_of_used(k, disturbed, DISTURBED)
 
-    def _between(self, file: int, f: Array, aside: Mask) -> Mask:
-        """What lies between two stretches that became one: counted with it. Shape (points in use,) each."""
-        found = np.zeros(len(f), bool)
-        for k, one in enumerate(self.aside):
-            if one.file == file:
-                inside = (f >= one.glitch.low_hz) & (f <= one.glitch.high_hz) & ~aside
-                self.aside[k] = replace(one, points=one.points + int(inside.sum()))
-                found |= inside
-        return found
+    def fit(self) -> tuple[Begun, Noise]:
+        """By what is in use."""
+        problem, noise = self.problem()
+        return begin(problem, None, noise, self.bare, self.start), noise
 
     def _leave_out_of_used(self, k: int, aside: Mask, why: str) -> None:
         """Of those in use. Shape (points in use,)."""
         out = np.zeros(len(self.used[k]), bool)
         out[np.flatnonzero(self.used[k])[aside]] = True
         self.leave_out(k, reasons(out, why))
-
-    def _add(self, one: SetAside) -> None:
-        """Stretches of a file that touch, or are lobes of one disturbance, are one."""
-        for k, other in enumerate(self.aside):
-            g, h = one.glitch, other.glitch
-            if other.file == one.file and are_one((g.low_hz, g.high_hz), (h.low_hz, h.high_hz)):
-                points = one.points + other.points
-                off = np.sqrt((one.points * g.rms**2 + other.points * h.rms**2) / points)
-                both = (min(g.low_hz, h.low_hz), max(g.high_hz, h.high_hz), max(g.largest, h.largest))
-                del self.aside[k]
-                # What lies between two of them joins both.
-                self._add(SetAside(one.file, Glitch(*both, float(off)), points))
-                return
-        self.aside.append(one)
 
     def with_misfit(self, begun: Begun) -> bool:
         """Take what the fit leaves as what readings are worth; False where noise explains it.
@@ -204,8 +165,10 @@ class FilesAtWork:
                 continue
             has_phase, read = m.sweep.has_phase, m.sweep.response_m_s
             off = (read if has_phase else np.abs(read)) / (v[part] if has_phase else np.abs(v[part])) - 1
-            squares = np.sum(np.abs(off) ** 2) + sum(one.points * one.glitch.rms**2 for one in stretches)
-            self.misfit[k] = np.sqrt(squares / (len(off) + sum(one.points for one in stretches)) / 2)
+            squares = np.sum(np.abs(off) ** 2) + sum(
+                one.glitch.points * one.glitch.rms**2 for one in stretches
+            )
+            self.misfit[k] = np.sqrt(squares / (len(off) + sum(one.glitch.points for one in stretches)) / 2)
             hears = np.abs(m.feels(law, v[part])) > DEAF
             if hears.sum() > len(law.names) and not self._deaf_taken:
                 self._leave_out_of_used(k, ~hears, INSENSITIVE)

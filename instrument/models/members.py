@@ -113,7 +113,8 @@ class Members:
             return AloneSweep(found, ready.reduced, noise)
         files = [File(sweep, specimen, one.name)]
         work = FilesAtWork(files, quiet, with_effects=with_effects)
-        found, noise = work.without_glitches()
+        work.set_disturbances_aside()
+        found, noise = work.fit()
         self.remarks += [aside.words(files) for aside in work.aside]
         assert isinstance(found.problem, SeveralProblem)
         return AloneSweep(replace(found, problem=found.problem.members[0]), None, noise)

@@ -18,6 +18,7 @@ from fitting.diagnosis.result import FoundEffect, ParameterEstimate
 from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import fit_bare_plate
 from fitting.identification.result import summarise
+from fitting.identification.validation import rms
 from fitting.laws import CoreLaw
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
@@ -33,6 +34,14 @@ from instrument.models.set_up import Hammer
 from instrument.models.theory import check_each_theory
 from instrument.models.transfer import with_transfer
 from instrument.progress import Progress, quiet
+
+
+_ROUNDS, _SETTLED = 6, 0.1
+"""Fits in which a misfit is found: at most so many, the last of them changing it by less than that share.
+
+The first fit takes noise alone for what readings are worth, which bends a law to anything: what it leaves is
+not what a law leaves.
+"""
 
 
 @dataclass(frozen=True)
@@ -67,11 +76,16 @@ def identify_together(
     with threadpool_limits(1, "blas"), progress("fitting"):
         work.problem()
         ready = perf_counter()
-        begun, noise = work.without_glitches()
+        work.set_disturbances_aside()
+        begun, noise = work.fit()
         misfit: tuple[str, ...] = ()
         if work.with_misfit(begun):
-            for _ in range(2):
-                begun, noise = work.without_glitches()
+            for _ in range(_ROUNDS):
+                before = rms(np.array(work.misfit))
+                work.with_misfit(work.fit()[0])
+                if abs(rms(np.array(work.misfit)) / before - 1) < _SETTLED:
+                    break
+            begun, noise = work.fit()
             other = exchanged(files)
             misfit = (work.about_misfit(),) if other is None else (f"{other.words}. The law means nothing",)
         else:
@@ -141,7 +155,7 @@ def diagnose_together(
         with progress("tracing the residual") as report:
             if accept is None and (other := exchanged(files)) is not None:
                 raise OutsideModel(other.words)
-            work.without_glitches()
+            work.set_disturbances_aside()
             channels += [_fixture(one, count) for one in work.aside]
             problem, noise = work.problem()
             tried = [

@@ -15,14 +15,14 @@ _UNITS = {
     "1/K": ("percent", "%/K", 1e2),
 }
 """Ending of the file's key, unit for people, factor."""
-_NOT_OF_A_SWEEP = ("mass", "place", "area")
+_NOT_OF_A_SWEEP = ("mass", "place", "area", "phase")
 
 
 def asked(specimen: AnySpecimen) -> list[str]:
     """Kinds of stated numbers that a sweep of this specimen can feel."""
     if not isinstance(specimen, Specimen):
         # What a theory leaves open nobody states.
-        return [*(n for n in specimen.numbers if n in STATED), *specimen.places, "gain", "delay"]
+        return [*(n for n in specimen.numbers if n in STATED), *specimen.places, *specimen.channels]
     of_plate = {kind for _, kind in plate_numbers(specimen)}
     unfelt: tuple[str, ...] = (*_NOT_OF_A_SWEEP, *OF_TEMPERATURE)
     if specimen.force_m is None:

@@ -56,7 +56,7 @@ def _set_aside(aside: Sequence[SetAside], files: Sequence[File]) -> tuple[Stretc
             from_hz=one.glitch.low_hz,
             to_hz=one.glitch.high_hz,
             largest_percent=100 * one.glitch.largest,
-            points=int(one.points),
+            points=one.glitch.points,
         )
         for one in aside
     )

@@ -1,0 +1,115 @@
+"""What of one curve no core explains: any smooth modulus fitted to it, by least absolute residuals.
+
+G* = G_0(omega) e^{c . B(ln f)}, with B hats over ln f and, for what softens with strain, the size of the
+deflection and its square; times a gain, a phase and a delay of the channel. Gauss-Newton, each step reweighted
+to the least sum of sizes: a stretch that is off by much pulls no more than one that is off by little. G_0 is
+where a search begins; hats follow what it lacks.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fitting.arrays import Array, Complex
+from fitting.identification.model import velocity
+from fitting.laws import CoreLaw
+from fitting.rational import RationalSweep
+from fitting.specimen import Reading
+from fitting.sweep import Sweep
+
+_A_KNOT = 0.45
+"""In ln f: what the core may follow."""
+_MODULUS, _CHANNEL = 0.2, 0.01
+"""How far modulus and channels may plausibly be off: what needs more of them is none of theirs."""
+_HELD = 4e-4
+"""Weight of that beside a reading: as much as so much more of its misfit, where a modulus is off by 20 %."""
+_REWEIGHTED = 25
+"""Times, towards the least sum of sizes. A choice."""
+_STEPS = 15
+"""Of Gauss-Newton; real curves need four to six."""
+_STILL = 1e-4
+"""Of a modulus: a step that moves nothing by more is the last."""
+_HALVED = 6
+"""Times at most, where a step goes too far."""
+_SIZES = np.geomspace(0.05, 20.0, 41)
+"""Times the law that a search begins with: a stated one may be off by that."""
+_ANGLES = (-0.2, 0.0, 0.2, 0.4)
+"""And radians more of its argument."""
+
+
+@dataclass(frozen=True)
+class _Curve:
+    """Readings of one curve and what a modulus makes of them."""
+
+    omega: Array
+    read: Complex
+    acceleration_m_s2: Array
+    rational: RationalSweep
+    reads: Reading
+
+    def velocity(self, G: Complex) -> tuple[Complex, Complex]:
+        """Predicted, m/s, and d ln v / d ln G. Shape (points,) each."""
+        x, dx = self.rational.with_derivative(G)
+        v = velocity(self.omega, x, self.reads) * self.acceleration_m_s2
+        return v, 1j * self.omega * dx * G * self.acceleration_m_s2 / v
+
+    def begin(self, law: CoreLaw) -> Complex:
+        """The law's modulus, moved as a whole to where the readings are nearest. Shape (points,)."""
+        stated = law.modulus(self.omega)
+        tried = [stated * size * np.exp(1j * angle) for size in _SIZES for angle in _ANGLES]
+        tried = [G for G in tried if np.all(G.imag > 0)] or [stated]
+        return min(tried, key=lambda G: float(np.sum(np.abs(self.read / self.velocity(G)[0] - 1))))
+
+
+def unexplained(sweep: Sweep, rational: RationalSweep, reads: Reading, law: CoreLaw) -> Complex:
+    """What is left of each reading, relative. Shape (points,).
+
+    `rational` holds the sweep's points in their order; `law` is a first guess.
+    """
+    curve = _Curve(sweep.omega, sweep.response_m_s, sweep.commanded_m_s2, rational, reads)
+    f = sweep.frequency_hz
+    G_0 = curve.begin(law)
+    B, drift = _of_modulus(f, np.abs(rational.displacement(G_0))), 1j * f / f.max()
+    bend = B.shape[1]
+    expected = np.repeat([_MODULUS, _CHANNEL], [bend, 2])
+    held = np.diag(np.sqrt(_HELD * len(f)) / expected)
+
+    def at(c: Complex) -> tuple[Complex, Complex, float]:
+        v, feels = curve.velocity(G_0 * np.exp(B @ c[:bend]))
+        off = curve.read / (v * np.exp(c[bend] + c[bend + 1] * drift)) - 1
+        return off, feels, float(np.sum(np.abs(off)) + np.sum(np.abs(held @ c) ** 2))
+
+    c = np.zeros(bend + 2, complex)
+    off, feels, cost = at(c)
+    for _ in range(_STEPS):
+        A = np.hstack([feels[:, None] * B, np.ones((len(f), 1)), drift[:, None]])
+        step = _least_sizes(A, off, held, c)
+        for halved in range(_HALVED):
+            there, felt, costs = at(c + step / 2**halved)
+            if costs < cost:
+                break
+        else:
+            break
+        c, off, feels, cost = c + step / 2**halved, there, felt, costs
+        if np.abs(step).max() < _STILL:
+            break
+    return off
+
+
+def _of_modulus(f: Array, size: Array) -> Array:
+    """What ln G* may do over a curve: shape (points, unknowns)."""
+    t, share = np.log(f), size / size.max()
+    knots = np.linspace(t.min(), t.max(), max(3, int(np.ptp(t) / _A_KNOT) + 2))
+    hats = np.maximum(0, 1 - np.abs(t[:, None] - knots) / (knots[1] - knots[0]))
+    return np.column_stack([hats, share, share**2])
+
+
+def _least_sizes(A: Complex, off: Complex, held: Array, c: Complex) -> Complex:
+    """The step for which sizes of what is left add up to least. Shapes (points, n), (points,), (n, n), (n,)."""
+    weight, step = np.ones(len(off)), np.zeros_like(c)
+    floor = 1e-4 * np.abs(off).max() + 1e-12
+    for _ in range(_REWEIGHTED):
+        rows = np.vstack([A * weight[:, None], held])
+        step = np.linalg.lstsq(rows, np.append(off * weight, -held @ c), rcond=None)[0]
+        weight = 1 / np.sqrt(np.maximum(np.abs(off - A @ step), floor))
+    return np.asarray(step)
