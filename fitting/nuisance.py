@@ -30,7 +30,7 @@ class Nuisance:
 
 
 def felt(specimen: Specimen, plate: EnrichedReducedPlate, *, has_phase: bool) -> tuple[Nuisance, ...]:
-    """All stated numbers of a specimen that a sweep of it can feel: a delay only where it has a phase."""
+    """All stated numbers of a specimen that a sweep of it can feel: delay and phase only with phasors."""
     found = [Nuisance(n, kind, tolerance(specimen, kind)) for n, kind in plate_numbers(specimen)]
     found += [Nuisance(f"pickup_{axis}", "pickup", tolerance(specimen, "pickup")) for axis in "xy"]
     if specimen.force_m is not None:
@@ -51,5 +51,5 @@ def felt(specimen: Specimen, plate: EnrichedReducedPlate, *, has_phase: bool) ->
     ]
     found.append(Nuisance("gain", "gain", tolerance(specimen, "gain")))
     if has_phase:
-        found.append(Nuisance("delay", "delay", tolerance(specimen, "delay")))
+        found += [Nuisance(n, n, tolerance(specimen, n)) for n in ("delay", "phase")]
     return tuple(n for n in found if n.sigma > 0)

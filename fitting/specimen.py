@@ -15,7 +15,7 @@ from fitting.laws import CoreLaw
 Reading = Literal["relative", "absolute"]
 Drive = Literal["base", "force"]
 
-OF_DRIVE_AND_READING = ("pickup", "force", "gain", "delay")
+OF_DRIVE_AND_READING = ("pickup", "force", "gain", "delay", "phase")
 """Tolerances that are not of the plate itself."""
 DEFAULT_ELEMENTS = 1040
 """Elements of the default mesh: 40 x 26 on a plate of aspect 1.5."""

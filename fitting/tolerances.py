@@ -49,9 +49,7 @@ _STATED = (
     StatedNumber("damping", "1", 0.1, "a bare plate's ratios from one mounting to the next; each mode"),
     StatedNumber("gain", "1", 0.003, "two calibrated channels"),
     StatedNumber("delay", "s", 2e-6, "decoder against accelerometer, a known delay taken out"),
-    StatedNumber(
-        "phase", "rad", radians(0.5), "two accelerometers of a shear pair: their sheets allow a degree"
-    ),
+    StatedNumber("phase", "rad", radians(0.1), "decoder against accelerometer, what a delay leaves"),
     StatedNumber("mass", "1", 0.02, "what sits on the plate, on a letter balance"),
     StatedNumber("place", "m", 5e-4, "where a mass sits, by a rule from the free end; each coordinate"),
     StatedNumber("area", "1", 0.01, "a disc's diameters by caliper"),

@@ -2,8 +2,8 @@
 
 About where the fit ended the plate is moved to its stated numbers as found, and its response stays exact in
 the law. What stated numbers change beyond that is taken to first order: as the change of the modulus that
-does the same to the response, since both move the same poles, and the rest of it added. The channel's gain
-and delay are exact; the hammer test is linear.
+does the same to the response, since both move the same poles, and the rest of it added. The channel's gain,
+delay and phase are exact; the hammer test is linear.
 """
 
 from dataclasses import dataclass
@@ -73,14 +73,14 @@ class ManyResiduals:
         if not problem.nuisances.each:
             return np.ones((len(z), 1), complex)
         places = {n.name: (k, n.sigma) for k, n in enumerate(problem.nuisances.each)}
-        if not {"gain", "delay"} & set(places):
+        if not {"gain", "delay", "phase"} & set(places):
             return np.array([one] * len(z))
 
         def by(name: str) -> Array:
             k, sigma = places.get(name, (0, 0.0))
             return sigma * z[:, k, None]
 
-        return np.asarray((1 + by("gain")) * np.exp(-1j * omega * by("delay")))
+        return np.asarray((1 + by("gain")) * np.exp(1j * (by("phase") - omega * by("delay"))))
 
     def velocity(self, X: Array) -> Complex:
         """As read. Shapes (any, kept) to (any, points)."""
@@ -136,6 +136,8 @@ class ManyResiduals:
                 dv[:, n + j] = v * (number.sigma / (1 + number.sigma * z[:, j, None]))
             elif number.name == "delay":
                 dv[:, n + j] = v * (-1j * omega * number.sigma)
+            elif number.name == "phase":
+                dv[:, n + j] = v * (1j * number.sigma)
         return v, dv
 
     def __call__(self, X: Array) -> Array:

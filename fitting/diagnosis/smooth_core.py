@@ -1,9 +1,9 @@
 """What of one curve no core explains: any smooth modulus fitted to it, by least absolute residuals.
 
 G* = G_0(omega) e^{c . B(ln f)}, with B hats over ln f and, for what softens with strain, the size of the
-deflection and its square; times a gain, a phase and a delay of the channel. Gauss-Newton, each step reweighted
-to the least sum of sizes: a stretch that is off by much pulls no more than one that is off by little. G_0 is
-where a search begins; hats follow what it lacks.
+deflection and its square; times a gain, a phase and a delay of the channel. Gauss-Newton, each step
+reweighted to the least sum of sizes: a stretch that is off by much pulls no more than one that is off by
+little. G_0 is where a search begins; hats follow what it lacks.
 """
 
 from dataclasses import dataclass
@@ -105,8 +105,8 @@ def _of_modulus(f: Array, size: Array) -> Array:
 
 
 def _least_sizes(A: Complex, off: Complex, held: Array, c: Complex) -> Complex:
-    """The step for which sizes of what is left add up to least. Shapes (points, n), (points,), (n, n), (n,)."""
-    weight, step = np.ones(len(off)), np.zeros_like(c)
+    """The step that leaves the least sum of sizes. Shapes (points, n), (points,), (n, n), (n,)."""
+    weight, step = np.ones(len(off)), c
     floor = 1e-4 * np.abs(off).max() + 1e-12
     for _ in range(_REWEIGHTED):
         rows = np.vstack([A * weight[:, None], held])

@@ -81,6 +81,8 @@ def stated_number(specimen: StatedSpecimen, n: Nuisance) -> tuple[float, float, 
         return 1.0, 1.0, "1"
     if n.kind == "delay":
         return 0.0, 1e6, "us"
+    if n.kind == "phase":
+        return 0.0, 180 / pi, "deg"
     if n.kind == "patch":
         return shift_of(n.name).edge_m(specimen), 1e3, "mm"
     layer, _, quantity = n.kind.partition("_")

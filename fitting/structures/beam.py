@@ -63,7 +63,7 @@ class Beam:
     """That its faces have; None: the one their moduli are stated for."""
 
     kind = "beam"
-    channels = ("gain", "delay")
+    channels = ("gain", "delay", "phase")
     modal_ratios: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
@@ -358,8 +358,8 @@ class Beam:
 
     def stated_number(self, kind: str) -> tuple[float, float, str]:
         """In SI, with the factor to the unit of results."""
-        others = {"gain": (1.0, 1.0, "1"), "delay": (0.0, 1e6, "us"), "length": (self.length_m, 1e3, "mm")}
-        others["width"] = self.width_m, 1e3, "mm"
+        others = {"gain": (1.0, 1.0, "1"), "delay": (0.0, 1e6, "us"), "phase": (0.0, 180 / np.pi, "deg")}
+        others |= {"length": (self.length_m, 1e3, "mm"), "width": (self.width_m, 1e3, "mm")}
         others |= {name: (x, 1e3, "mm") for name, x in self.places.items()}
         others["core_stretch"] = 1.0, 1.0, "1"
         others["held_width"] = (self.held_width_m if self.held_width else 0.0, 1e3, "mm")

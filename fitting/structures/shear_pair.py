@@ -11,6 +11,7 @@ with the mass.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import radians
 from types import MappingProxyType
 from typing import ClassVar
 
@@ -31,8 +32,8 @@ EDGE = 0.1153
 solids, to 0.4 % up to a thickness of half their width (`tests/drivers/simulated/plant/test_solid_pad.py`)."""
 MOST_BY_EDGES = 0.5
 """Of G A/t: thicker discs are blocks that bend and tip, of which no formula here holds."""
-TYPICAL = {"mass": 2e-3, "gain": 5e-3}
-"""Of a moving mass, weighed; of two accelerometers, each calibrated by comparison."""
+TYPICAL = {"mass": 2e-3, "gain": 5e-3, "phase": radians(0.5)}
+"""Of a moving mass, weighed; of two accelerometers, calibrated by comparison: their sheets allow a degree."""
 
 
 @dataclass(frozen=True)

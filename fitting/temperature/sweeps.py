@@ -143,7 +143,7 @@ class Sweeps:
 
 
 def _alike(evidence: Evidence, begun: Sequence[Begun]) -> Evidence:
-    """With a gain, a delay and a phase that all sweeps have in common, besides each one's own: one rig read them."""
+    """With a gain, a delay and a phase that all sweeps have in common besides each one's own: of one rig."""
     v = np.concatenate([b.none.velocity_m_s for b in begun])
     gain, delay, phase = ([_sigma(b, kind) for b in begun] for kind in ("gain", "delay", "phase"))
     omega = np.concatenate([b.problem.sweep.omega for b in begun])

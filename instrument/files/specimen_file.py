@@ -134,8 +134,8 @@ class TolerancesSection(TomlTable):
 
 _OF_LAYERS = tuple(name for name in STATED if name.startswith(("substrate", "constraining")))
 _NOT_OF = {
-    "plate": ("area", "phase", *OF_TEMPERATURE),
-    "beam": ("area", "phase", "place", *OF_FEW),
+    "plate": ("area", *OF_TEMPERATURE),
+    "beam": ("area", "place", *OF_FEW),
     "shear-pair": (*_OF_LAYERS, *OF_FEW, "length", "width", "pickup", "force", "place"),
 }
 """Stated numbers that a kind of specimen has not."""

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from fitting.arrays import Array, Mask
+from fitting.arrays import Mask
 from fitting.aside import DISTURBED, INSENSITIVE, LOST, Reasons, reasons
 from fitting.diagnosis.begin import Begun, begin
 from fitting.diagnosis.evidence import BareModes
@@ -51,7 +51,8 @@ class SetAside:
         of = f"{name}: " if name else ""
         return (
             f"{of}{self.glitch.low_hz:.0f} to {self.glitch.high_hz:.0f} Hz is a local disturbance (up to "
-            f"{100 * self.glitch.largest:.2g} %), as of a fixture's resonance: {self.glitch.points} points set aside"
+            f"{100 * self.glitch.largest:.2g} %), as of a fixture's resonance: {self.glitch.points} points "
+            "set aside"
         )
 
 

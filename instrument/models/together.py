@@ -35,7 +35,6 @@ from instrument.models.theory import check_each_theory
 from instrument.models.transfer import with_transfer
 from instrument.progress import Progress, quiet
 
-
 _ROUNDS, _SETTLED = 6, 0.1
 """Fits in which a misfit is found: at most so many, the last of them changing it by less than that share.
 

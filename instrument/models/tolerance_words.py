@@ -15,7 +15,7 @@ _UNITS = {
     "1/K": ("percent", "%/K", 1e2),
 }
 """Ending of the file's key, unit for people, factor."""
-_NOT_OF_A_SWEEP = ("mass", "place", "area", "phase")
+_NOT_OF_A_SWEEP = ("mass", "place", "area")
 
 
 def asked(specimen: AnySpecimen) -> list[str]:

@@ -2,10 +2,10 @@
 
 python tests/campaigns/fixtures.py --cases 20 --masses 3
 
-Discs, cores and masses are those of `files_apart.py`, at one temperature. Between the base's accelerometer and
-the pads a fixture resonates once or twice, 0.3 to 1 % of it and 2 to 6 % wide, somewhere in the middle of the
-band; the two accelerometers are 0.5 % and 0.5 degrees apart (standard deviation), the same ones for every mass.
-`--still` leaves the resonances out: nothing is to be set aside then. The law is that of `identify`.
+Discs, cores and masses are those of `files_apart.py`, at one temperature. Between the base's accelerometer
+and the pads a fixture resonates once or twice, 0.3 to 1 % of it and 2 to 6 % wide, somewhere in the middle of
+the band; the two accelerometers are 0.5 % and 0.5 degrees apart (standard deviation), the same ones for every
+mass. `--still` leaves the resonances out: nothing is to be set aside then. The law is that of `identify`.
 """
 
 import argparse

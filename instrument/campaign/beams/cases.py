@@ -1,6 +1,6 @@
 """A case: a sweep of one of the beams as a lab would hand it in, and what was hidden in it."""
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -74,7 +74,7 @@ class BeamTruth:
             "beam": self.beam.name,
             "effects": {h.name: h.facts for h in self.effects},
             "law": {"kind": self.law.kind, "values": list(self.law.values), "times": self.beam.stiffer},
-            "channel": {"gain": self.channel.gain, "delay_s": self.channel.delay_s},
+            "channel": asdict(self.channel),
             "resonances_hz": list(self.resonances_hz),
             "storage_modulus_pa": G.real.tolist(),
             "loss_factor": (G.imag / G.real).tolist(),
@@ -136,7 +136,8 @@ def draw_case(kind: str, seed: int, exact: bool = False, *, beam: str | None = N
         schedule = draw_schedule(rng("schedule"), _moved(as_built, law, chosen), levels, points)
     chance = rng("stated")
     off = chance.standard_normal(2)
-    channel = ChannelError(float(np.exp(CAREFUL.gain * off[0])), CAREFUL.delay_s * off[1])
+    phase = CAREFUL.phase_rad * rng("phase").standard_normal()
+    channel = ChannelError(float(np.exp(CAREFUL.gain * off[0])), CAREFUL.delay_s * off[1], phase)
     stated, tolerances = (true, None) if exact else (draw_stated(chance, true), CAREFUL)
     middle = _middles(schedule)
     # Every other lab knows what a clamp does to the width.

@@ -108,7 +108,7 @@ def reading(
         # What the base itself moves by at the spot, beyond what the laser rides with.
         rides = 1.0 if beam.true.reads == "relative" else 0.0
         v = v + (1 - rides + beam.true.spot_m * pitch) / (1j * omega)
-    v = v * channel.gain * np.exp(-1j * omega * channel.delay_s)
+    v = v * channel.factor(omega)
     for h in beam.hidden:
         v = v / h.reference(omega)
     return np.asarray(v)

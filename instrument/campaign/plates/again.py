@@ -20,7 +20,7 @@ from instrument.campaign.plates.hidden.clamp import HiddenClampCompliance, Hidde
 from instrument.campaign.plates.judged import models_of
 from instrument.campaign.plates.reduced import ReducedSolid
 from instrument.campaign.plates.response import remaining_damping
-from instrument.campaign.plates.simulate import built, moduli_of, struck
+from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, struck
 from instrument.campaign.plates.stated import CAREFUL
 from instrument.campaign.plates.struck import LEFT_BEHIND, lines_about, mobility, struck_plate
 from instrument.campaign.schedule import Schedule
@@ -196,7 +196,7 @@ class SimulatedRig:
         omega = 2 * np.pi * f
         v = reduce(lambda s, h: h.channel(s, omega, 0 * s), there.effects, v)
         gain, delay = STRUCK_GAIN * rng.standard_normal(), CAREFUL.delay_s * rng.standard_normal()
-        v = v * np.exp(gain - 1j * omega * delay)
+        v = v * ChannelError(np.exp(gain), delay, CAREFUL.phase_rad * rng.standard_normal()).factor(omega)
         scatter = np.hypot(rng.uniform(*_BLOWS) * np.abs(v), _BLOWS_FLOOR * np.abs(v).max())
         v = v + scatter * (rng.standard_normal((len(f), 2)) @ np.array([1, 1j]))
         sweep = Sweep(f, v, np.ones(len(f)), segment, np.ones(len(f), np.intp))

@@ -1,6 +1,6 @@
 """A case: a sweep of one of the plates as a lab would hand it in, and what was hidden in it."""
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -87,7 +87,7 @@ class PlateTruth:
                 "wander_points": self.noise.wander_points,
                 "gain_drift": self.noise.gain_drift,
             },
-            "channel": {"gain": self.channel.gain, "delay_s": self.channel.delay_s},
+            "channel": asdict(self.channel),
             "resonances_hz": list(self.resonances_hz),
             "storage_modulus_pa": G.real.tolist(),
             "loss_factor": (G.imag / G.real).tolist(),
@@ -172,7 +172,11 @@ def draw_case(
     channel = (
         ChannelError()
         if exact
-        else ChannelError(float(np.exp(CAREFUL.gain * off[0])), CAREFUL.delay_s * off[1])
+        else ChannelError(
+            float(np.exp(CAREFUL.gain * off[0])),
+            CAREFUL.delay_s * off[1],
+            CAREFUL.phase_rad * rng("phase").standard_normal(),
+        )
     )
     stated = true if exact else stated
     text = toml(stated, None if exact else CAREFUL, middle[1])

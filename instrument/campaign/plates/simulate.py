@@ -31,6 +31,11 @@ class ChannelError:
 
     gain: float = 1.0
     delay_s: float = 0.0
+    phase_rad: float = 0.0
+
+    def factor(self, omega: Array) -> Complex:
+        """What it makes of a velocity. Shape (points,)."""
+        return np.asarray(self.gain * np.exp(1j * (self.phase_rad - omega * self.delay_s)))
 
 
 def built(
@@ -92,7 +97,7 @@ def reading(
     # The base's own motion at the spot beyond its heave: what a laser that moves with the clamp would see.
     v = v + (motion.at(*spot, true.width_m) - 1) / (1j * omega)
     v = reduce(lambda s, h: h.channel(s, omega, np.ones(len(omega)) / (1j * omega)), hidden, v)
-    v = channel.gain * np.exp(-1j * omega * channel.delay_s) * v
+    v = channel.factor(omega) * v
     return np.asarray(v / reduce(lambda b, h: h.reference(b, omega), hidden, np.ones(len(omega), complex)))
 
 

@@ -2,7 +2,7 @@
 
 import tomllib
 from dataclasses import dataclass, replace
-from math import exp
+from math import degrees, exp, radians
 
 import numpy as np
 
@@ -16,7 +16,7 @@ _LEAST_APART_POISSON = 0.499
 
 @dataclass(frozen=True)
 class CampaignTolerances:
-    """Standard deviations of stated numbers about the truth: relative (in the logarithm), m or s."""
+    """Standard deviations of stated numbers about the truth: relative (in the logarithm), m, s or rad."""
 
     young: float = 0.01
     substrate_thickness: float = 0.005
@@ -31,6 +31,7 @@ class CampaignTolerances:
     damping: float = 0.1
     gain: float = 0.003
     delay_s: float = 3e-6
+    phase_rad: float = radians(0.1)
 
     def lines(self) -> list[str]:
         """Of `[tolerances]`."""
@@ -45,7 +46,7 @@ class CampaignTolerances:
         lines = [f"{name}_percent = {100 * share:g}" for name, share in percent.items()]
         lengths = {"length": self.length_m, "width": self.width_m, "pickup": self.pickup_m}
         lines += [f"{name}_mm = {1e3 * metres:g}" for name, metres in lengths.items()]
-        return [*lines, f"delay_us = {1e6 * self.delay_s:g}"]
+        return [*lines, f"delay_us = {1e6 * self.delay_s:g}", f"phase_deg = {degrees(self.phase_rad):g}"]
 
 
 CAREFUL = CampaignTolerances()

@@ -24,6 +24,7 @@ from instrument.campaign.plates.hidden.struck import (
 )
 from instrument.campaign.plates.materials import PlateMaterialLaw, draw_law, fits
 from instrument.campaign.plates.reduced import ReducedSolid
+from instrument.campaign.plates.simulate import ChannelError
 from instrument.campaign.plates.stated import (
     CAREFUL,
     digits,
@@ -190,7 +191,8 @@ def _measured(truth: StruckTruth, solid: ReducedSolid, f: Array, rng: np.random.
     ]
     ratios = reduce(lambda r, h: h.ratios(r), hidden, np.array([] if truth.free else truth.plate.ratios))
     each = mobilities(solid, truth.law, f, hits, spots, hidden, ratios)
-    channels = np.exp(GAIN * rng.standard_normal() - 2j * np.pi * f * CAREFUL.delay_s * rng.standard_normal())
+    gain, delay, phase = np.array([GAIN, CAREFUL.delay_s, CAREFUL.phase_rad]) * rng.standard_normal(3)
+    channels = ChannelError(np.exp(gain), delay, phase).factor(2 * np.pi * f)
     blows = struck_so(truth.blows, hidden)
     seen = [through_channels(own, 2 * np.pi * f, hidden, k) for k, own in enumerate(each)]
     found = [blows.read(rng, f, own * channels) for own in seen]

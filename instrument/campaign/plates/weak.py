@@ -77,7 +77,10 @@ def draw_weak(kind: str, seed: int) -> SimulatedRig:
     rng = np.random.default_rng([seed, *kind.encode()])
     true = clean.truth.plate
     gain, delay = rng.standard_normal(2)
-    channel = ChannelError(float(np.exp(MEASURED_WELL.gain * gain)), MEASURED_WELL.delay_s * float(delay))
+    phase = MEASURED_WELL.phase_rad * np.random.default_rng([seed, *b"phase"]).standard_normal()
+    channel = ChannelError(
+        float(np.exp(MEASURED_WELL.gain * gain)), MEASURED_WELL.delay_s * float(delay), phase
+    )
     truth = replace(clean.truth, effects=(weak(kind, rng, true),), channel=channel)
     text = toml(draw_stated(rng, true, MEASURED_WELL), MEASURED_WELL, clean.truth.resonances_hz[1])
     assert sweep.time_s is not None
