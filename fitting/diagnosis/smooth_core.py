@@ -110,6 +110,7 @@ def _least_sizes(A: Complex, off: Complex, held: Array, c: Complex) -> Complex:
     floor = 1e-4 * np.abs(off).max() + 1e-12
     for _ in range(_REWEIGHTED):
         rows = np.vstack([A * weight[:, None], held])
-        step = np.linalg.lstsq(rows, np.append(off * weight, -held @ c), rcond=None)[0]
+        wanted = np.append(off * weight, -held @ c)
+        step = np.asarray(np.linalg.lstsq(rows, wanted, rcond=None)[0], complex)
         weight = 1 / np.sqrt(np.maximum(np.abs(off - A @ step), floor))
-    return np.asarray(step)
+    return step
