@@ -25,7 +25,7 @@ from instrument.campaign.bench import GRID_HZ, synthetic_sweep
 
 OMEGA = 2 * np.pi * np.array([19.5, 62.0, 100.0, 281.0])
 G = np.array([0.3e6 * (1 + 0.3j), 0.45e6 * (1 + 0.6j), 0.55e6 * (1 + 0.9j), 1.2e6 * (1 + 1.1j)])
-CHANNELS = ("gain", "delay")
+CHANNELS = ("gain", "delay", "phase")
 
 
 class Moved:
@@ -128,14 +128,14 @@ def test_as_stated_nothing_is_changed(moved):
     np.testing.assert_allclose(plain.heave, moved.reduced.displacement(OMEGA, G), rtol=1e-9)
 
 
-def test_the_reading_has_gain_and_delay(moved):
+def test_the_reading_has_gain_delay_and_phase(moved):
     nuisances, omega = moved.nuisances, OMEGA
     z = next(moved.places(without=()))
     by = dict(zip([n.name for n in nuisances.each], z, strict=True))
-    gain, delay = (by[name] * tolerance(moved.specimen, name) for name in CHANNELS)
+    gain, delay, phase = (by[name] * tolerance(moved.specimen, name) for name in CHANNELS)
     v = np.array([1.0, 2j, -1 + 1j, 0.5])
     read = nuisances.reading(v, omega, z)
-    np.testing.assert_allclose(read, v * (1 + gain) * np.exp(-1j * omega * delay), rtol=1e-12)
+    np.testing.assert_allclose(read, v * (1 + gain) * np.exp(1j * (phase - omega * delay)), rtol=1e-12)
     for k, d in nuisances.by_reading(read, omega, z).items():
         step = 1e-3 * np.eye(len(z))[k]
         up, down = (nuisances.reading(v, omega, z + s * step) for s in (1, -1))
@@ -156,10 +156,10 @@ def test_what_is_exact_by_itself_is_left_out(moved):
     assert names["core_thickness"].sigma == STATED["core_thickness"].typical
 
 
-def test_without_phase_there_is_no_delay_and_only_modes_that_move_are_damped(moved):
+def test_without_phase_there_is_no_delay_and_no_angle_and_only_modes_that_move_are_damped(moved):
     with_phase = [n.name for n in moved.nuisances.each]
     without = [n.name for n in nuisances_of(moved.specimen, moved.spanned, has_phase=False).each]
-    assert set(with_phase) - set(without) == {"delay"}
+    assert set(with_phase) - set(without) == {"delay", "phase"}
     damped = {n for n in with_phase if n.startswith("damping")}
     assert damped == {f"damping_{r + 1}" for r in moved.reduced.mode}
     assert len(damped) < len(moved.specimen.modal_ratios)

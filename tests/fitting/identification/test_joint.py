@@ -137,7 +137,8 @@ def test_what_the_sweep_does_not_feel_keeps_its_tolerance(few):
         assert abs(one.pull) < 0.5
     for one in by_name.values():
         moved = one.found / one.stated if one.stated else 1.0
-        assert one.standard_error <= 1.001 * one.tolerance * max(1.0, moved)
+        # Wider by what chi-square is flatter than its curvature says (`posterior`).
+        assert one.standard_error <= 1.01 * one.tolerance * max(1.0, moved)
 
 
 def test_an_exact_specimen_moves_nothing_and_does_not_bend(zn1):

@@ -56,14 +56,15 @@ def test_a_gain_is_the_leading_cause_of_a_sweep_and_beside_it_the_sweep_is_expla
     assert beside.chi2 < loud.none.chi2 / 2
 
 
-def test_a_gain_and_a_delay_that_all_sweeps_have_in_common_are_left_open(each):
+def test_a_gain_a_delay_and_an_angle_that_all_sweeps_have_in_common_are_left_open(each):
     B, own = Sweeps.of(each).evidence.B, sum(b.evidence.B.shape[1] for b in each)
-    gain, delay = B[:, own:].T
-    assert B.shape[1] == own + 2
+    gain, delay, phase = B[:, own:].T
+    assert B.shape[1] == own + 3
     first, last = slice(0, POINTS[0]), slice(sum(POINTS[:2]), sum(POINTS))
     for part, b in ((first, each[0]), (last, each[2])):
         v, sigma = b.none.velocity_m_s, b.evidence.sigma_m_s
         np.testing.assert_allclose(gain[part], 0.005 * v.real / sigma)
         np.testing.assert_allclose(delay[part], 2e-6 * b.problem.sweep.omega * v.imag / sigma)
+        np.testing.assert_allclose(phase[part], np.radians(0.5) * -v.imag / sigma)
     exact = begun(0, shifted()[0])
     assert Sweeps.of([exact]).evidence.B.shape == exact.evidence.B.shape

@@ -77,10 +77,10 @@ def test_tolerances_not_named_are_typical(zn1):
     (said,) = remarks_on_tolerances(plain)
     assert said == "tolerances not named: typical values of a careful laboratory (docs/specimen.md)"
     some = replace(plain, tolerances={"core_thickness": 0.01})
-    assert remarks_on_tolerances(some)[0].startswith("16 of 17 tolerances not named")
+    assert remarks_on_tolerances(some)[0].startswith("17 of 18 tolerances not named")
     # Where the force acts is a stated number only of what a force drives.
     struck = replace(some, force_m=(0.25, 0.15))
-    assert remarks_on_tolerances(struck)[0].startswith("17 of 18 tolerances not named")
+    assert remarks_on_tolerances(struck)[0].startswith("18 of 19 tolerances not named")
     assert remarks_on_tolerances(replace(plain, tolerances=dict.fromkeys(STATED, 0.01))) == ()
     assert remarks_on_tolerances(zn1) == ()
 
