@@ -48,8 +48,11 @@ def member_of(table: ModalTable, specimen: AnySpecimen, widen: Widen | None = No
 
 
 def with_own_error(member: Member, law: CoreLaw) -> Member:
-    """With what its theory gets wrong at the modes of a law."""
+    """With what its theory gets wrong at the modes of a law, and what it is not said how they were read."""
     f, s = member.table.frequency_hz, member.specimen
+    if member.table.read is None and not s.exact:
+        otherwise = member.reads_otherwise(law, np.zeros(len(member.stated)), "half-power")
+        member = replace(member, otherwise=np.array(otherwise))
     G = law.modulus(2 * np.pi * f)
     found = model_error_at(s, f, G) if isinstance(s, Specimen) else s.theory_error(f, G)
     if found is None:

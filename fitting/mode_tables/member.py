@@ -17,6 +17,7 @@ from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
+from fitting.mode_tables.as_read import Read, Stiffness, as_read
 from fitting.mode_tables.modes import ModalMatrices, modes_of
 from fitting.mode_tables.table import ModalTable
 from fitting.nuisances import Nuisances
@@ -44,6 +45,8 @@ class Member:
     """Relative errors of the model itself, of f and eta. Shape (modes,) or (1,)."""
     together: Array = field(default_factory=lambda: np.zeros((0, 1)))
     """Relative errors of all f by one cause each. Shape (causes, modes)."""
+    otherwise: Array = field(default_factory=lambda: np.zeros((2, 1)))
+    """By how much f and eta would be read otherwise, relative, where nobody says how. Shape (2, modes)."""
     _taken: dict[tuple[str, ...], EnrichedReducedPlate] = field(default_factory=dict, compare=False)
 
     @property
@@ -72,16 +75,30 @@ class Member:
         return self._taken[key]
 
     def modes(self, law: CoreLaw, z: Array, acting: Acting = ()) -> list[ComplexMode]:
-        """Those of the table; `z` has shape (stated numbers,).
-
-        Raises `OutsideModel` where the model has fewer.
-        """
+        """The model's own; `z` has shape (stated numbers,). Raises `OutsideModel` where it has fewer."""
         return self._solved(law, z, acting)[1]
 
-    def logs(self, modes: Sequence[ComplexMode]) -> Complex:
-        """As `measured`, of modes. Shape (modes,)."""
-        eta = np.maximum([m.loss_factor for m in modes], _LEAST_LOSS)
-        return np.asarray(np.log([m.frequency_hz for m in modes]) + 1j * self.kappa * np.log(eta))
+    def logs(self, law: CoreLaw, z: Array, acting: Acting = ()) -> Complex:
+        """As `measured`, of the model's modes. Shape (modes,)."""
+        A, modes = self._solved(law, z, acting)
+        return self._as_measured(modes, _stiffness(A, law, modes))
+
+    def reads_otherwise(self, law: CoreLaw, z: Array, how: Read) -> tuple[Array, Array]:
+        """By how much frequencies and loss factors would be read otherwise, relative. Shape (modes,) each."""
+        A, modes = self._solved(law, z, ())
+        k = _stiffness(A, law, modes)
+        ln_f, eta = as_read(how, k)
+        return np.expm1(ln_f), eta / k.loss_factor - 1
+
+    def _as_measured(self, modes: Sequence[ComplexMode], k: Stiffness) -> Complex:
+        ln_f, ln_eta = self._read(k)
+        f = np.array([m.frequency_hz for m in modes])
+        return np.asarray(np.log(f) + ln_f + 1j * self.kappa * ln_eta)
+
+    def _read(self, k: Stiffness) -> tuple[Array, Array]:
+        """Ln of the frequency over the model's, and of the loss factor, as the table has them."""
+        ln_f, eta = as_read(self.table.read or "model", k)
+        return ln_f, np.log(np.maximum(eta, _LEAST_LOSS))
 
     def with_derivatives(
         self, law: CoreLaw, z: Array, acting: Acting, steps: Sequence[Array]
@@ -109,13 +126,16 @@ class Member:
                 rows.append(_difference(up, down, Y, value, G) / (2 * h[k]))
         moved = np.array(rows).reshape(-1, len(modes))
         # The law and the damping are taken at omega_r, which moves with lambda.
-        h_omega = _H * omega
-        slope = by_G * (law.modulus(omega + h_omega) - law.modulus(omega - h_omega)) / (2 * h_omega)
-        slope = slope + 1j * _energy(A.C_1, Y)
+        about = _stiffness(A, law, modes)
+        slope = (about.sigma * about.core + about.viscous) * omega
         moved = moved + slope * (moved.real / (2 * omega - slope.real))
         by_real = moved.real / value.real
         by_loss = moved.imag / np.where(value.imag > 0, value.imag, np.inf) - by_real
-        return self.logs(modes), by_real / 2 + 1j * self.kappa * by_loss
+        # What is read follows both; what share the core has, and how steep it is, hardly move.
+        (f_up, loss_up), (f_down, loss_down) = (self._read(_lossier(about, s * _H)) for s in (1, -1))
+        f_by_loss, loss_by_loss = (f_up - f_down) / (2 * _H), (loss_up - loss_down) / (2 * _H)
+        by_modes = by_real / 2 + (f_by_loss + 1j * self.kappa * loss_by_loss) * by_loss
+        return self._as_measured(modes, about), by_modes
 
     def _solved(self, law: CoreLaw, z: Array, acting: Acting) -> tuple[ModalMatrices, list[ComplexMode]]:
         system = self.system([e for e, _ in acting])
@@ -145,6 +165,25 @@ class Member:
         for k, (mode, by) in self.stated.by_damping(len(system.d), z).items():
             found[k] = found[k] + 1j * omega * by * system.d[mode] * (Y @ system.U[:, mode]) ** 2
         return found
+
+
+def _stiffness(A: ModalMatrices, law: CoreLaw, modes: Sequence[ComplexMode]) -> Stiffness:
+    """Of every mode about its own frequency."""
+    Y, value = np.array([m.shape for m in modes]), np.array([m.eigenvalue for m in modes])
+    omega = np.sqrt(value.real)
+    G, h = law.modulus(omega), _H * omega
+    sigma = (law.modulus(omega + h) - law.modulus(omega - h)) / (2 * _H * G)
+    core, viscous = G * _energy(A.K_1, Y) / value.real, 1j * omega * _energy(A.C_1, Y) / value.real
+    return Stiffness(value / value.real - core - viscous, core, sigma, viscous)
+
+
+def _lossier(k: Stiffness, by: float) -> Stiffness:
+    """Every loss larger by a relative step."""
+
+    def more(part: Complex) -> Complex:
+        return np.asarray(part.real + 1j * part.imag * np.exp(by), complex)
+
+    return Stiffness(more(k.rest), more(k.core), k.sigma, more(k.viscous))
 
 
 def _energy(A: Array, Y: Complex) -> Complex:

@@ -92,8 +92,11 @@ class ModalProblem:
         measured = np.concatenate([m.measured for m in self.members])
         sigma = np.concatenate([m.std[0] for m in self.members])
         together = la.block_diag(*(m.together.T / m.std[0][:, None] for m in self.members))
-        B = np.zeros((2 * len(sigma), max(1, together.shape[1])))
-        B[: len(sigma), : together.shape[1]] = together
+        B = np.zeros((2 * len(sigma), together.shape[1] + 1))
+        B[: len(sigma), :-1] = together
+        # One lab has read all of them alike.
+        read = [np.broadcast_to(m.otherwise, (2, len(m.table.mode))) / m.std for m in self.members]
+        B[:, -1] = np.hstack(read).ravel()
         return Evidence(measured, sigma, sigma, B, scale_known)
 
     def response(self, effects: Sequence[Effect] = ()) -> "ModalResponse":
@@ -127,7 +130,7 @@ class ModalResponse(SweepResponse):
         found = []
         for k, (m, at) in enumerate(zip(self.modal.members, self.modal.places, strict=True)):
             acting = [(e, u[part]) for e, part in self._acting(k)]
-            found.append(m.logs(m.modes(law_at(law, k), u[at], acting)))
+            found.append(m.logs(law_at(law, k), u[at], acting))
         return np.concatenate(found)
 
     def signatures(self, law: CoreLaw, known: Array, starts: Sequence[Array]) -> Complex:

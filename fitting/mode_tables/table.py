@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.mode_tables.as_read import Read
 
 FREQUENCY_STD, LOSS_STD = 1e-3, 0.03
 """Relative, where a table states none: a careful resonance test."""
@@ -23,6 +24,8 @@ class ModalTable:
     temperature_c: Array | None = None
     name: str = ""
     """Of its file."""
+    read: Read | None = None
+    """How its numbers were read; None where nobody says: as the model's own."""
 
     @property
     def relative_std(self) -> tuple[Array, Array]:

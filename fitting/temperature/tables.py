@@ -164,6 +164,9 @@ class Tables:
                 add(("eta", number, mode), count + at[k : k + 1], eta_error[k : k + 1] / eta_std[k])
             for k, cause in enumerate(m.together):
                 add(("together", number, k), at, cause / f_std)
+            f_read, eta_read = (np.broadcast_to(e, f_std.shape) for e in m.otherwise)
+            add(("read",), at, f_read / f_std)
+            add(("read",), count + at, eta_read / eta_std)
         return np.array([c for c in columns.values() if c.any()] or [np.zeros(2 * count)]).T
 
     @property

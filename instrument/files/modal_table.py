@@ -1,16 +1,21 @@
 """A table of modes as CSV: `mode`, `frequency_hz`, `loss_factor`, optionally their standard deviations."""
 
+import re
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
+from fitting.mode_tables.as_read import READS, Read
 from fitting.mode_tables.table import ModalTable
 from instrument.errors import BadInput
 from instrument.files.nearest import nearest
 from instrument.files.table import number, read_rows
+from instrument.files.text import read_text
 
+_SAID = re.compile(r"^\s*#\s*read\s*:\s*(.*?)\s*$", re.MULTILINE | re.IGNORECASE)
 _MUST = ("mode", "frequency_hz", "loss_factor")
 _MAY = ("frequency_std_hz", "loss_factor_std", "temperature_c")
 _OF_OTHERS = ("veloc", "accel", "displac", "recept", "mobil", "force", "storage", "time", "coheren")
@@ -153,4 +158,15 @@ def _table(path: Path, columns: dict[str, Array]) -> ModalTable:
         columns.get("loss_factor_std"),
         columns.get("temperature_c"),
         path.name,
+        _read(path),
     )
+
+
+def _read(path: Path) -> Read | None:
+    """What a line '# read: ...' says. Raises `BadInput`."""
+    said = {one.lower() for one in _SAID.findall(read_text(path))}
+    if not said:
+        return None
+    if len(said) > 1 or not said <= set(READS):
+        raise BadInput(f"{path}: read: {' and '.join(sorted(said))}, expected one of {', '.join(READS)}")
+    return cast(Read, said.pop())

@@ -33,6 +33,7 @@ from fitting.structures.beam import Beam
 from instrument.errors import BadInput
 from instrument.models.cache import cached
 from instrument.models.file_remarks import remarks_on_held_width
+from instrument.models.modal_reads import remark_on_reading
 from instrument.models.remarks import remarks_on_law, remarks_on_tolerances
 from instrument.models.theory import check_each_theory
 from instrument.progress import Progress, quiet
@@ -79,7 +80,8 @@ def identify_tables(
         for t, s in zip(tables, specimens, strict=True)
     )
     seconds = perf_counter() - ready
-    said = (*remark_on_fit(found, tables), *theory, *remarks_on_tables(tables, specimens))
+    reads = remark_on_reading(problem.members, found.law)
+    said = (*remark_on_fit(found, tables), *theory, *reads, *remarks_on_tables(tables, specimens))
     return TablesIdentified(found, seconds, said, formulas, ready - began)
 
 
@@ -124,7 +126,8 @@ def diagnose_tables(
             found = diagnose_modes(ModalProblem.of(members), effects, start, report)
     accepted = found.judgement.accepted
     law = accepted.fitted.law if accepted else found.begun.none.law
-    remarks = (*check_theories(law, tables, specimens), *remarks_on_tables(tables, specimens))
+    reads = remark_on_reading(members, law)
+    remarks = (*check_theories(law, tables, specimens), *reads, *remarks_on_tables(tables, specimens))
     return TablesDiagnosed(found, effects, ready - began, perf_counter() - ready, remarks)
 
 

@@ -69,7 +69,7 @@ def test_a_pad_s_mass_hides_in_its_law_and_is_said_to():
     for specimen in specimens:
         (mode,) = small_modes(specimen, law, 1)
         f, eta = mode.frequency_hz * (1 + 1e-3 * rng.normal()), mode.loss_factor * (1 + 0.03 * rng.normal())
-        table = ModalTable(*np.array([[1.0], [f], [eta], [1e-3 * f], [0.03 * eta]]))
+        table = ModalTable(*np.array([[1.0], [f], [eta], [1e-3 * f], [0.03 * eta]]), read="model")
         members.append(member_of(table, specimen))
     mass = next(e for e in standing(specimens[0]) if e.name == "added_mass")
     judgement = diagnose_modes(ModalProblem.of(members), [mass], law).judgement

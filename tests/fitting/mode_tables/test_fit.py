@@ -130,7 +130,7 @@ def by_differences(member):
     x = np.concatenate([np.log(LAW.values), np.zeros(count)])
 
     def logs(x):
-        return member.logs(member.modes(LAW.with_logs(x[:n]), x[n:]))
+        return member.logs(LAW.with_logs(x[:n]), x[n:])
 
     _, found = member.with_derivatives(LAW, x[n:], (), ())
     for k in range(len(x)):

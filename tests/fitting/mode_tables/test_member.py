@@ -9,7 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fitting.errors import OutsideModel
+from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
+from fitting.mode_tables.as_read import READS
 from fitting.mode_tables.build import member_of
 from fitting.mode_tables.member import Member
 from fitting.mode_tables.standing import standing
@@ -39,7 +41,7 @@ def test_modes_are_those_of_the_beam_that_the_table_names():
     every = small_modes(BEAM, LAW, 3)
     assert [m.frequency_hz for m in found] == pytest.approx([every[k].frequency_hz for k in (0, 2)])
     assert [m.loss_factor for m in found] == pytest.approx([every[k].loss_factor for k in (0, 2)])
-    np.testing.assert_allclose(np.exp(MEMBER.logs(every).real), [m.frequency_hz for m in every])
+    np.testing.assert_allclose(np.exp(MEMBER.logs(LAW, STATED).real), [m.frequency_hz for m in every])
 
 
 TABLES = ("mode", "frequency_hz", "loss_factor", "frequency_std_hz", "loss_factor_std")
@@ -52,16 +54,38 @@ def test_a_mode_that_the_model_lacks_is_refused():
 
 
 def test_a_mode_without_losses_has_a_logarithm_too():
-    (mode, *_) = MEMBER.modes(LAW, STATED)
-    lossless = replace(mode, eigenvalue=complex(mode.eigenvalue.real, 0.0))
-    assert np.isfinite(replace(MEMBER, own_error=(0.0, 0.0)).logs([lossless] * 3)).all()
+    lossless = ConstantModulus(2e6, 0.0)
+    assert np.isfinite(replace(MEMBER, own_error=(0.0, 0.0)).logs(lossless, STATED)).all()
+
+
+@pytest.mark.parametrize("read", READS)
+def test_derivatives_of_what_is_read_are_central_differences(read):
+    member, h = replace(MEMBER, table=replace(TABLE, read=read)), 1e-4
+    value, by = member.with_derivatives(ZENER, STATED, (), ())
+    np.testing.assert_allclose(value, member.logs(ZENER, STATED))
+    for k, step in enumerate(h * np.eye(len(ZENER.names))):
+        up, down = (member.logs(ZENER.with_logs(np.log(ZENER.values) + s * step), STATED) for s in (1, -1))
+        expected = (up - down) / (2 * h)
+        # How steep the core is is taken as it stands: a share of what the losses do.
+        within = 2e-4 if read == "model" else 0.1
+        np.testing.assert_allclose(by[k], expected, atol=within * np.abs(expected).max())
+
+
+def test_a_steep_core_is_read_lossier_than_it_is():
+    f, eta = MEMBER.reads_otherwise(ZENER, STATED, "half-power")
+    assert np.all(eta > 0)
+    by_pole_f, by_pole = MEMBER.reads_otherwise(ZENER, STATED, "poles")
+    np.testing.assert_allclose(by_pole, eta, atol=0.02)
+    assert np.abs(f).max() < 0.02 > np.abs(by_pole_f).max()
+    own = MEMBER.reads_otherwise(ZENER, STATED, "model")
+    np.testing.assert_allclose(own, 0.0, atol=1e-12)
 
 
 def test_what_an_effect_does_to_modes_is_that_of_central_differences():
     law, u, h = ZENER, np.array([1.1]), 1e-3
 
     def logs(u):
-        return MEMBER.logs(MEMBER.modes(law, STATED, [(STIFFER, u)]))
+        return MEMBER.logs(law, STATED, [(STIFFER, u)])
 
     value, by = MEMBER.with_derivatives(law, STATED, [(STIFFER, u)], [np.array([1e-4])])
     np.testing.assert_allclose(value, logs(u))

@@ -1,0 +1,43 @@
+"""How the numbers of a table of modes were read, where that matters to the law."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from fitting.digits import two_digits
+from fitting.errors import OutsideModel
+from fitting.laws import CoreLaw
+from fitting.mode_tables.member import Member
+
+_MATTERS = 0.5
+"""Standard deviations of a table's number that another reading of it moves it by."""
+
+
+def remark_on_reading(members: Sequence[Member], law: CoreLaw) -> tuple[str, ...]:
+    """That peaks and half-power widths are other numbers than the model's, where nobody says which it is."""
+    moved_f, moved_eta, matters = list[float](), list[float](), False
+    for m in members:
+        if m.table.read is not None:
+            continue
+        try:
+            f, eta = m.reads_otherwise(law, np.zeros(len(m.stated)), "half-power")
+        except OutsideModel:
+            continue
+        std_f, std_eta = m.table.relative_std
+        matters |= bool(max(np.abs(f / std_f).max(), np.abs(eta / std_eta).max()) > _MATTERS)
+        moved_f += f.tolist()
+        moved_eta += eta.tolist()
+    if not matters:
+        return ()
+    left_open = "" if any(m.specimen.exact for m in members) else ", which is left open in the fit"
+    return (
+        "modes are taken as the model's own, the core as it is at each frequency ('viscorig modes'); peaks "
+        f"and half-power widths of an FRF read {_over(moved_f)} % in frequency and {_over(moved_eta)} % in "
+        f"loss factor beside them{left_open}: say which they are by a line '# read: half-power' in the "
+        "table, '# read: poles' (a curve fit) or '# read: model'",
+    )
+
+
+def _over(values: Sequence[float]) -> str:
+    low, high = (f"{'+' if v > 0 else ''}{two_digits(100 * v)}" for v in (min(values), max(values)))
+    return low if low == high else f"{low} to {high}"
