@@ -57,9 +57,9 @@ def _doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> str:
     try:
         model = any_core(specimen, sweep.frequency_hz, progress)
     except FittingError:
-        if not _near_in_rad_s(sweep, specimen, progress):
+        if _distance_in_rad_s(sweep, specimen, progress) > _WITH_EFFECTS:
             raise
-        return _RAD_S
+        return f"it looks as if {_RAD_S}"
     as_is = _as_is(sweep, model)
     near = NEAR if len(sweep) * (1 + sweep.has_phase) >= _MANY else SCALED
     if as_is.distance < near or _as_is(sweep, replace(model, reads=_other(model))).distance < NEAR:
@@ -68,8 +68,8 @@ def _doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> str:
     said = _of_data(sweep, model, as_is, specimen.drive)
     if said is not None:
         return f"it looks as if {said}" if said else ""
-    if _near_in_rad_s(sweep, specimen, progress):
-        return _RAD_S
+    if _distance_in_rad_s(sweep, specimen, progress) < EXPLAINED:
+        return f"it looks as if {_RAD_S}"
     if as_is.distance < SCALED:
         return ""
     for words, other in specimen_mistakes(specimen):
@@ -77,13 +77,30 @@ def _doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> str:
             return f"it looks as if {words}"
     if as_is.distance < FAR:
         return ""
+    likely = _likely_beside_effects(sweep, specimen, model, as_is, progress)
+    if likely:
+        return f"it looks as if {likely}"
     return (
         f"no core makes this {specimen.kind} answer so (typically {np.exp(_median(sweep, model, as_is)):.2g} "
         "times off): another specimen or layer, unit, level or pickup"
     )
 
 
-_RAD_S = "it looks as if the frequencies are in rad/s, expected Hz"
+_RAD_S = "the frequencies are in rad/s, expected Hz"
+
+
+def _likely_beside_effects(
+    sweep: Sweep, specimen: AnySpecimen, model: AnyCore, as_is: Nearest, progress: Progress
+) -> str:
+    """What takes back most of a distance that is hopeless, and leaves no more than effects do; or empty.
+
+    Something is asked here anyway.
+    """
+    mistake, found = _most_likely(sweep, model, list(mistakes(sweep)))
+    slower = _distance_in_rad_s(sweep, specimen, progress)
+    if min(found.distance, slower) > min(_WITH_EFFECTS, BETTER * as_is.distance):
+        return ""
+    return _RAD_S if slower < found.distance else words_of(mistake, found.factor, specimen.drive)
 
 
 def _explains(distance: float, as_is: float) -> bool:
@@ -189,13 +206,13 @@ def _median(sweep: Sweep, model: AnyCore, found: Nearest) -> float:
     return float(np.median(np.abs(off.real)))
 
 
-def _near_in_rad_s(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> bool:
+def _distance_in_rad_s(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> float:
     if not isinstance(specimen, Specimen | Beam):
         # Of a pair any frequency is as good: its modulus goes along.
-        return False
+        return float("inf")
     slower = replace(sweep, frequency_hz=sweep.frequency_hz / (2 * np.pi))
     try:
         model = any_core(specimen, slower.frequency_hz, progress)
     except FittingError:
-        return False
-    return _as_is(slower, model).distance < EXPLAINED
+        return float("inf")
+    return _as_is(slower, model).distance

@@ -116,5 +116,5 @@ DATA = [
         "plate",
         plausibility=True,
     ),
-    column("real and imaginary part swapped", turned, "plate"),
+    column("real and imaginary part swapped", turned, "exchanged"),
 ]

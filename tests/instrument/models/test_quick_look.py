@@ -149,8 +149,25 @@ def test_frequencies_in_radians_a_second_are_asked_about(plate, right):
     assert said == "it looks as if the frequencies are in rad/s, expected Hz"
 
 
+@pytest.mark.parametrize(
+    ("spoil", "said"),
+    [
+        (np.conj, "conjugate"),
+        (lambda v: v * 9.81e-6, "unit, level or gain"),
+        (lambda v: v.imag + 1j * v.real, "exchanged"),
+    ],
+)
+def test_a_mistake_is_named_in_data_that_hide_an_effect_too(plate, right, spoil, said):
+    # A resonance of something that hangs on it: as far off as effects are.
+    r = F / np.median(F)
+    hidden = right.velocity_m_s * (1 + 0.15 / (1 - r**2 + 0.3j))
+    model = quick_look.any_core(plate, F, quick_look.quiet)
+    assert 0.12 < quick_look._as_is(replace(right, velocity_m_s=hidden), model).distance < 0.45
+    assert said in data_doubt(replace(right, velocity_m_s=spoil(hidden)), plate)
+
+
 def test_what_no_core_and_no_mistake_explains_is_another_plate(monkeypatch, plate, right):
-    monkeypatch.setattr(quick_look, "_near_in_rad_s", lambda *_: False)
+    monkeypatch.setattr(quick_look, "_distance_in_rad_s", lambda *_: float("inf"))
     monkeypatch.setattr(quick_look, "specimen_mistakes", lambda _: ())
     rng = np.random.default_rng(1)
     nonsense = times(np.exp(rng.normal(0, 3, len(F)) + 1j * rng.uniform(0, 6, len(F))))(right)
