@@ -15,6 +15,8 @@ OF_EACH_SPOT = ("gain", "delay", "pickup")
 """Kinds of stated numbers that are another one at every spot, though they are stated alike."""
 CHANNELS = ("gain", "delay")
 """What a specimen that stays where it is does not keep."""
+OF_EACH_CHAIN = ("phase",)
+"""Of one accelerometer, or one hammer, against one laser: alike in all files that are driven alike."""
 OF_EACH_FILE = ("force",)
 """And in every file, its spots sharing them."""
 OF_EACH_PLATE = ("mass", "place", "damping", "length", "width")
@@ -44,6 +46,8 @@ def shared(
             key: tuple[object, ...] = (n.name, n.sigma, stated_number(m.specimen, n)[0])
             if n.kind in CHANNELS:
                 key = (n.name, of[k])
+            elif n.kind in OF_EACH_CHAIN:
+                key = (n.name, n.sigma, m.points.drive)
             elif n.kind in OF_EACH_SPOT:
                 key = (n.name, there[k])
             elif n.kind in OF_EACH_PLATE:

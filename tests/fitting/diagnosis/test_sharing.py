@@ -10,11 +10,11 @@ from fitting.specimen import Specimen
 NUMBERS = (Nuisance("gain", "gain", 0.003), Nuisance("length", "length", 1e-3))
 
 
-def member(length_m=0.3):
+def member(length_m=0.3, drive="base", numbers=NUMBERS):
     specimen = object.__new__(Specimen)
     object.__setattr__(specimen, "length_m", length_m)
-    nuisances = SimpleNamespace(each=NUMBERS)
-    return SimpleNamespace(specimen=specimen, nuisances=nuisances, points=SimpleNamespace(drive="base"))
+    nuisances = SimpleNamespace(each=numbers)
+    return SimpleNamespace(specimen=specimen, nuisances=nuisances, points=SimpleNamespace(drive=drive))
 
 
 def names(members, of, stays=None):
@@ -49,3 +49,10 @@ def test_specimens_that_stay_apart_have_each_its_own_numbers_at_all_their_temper
     four = [member() for _ in range(4)]
     said = names(four, [Place(k + 1) for k in range(4)], (0, 1, 0, 1))
     assert said == ["gain [1]", "length [1, 3]", "gain [2]", "length [2, 4]", "gain [3]", "gain [4]"]
+
+
+def test_files_that_are_driven_alike_have_one_angle_between_their_channels():
+    phase = (Nuisance("phase", "phase", 0.01),)
+    shaken, struck = (member(drive=drive, numbers=phase) for drive in ("base", "force"))
+    said = names([shaken, struck, shaken], [Place(1), Place(2), Place(3)])
+    assert said == ["phase [1, 3]", "phase [2]"]
