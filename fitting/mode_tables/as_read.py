@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 import numpy as np
+from scipy.optimize.elementwise import find_root
 
 from fitting.arrays import Array, Complex
 
@@ -25,15 +26,11 @@ Read = Literal["model", "poles", "half-power"]
 READS: tuple[str, ...] = get_args(Read)
 
 _NEWTON = 40
-"""Steps to a pole or a peak: a handful are taken."""
+"""Steps to a pole: a handful are taken."""
 _STILL = 1e-13
 """A step that is the last."""
-_HALVED = 45
-"""Halvings of a bracket: to 1e-13 of it."""
 _OUT = 8.0
 """In ln omega, from a peak: beyond it any mode has come down."""
-_FARTHEST = 0.3
-"""In ln omega: a Newton step at most, so that a peak as wide as its frequency is not overrun."""
 
 
 @dataclass(frozen=True)
@@ -51,60 +48,61 @@ class Stiffness:
         whole = self.rest + self.core + self.viscous
         return np.asarray(whole.imag / whole.real)
 
-    def denominator(self, t: Complex | Array) -> tuple[Complex, Complex, Complex]:
-        """Lambda - omega^2 at t = ln x, and two derivatives to t."""
+    def denominator(self, t: Complex | Array) -> tuple[Complex, Complex]:
+        """Lambda - omega^2 at t = ln x, and its derivative to t."""
         core, viscous, heavy = self.core * np.exp(self.sigma * t), self.viscous * np.exp(t), np.exp(2 * t)
-        return (
-            self.rest + core + viscous - heavy,
-            self.sigma * core + viscous - 2 * heavy,
-            self.sigma**2 * core + viscous - 4 * heavy,
-        )
+        return self.rest + core + viscous - heavy, self.sigma * core + viscous - 2 * heavy
 
     def pole(self) -> Complex:
         """In ln x."""
         t: Complex = np.asarray(np.log(self.rest + self.core + self.viscous) / 2, complex)
         for _ in range(_NEWTON):
-            D, D_1, _ = self.denominator(t)
+            D, D_1 = self.denominator(t)
             t = np.asarray(t - D / D_1, complex)
             if np.abs(D / D_1).max() < _STILL:
                 break
         return t
 
-    def size(self, t: Array) -> tuple[Array, Array, Array]:
-        """Ln of the velocity's amplitude, and two derivatives to t."""
-        D, D_1, D_2 = self.denominator(t)
-        return t - np.log(np.abs(D)), 1 - (D_1 / D).real, -(D_2 / D - (D_1 / D) ** 2).real
+    def size(self, t: Array) -> tuple[Array, Array]:
+        """Ln of the velocity's amplitude, and its slope over t."""
+        D, D_1 = self.denominator(t)
+        return t - np.log(np.abs(D)), 1 - (D_1 / D).real
 
 
 def as_read(how: Read, k: Stiffness) -> tuple[Array, Array]:
-    """Ln of the frequency read over the model's, and the loss factor read. Shape (modes,) each."""
+    """Ln of the frequency read over the model's, and the loss factor read. Shape (modes,) each.
+
+    A mode that has no pole or peak to be read, as a search may come by with losses of 2 and more, is left as
+    it is.
+    """
+    own = np.zeros(len(k.core)), k.loss_factor
     if how == "model":
-        return np.zeros(len(k.core)), k.loss_factor
+        return own
+    with np.errstate(all="ignore"):
+        f, eta = _pole(k) if how == "poles" else _peak(k)
+    there = np.isfinite(f) & np.isfinite(eta)
+    return np.where(there, f, own[0]), np.where(there, eta, own[1])
+
+
+def _pole(k: Stiffness) -> tuple[Array, Array]:
     pole = k.pole()
-    if how == "poles":
-        return pole.real, 2 * np.sin(pole.imag)
-    peak = _peak(k, pole.real)
+    return pole.real, 2 * np.sin(pole.imag)
+
+
+def _peak(k: Stiffness) -> tuple[Array, Array]:
+    pole = k.pole()
+    # A peak is no further from its pole's frequency than half its width.
+    peak = _root(1, k, (pole.real - pole.imag, pole.real + pole.imag), 0.0)
     level = k.size(peak)[0] - np.log(2) / 2
-    low, high = (_crossing(k, peak, s * _OUT, level) for s in (-1, 1))
+    low, high = (_root(0, k, (peak, peak + side * _OUT), level) for side in (-1, 1))
     return peak, np.exp(high - peak) - np.exp(low - peak)
 
 
-def _peak(k: Stiffness, t: Array) -> Array:
-    for _ in range(_NEWTON):
-        _, slope, bend = k.size(t)
-        # Uphill where it is not yet a hill.
-        step = np.clip(slope / np.maximum(-bend, 1e-3), -_FARTHEST, _FARTHEST)
-        t = t + step
-        if np.abs(step).max() < _STILL:
-            break
-    return t
+def _root(derivative: int, k: Stiffness, bracket: tuple[Array, Array], level: Array | float) -> Array:
+    """Where ln of the amplitude, or its slope, has a value. Shape (modes,)."""
 
+    def off(t: Array, level: Array, *parts: Complex) -> Array:
+        return np.asarray(Stiffness(*parts).size(t)[derivative] - level)
 
-def _crossing(k: Stiffness, peak: Array, reach: float, level: Array) -> Array:
-    """Where the amplitude has come down to `level` between a peak and so far from it."""
-    above, below = peak, peak + reach
-    for _ in range(_HALVED):
-        middle = (above + below) / 2
-        over = k.size(middle)[0] > level
-        above, below = np.where(over, middle, above), np.where(over, below, middle)
-    return np.asarray((above + below) / 2)
+    found = find_root(off, bracket, args=(level, k.rest, k.core, k.sigma, k.viscous))
+    return np.asarray(found.x)

@@ -59,33 +59,19 @@ class OneMode:
         return abs(p), 2 * p.imag / abs(p)
 
 
-def read(how, one):
-    omega, k = one.own()
-    ln_f, as_eta = as_read(how, k)
-    return omega * np.exp(ln_f[0]), as_eta[0]
-
-
 @pytest.mark.parametrize("share", [0.05, 0.2, 0.4])
-def test_a_peak_and_its_width_are_those_of_the_response(share):
+@pytest.mark.parametrize(("how", "within"), [("half-power", 2e-4), ("poles", 5e-4)])
+def test_what_is_read_is_that_of_the_response_and_of_the_law_in_the_complex_plane(how, within, share):
     one = OneMode(share)
-    peak, width = one.peak_and_width()
-    f, eta = read("half-power", one)
-    assert f == pytest.approx(peak, rel=2e-4)
-    assert eta == pytest.approx(width, rel=0.01)
+    f_true, eta_true = one.peak_and_width() if how == "half-power" else one.pole()
+    omega, k = one.own()
+    ln_f, eta = as_read(how, k)
+    assert omega * np.exp(ln_f[0]) == pytest.approx(f_true, rel=within)
+    assert eta[0] == pytest.approx(eta_true, rel=0.01)
     # What the core's slope does is no trifle.
-    _, k = one.own()
-    more = width / k.loss_factor[0] - 1
+    more = eta_true / k.loss_factor[0] - 1
     assert (more > 0.02) == (share > 0.1)
     assert more == pytest.approx((k.sigma * k.core).real[0] / 2, rel=0.5, abs=0.01)
-
-
-@pytest.mark.parametrize("share", [0.05, 0.2, 0.4])
-def test_a_pole_is_that_of_the_law_in_the_complex_plane(share):
-    one = OneMode(share)
-    size, twice_ratio = one.pole()
-    f, eta = read("poles", one)
-    assert f == pytest.approx(size, rel=5e-4)
-    assert eta == pytest.approx(twice_ratio, rel=0.01)
 
 
 def of(eta, rising=0.0, losing=0.0, share=1.0):
@@ -116,3 +102,9 @@ def test_widths_grow_with_the_loss_and_with_the_slope(eta, rising, losing, share
         _, steeper = as_read(how, of(eta, rising + 0.05, losing, share))
         assert here[0] < more[0]
         assert here[0] < steeper[0]
+
+
+@given(st.floats(1e-3, 5.0), st.floats(-0.1, 0.9), st.floats(-0.3, 0.3), st.floats(0.02, 1.0))
+def test_whatever_a_search_comes_by_is_a_number(eta, rising, losing, share):
+    for how in READS:
+        assert np.isfinite(as_read(how, of(eta, rising, losing, share))).all()
