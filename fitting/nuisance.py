@@ -6,7 +6,7 @@ import numpy as np
 
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.specimen import Specimen
-from fitting.tolerances import OF_THEORY, STATED, Unit, plate_numbers, tolerance
+from fitting.tolerances import OF_CHANNELS, OF_THEORY, STATED, Unit, plate_numbers, tolerance
 
 _UNHEARD = 1e-6
 """Share of a mode that the plate's motions carry, below which its ratio plays no part."""
@@ -29,6 +29,11 @@ class Nuisance:
         return (STATED | OF_THEORY)[self.kind].unit
 
 
+def channels_felt(*, has_phase: bool) -> tuple[str, ...]:
+    """Kinds of numbers of the channel that readings can feel."""
+    return OF_CHANNELS if has_phase else OF_CHANNELS[:1]
+
+
 def felt(specimen: Specimen, plate: EnrichedReducedPlate, *, has_phase: bool) -> tuple[Nuisance, ...]:
     """All stated numbers of a specimen that a sweep of it can feel: delay and phase only with phasors."""
     found = [Nuisance(n, kind, tolerance(specimen, kind)) for n, kind in plate_numbers(specimen)]
@@ -49,7 +54,5 @@ def felt(specimen: Specimen, plate: EnrichedReducedPlate, *, has_phase: bool) ->
     found += [
         Nuisance(f"place_{k + 1}_{axis}", "place", laid) for k in range(len(specimen.masses)) for axis in "xy"
     ]
-    found.append(Nuisance("gain", "gain", tolerance(specimen, "gain")))
-    if has_phase:
-        found += [Nuisance(n, n, tolerance(specimen, n)) for n in ("delay", "phase")]
+    found += [Nuisance(n, n, tolerance(specimen, n)) for n in channels_felt(has_phase=has_phase)]
     return tuple(n for n in found if n.sigma > 0)

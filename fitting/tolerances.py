@@ -74,6 +74,8 @@ OF_THEORY = {
 }
 """Numbers that a theory leaves open: nobody states them, and no file names them."""
 
+OF_CHANNELS = ("gain", "delay", "phase")
+"""Numbers of what reads it; amplitudes feel the first alone."""
 OF_TEMPERATURE = ("substrate_young_per_k", "constraining_young_per_k")
 """Numbers that play a part where data are of several temperatures."""
 STATED_PER_K = 0.5

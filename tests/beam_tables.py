@@ -10,6 +10,7 @@ from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.table import ModalTable
 from fitting.specimen import Core, Face
 from fitting.structures.beam import Beam
+from fitting.structures.small import system_of
 from fitting.structures.small_modes import small_modes
 
 LAW = ConstantModulus(3e6, 0.5)
@@ -29,6 +30,21 @@ def read(true, count=6, seed=0):
         1e-3 * f,
         0.03 * eta,
     )
+
+
+def poles_of(beam, count):
+    """With its law in the complex plane: what a perfect curve fit finds. Frequencies, losses."""
+    system, law, found = system_of(beam, beam.parts()), beam.core.law, []
+    for mode in small_modes(beam, law, count):
+        p = 2 * np.pi * mode.frequency_hz * (1 + 0.5j * mode.loss_factor)
+        y = np.array(mode.shape, complex)
+        for _ in range(30):
+            K = system.K_0 + complex(law.modulus(np.array([p]))[0]) * system.K_1
+            y = np.linalg.solve(K - p * p * (1 + 1e-7) * system.M, system.M @ y)
+            y /= np.sqrt(y @ (system.M @ y))
+            p = np.sqrt(y @ (K @ y))
+        found.append((abs(p) / (2 * np.pi), 2 * p.imag / abs(p)))
+    return np.array(found).T
 
 
 def begun(*tables):

@@ -60,13 +60,14 @@ def glitches(problem: SmallProblem, law: CoreLaw) -> tuple[Mask, tuple[Glitch, .
     for group in groups_of(sweep):
         if len(group) < FEWEST:
             continue
-        curve = sweep.take(group)
-        rest = np.abs(unexplained(curve, problem.rational.at(group), problem.specimen.reads, law))
+        at = group[np.argsort(sweep.frequency_hz[group], kind="stable")]
+        curve = sweep.take(at)
+        rest = np.abs(unexplained(curve, problem.rational.at(at), problem.specimen.reads, law))
         inside = _stretches(curve.frequency_hz, rest)
         if not inside or np.any(inside, axis=0).mean() > _MOST:
             continue
         for here in inside:
-            aside[group[here]] = True
+            aside[at[here]] = True
             f = curve.frequency_hz[here]
             size = float(rest[here].max()), rms(rest[here])
             found.append(Glitch(float(f.min()), float(f.max()), *size, int(here.sum())))
@@ -76,17 +77,14 @@ def glitches(problem: SmallProblem, law: CoreLaw) -> tuple[Mask, tuple[Glitch, .
 def _stretches(f: Array, rest: Array) -> list[Mask]:
     """Points of each range in which a curve is off, its edges where it comes down to its scatter.
 
-    Shapes (points,).
+    In ascending order; shapes (points,).
     """
-    order = np.argsort(f, kind="stable")
-    t, sizes = np.log(f[order]), rest[order]
-    scatter = float(np.median(rest)) / _MEDIAN
-    over = sizes > max(SIGMAS * scatter, LEAST)
+    t, scatter = np.log(f), float(np.median(rest)) / _MEDIAN
+    over = rest > max(SIGMAS * scatter, LEAST)
     # Neighbours that are off together: by chance one reading of a hundred is that far off.
-    off = over | (median_filter(sizes, _TOGETHER, mode="nearest") > _EDGE * max(scatter, LEAST / SIGMAS))
+    off = over | (median_filter(rest, _TOGETHER, mode="nearest") > _EDGE * max(scatter, LEAST / SIGMAS))
     at = np.flatnonzero(off)
-    found = []
-    for some in np.split(at, np.flatnonzero(np.diff(t[at]) > _GAP) + 1):
-        if np.sum(over[some]) >= _SHORTEST:
-            found.append((np.log(f) >= t[some[0]] - _GROW) & (np.log(f) <= t[some[-1]] + _GROW))
-    return found
+    runs = np.split(at, np.flatnonzero(np.diff(t[at]) > _GAP) + 1)
+    return [
+        (t >= t[run[0]] - _GROW) & (t <= t[run[-1]] + _GROW) for run in runs if np.sum(over[run]) >= _SHORTEST
+    ]

@@ -20,6 +20,7 @@ from fitting.diagnosis.model_error import OfOnePlate, model_error, own_errors
 from fitting.diagnosis.mountings import mountings
 from fitting.diagnosis.of_files import OfFiles, Place
 from fitting.diagnosis.one_plate import Taken
+from fitting.diagnosis.one_rig import alike_rows
 from fitting.diagnosis.plate_answer import motions
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid, spans_of
@@ -194,12 +195,8 @@ class SeveralProblem(DiagnosisProblem):
         pairs = all(m.specimen.kind == "shear-pair" for m in self.members)
         if not pairs or len({b.file for b in self.belongs}) < 2:
             return np.zeros((0, len(self.sweep)), complex)
-        sizes = {
-            kind: np.concatenate([np.full(len(m.sweep), _sigma(m, kind)) for m in self.members])
-            for kind in ("gain", "delay")
-        }
-        rows = np.array([sizes["gain"] + 0j, -1j * self.sweep.omega * sizes["delay"]])
-        return rows[rows.any(axis=1)]
+        # The angle is one stated number of all of them.
+        return alike_rows(self.members, ("gain", "delay"))
 
     def own_temperatures(self, law: CoreLaw, v: Complex) -> Complex:
         """What a core by `KELVIN` warmer in one file than in the others does to ln of the reading.
@@ -249,10 +246,6 @@ class SeveralProblem(DiagnosisProblem):
             )
             found.append(replace(one, name=n.name))
         return tuple(found)
-
-
-def _sigma(member: DiagnosisProblem, kind: str) -> float:
-    return sum(n.sigma for n in member.nuisances.each if n.kind == kind)
 
 
 @dataclass(frozen=True)

@@ -6,13 +6,12 @@ reweighted to the least sum of sizes: a stretch that is off by much pulls no mor
 little. G_0 is where a search begins; hats follow what it lacks.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.identification.model import velocity
 from fitting.laws import CoreLaw
+from fitting.pointwise import velocity_of_sweep
+from fitting.pointwise_roots import VelocityOf
 from fitting.rational import RationalSweep
 from fitting.specimen import Reading
 from fitting.sweep import Sweep
@@ -37,47 +36,25 @@ _ANGLES = (-0.2, 0.0, 0.2, 0.4)
 """And radians more of its argument."""
 
 
-@dataclass(frozen=True)
-class _Curve:
-    """Readings of one curve and what a modulus makes of them."""
-
-    omega: Array
-    read: Complex
-    acceleration_m_s2: Array
-    rational: RationalSweep
-    reads: Reading
-
-    def velocity(self, G: Complex) -> tuple[Complex, Complex]:
-        """Predicted, m/s, and d ln v / d ln G. Shape (points,) each."""
-        x, dx = self.rational.with_derivative(G)
-        v = velocity(self.omega, x, self.reads) * self.acceleration_m_s2
-        return v, 1j * self.omega * dx * G * self.acceleration_m_s2 / v
-
-    def begin(self, law: CoreLaw) -> Complex:
-        """The law's modulus, moved as a whole to where the readings are nearest. Shape (points,)."""
-        stated = law.modulus(self.omega)
-        tried = [stated * size * np.exp(1j * angle) for size in _SIZES for angle in _ANGLES]
-        tried = [G for G in tried if np.all(G.imag > 0)] or [stated]
-        return min(tried, key=lambda G: float(np.sum(np.abs(self.read / self.velocity(G)[0] - 1))))
-
-
 def unexplained(sweep: Sweep, rational: RationalSweep, reads: Reading, law: CoreLaw) -> Complex:
     """What is left of each reading, relative. Shape (points,).
 
-    `rational` holds the sweep's points in their order; `law` is a first guess.
+    `rational` holds the sweep's frequencies, ascending as its points are; `law` is a first guess.
     """
-    curve = _Curve(sweep.omega, sweep.response_m_s, sweep.commanded_m_s2, rational, reads)
-    f = sweep.frequency_hz
-    G_0 = curve.begin(law)
+    velocity_of = velocity_of_sweep(sweep, rational, reads)
+    read, f = sweep.response_m_s, sweep.frequency_hz
+    G_0 = _begin(velocity_of, read, law.modulus(sweep.omega))
     B, drift = _of_modulus(f, np.abs(rational.displacement(G_0))), 1j * f / f.max()
     bend = B.shape[1]
     expected = np.repeat([_MODULUS, _CHANNEL], [bend, 2])
     held = np.diag(np.sqrt(_HELD * len(f)) / expected)
 
     def at(c: Complex) -> tuple[Complex, Complex, float]:
-        v, feels = curve.velocity(G_0 * np.exp(B @ c[:bend]))
-        off = curve.read / (v * np.exp(c[bend] + c[bend + 1] * drift)) - 1
-        return off, feels, float(np.sum(np.abs(off)) + np.sum(np.abs(held @ c) ** 2))
+        """What is left, d ln v / d ln G*, and the sum to be least."""
+        G = G_0 * np.exp(B @ c[:bend])
+        v, by_G = velocity_of(G)
+        off = read / (v * np.exp(c[bend] + c[bend + 1] * drift)) - 1
+        return off, by_G * G / v, float(np.sum(np.abs(off)) + np.sum(np.abs(held @ c) ** 2))
 
     c = np.zeros(bend + 2, complex)
     off, feels, cost = at(c)
@@ -94,6 +71,13 @@ def unexplained(sweep: Sweep, rational: RationalSweep, reads: Reading, law: Core
         if np.abs(step).max() < _STILL:
             break
     return off
+
+
+def _begin(velocity_of: VelocityOf, read: Complex, stated: Complex) -> Complex:
+    """A modulus moved as a whole to where the readings are nearest. Shape (points,)."""
+    tried = [stated * size * np.exp(1j * angle) for size in _SIZES for angle in _ANGLES]
+    tried = [G for G in tried if np.all(G.imag > 0)] or [stated]
+    return min(tried, key=lambda G: float(np.sum(np.abs(read / velocity_of(G)[0] - 1))))
 
 
 def _of_modulus(f: Array, size: Array) -> Array:

@@ -74,12 +74,11 @@ class Member:
             self._taken[key] = self.wide.take(spans.values()) if len(self.wide.names) else self.wide
         return self._taken[key]
 
-    def modes(self, law: CoreLaw, z: Array, acting: Acting = ()) -> list[ComplexMode]:
-        """The model's own; `z` has shape (stated numbers,). Raises `OutsideModel` where it has fewer."""
-        return self._solved(law, z, acting)[1]
-
     def logs(self, law: CoreLaw, z: Array, acting: Acting = ()) -> Complex:
-        """As `measured`, of the model's modes. Shape (modes,)."""
+        """As `measured`, of the model's modes; `z` has shape (stated numbers,). Shape (modes,).
+
+        Raises `OutsideModel` where the model has fewer.
+        """
         A, modes = self._solved(law, z, acting)
         return self._as_measured(modes, _stiffness(A, law, modes))
 

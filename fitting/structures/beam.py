@@ -63,7 +63,6 @@ class Beam:
     """That its faces have; None: the one their moduli are stated for."""
 
     kind = "beam"
-    channels = ("gain", "delay", "phase")
     modal_ratios: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:

@@ -60,7 +60,6 @@ class ShearPair(BaseDriven):
 
     kind = "shear-pair"
     numbers = NUMBERS
-    channels = ("gain", "delay", "phase")
     places: ClassVar[Mapping[str, float]] = MappingProxyType({})
     modal_ratios: tuple[float, ...] = ()
 

@@ -19,7 +19,7 @@ from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate, Names
 from fitting.errors import OutsideModel
 from fitting.model_error import ModelError
-from fitting.nuisance import Nuisance
+from fitting.nuisance import Nuisance, channels_felt
 from fitting.nuisances import Nuisances, Spot
 from fitting.placed import Placed
 from fitting.specimen import StatedSpecimen
@@ -68,10 +68,6 @@ class SmallSpecimen(StatedSpecimen, Protocol):
     @property
     def numbers(self) -> tuple[str, ...]:
         """Kinds of stated numbers that move its matrices."""
-
-    @property
-    def channels(self) -> tuple[str, ...]:
-        """Kinds of stated numbers of what reads it: amplitudes feel the gain alone."""
 
     @property
     def places(self) -> Mapping[str, float]:
@@ -178,8 +174,7 @@ def _real_where_it_is(c: Complex) -> Complex | Array:
 
 def nuisances_of(specimen: SmallSpecimen, parts: Parts, *, has_phase: bool) -> SmallNuisances:
     """All its stated numbers, and those of the channels."""
-    heard = [n for n in specimen.channels if has_phase or n == "gain"]
-    kinds = {n: n for n in (*specimen.numbers, *heard)}
+    kinds = {n: n for n in (*specimen.numbers, *channels_felt(has_phase=has_phase))}
     kinds |= {f"{n}_x": n for n in specimen.places}
     each = [Nuisance(name, kind, specimen.tolerance(kind)) for name, kind in kinds.items()]
     return SmallNuisances(specimen, tuple(n for n in each if n.sigma > 0), None, parts)

@@ -14,6 +14,7 @@ from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.looks import Start, look
 from fitting.diagnosis.model_error import model_error
+from fitting.diagnosis.one_rig import alike_rows
 from fitting.diagnosis.refit import refit
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.response import SweepResponse
@@ -145,22 +146,10 @@ class Sweeps:
 def _alike(evidence: Evidence, begun: Sequence[Begun]) -> Evidence:
     """With a gain, a delay and a phase that all sweeps have in common besides each one's own: of one rig."""
     v = np.concatenate([b.none.velocity_m_s for b in begun])
-    gain, delay, phase = ([_sigma(b, kind) for b in begun] for kind in ("gain", "delay", "phase"))
-    omega = np.concatenate([b.problem.sweep.omega for b in begun])
-    points = [len(b.problem.sweep) for b in begun]
-    rows = [
-        np.repeat(gain, points) * v,
-        -1j * omega * np.repeat(delay, points) * v,
-        1j * np.repeat(phase, points) * v,
-    ]
-    felt = np.array([row for row in rows if row.any()])
+    felt = alike_rows([b.problem for b in begun], ("gain", "delay", "phase")) * v
     if not len(felt) or not evidence.scale_known:
         return evidence
     return replace(evidence, B=np.hstack([evidence.B, evidence.over_sigma(v, felt).T]))
-
-
-def _sigma(begun: Begun, kind: str) -> float:
-    return sum(n.sigma for n in begun.problem.nuisances.each if n.kind == kind)
 
 
 def _side_by_side(begun: Sequence[Begun]) -> Evidence:

@@ -96,6 +96,10 @@ def _likely_beside_effects(
 
     Something is asked here anyway.
     """
+    alone, left = _most_likely(sweep, model, [Mistake(response_of)])
+    if left.distance < _WITH_EFFECTS and alone.is_unit(left.factor, specimen.drive):
+        # Data with an effect are as far off in the right unit, and nothing else makes a thousand of it.
+        return words_of(alone, left.factor, specimen.drive)
     mistake, found = _most_likely(sweep, model, list(mistakes(sweep)))
     slower = _distance_in_rad_s(sweep, specimen, progress)
     if min(found.distance, slower) > min(_WITH_EFFECTS, BETTER * as_is.distance):
@@ -135,14 +139,7 @@ def _of_data(sweep: Sweep, model: AnyCore, as_is: Nearest, drive: Drive) -> str 
         if (response := mistake.taken_back(sweep)) is not None
     ]
     distance, words = min(scaled)
-    if _explains(distance, min(of_size, as_is.distance)):
-        return words
-    if as_is.distance > FAR:
-        # Data with an effect are as far off in the right unit, and nothing else makes a thousand of it.
-        alone, left = _most_likely(sweep, model, [Mistake(response_of)])
-        if left.distance < _WITH_EFFECTS and alone.is_unit(left.factor, drive):
-            return words_of(alone, left.factor, drive)
-    return None
+    return words if _explains(distance, min(of_size, as_is.distance)) else None
 
 
 def _sizes(response: Complex, model: AnyCore) -> float:

@@ -4,7 +4,7 @@ from math import pi
 
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
-from fitting.tolerances import OF_TEMPERATURE, PLATE, STATED, plate_numbers, tolerance
+from fitting.tolerances import OF_CHANNELS, OF_TEMPERATURE, PLATE, STATED, plate_numbers, tolerance
 from instrument.facts.check import ToleranceUsed
 
 _UNITS = {
@@ -22,7 +22,7 @@ def asked(specimen: AnySpecimen) -> list[str]:
     """Kinds of stated numbers that a sweep of this specimen can feel."""
     if not isinstance(specimen, Specimen):
         # What a theory leaves open nobody states.
-        return [*(n for n in specimen.numbers if n in STATED), *specimen.places, *specimen.channels]
+        return [*(n for n in specimen.numbers if n in STATED), *specimen.places, *OF_CHANNELS]
     of_plate = {kind for _, kind in plate_numbers(specimen)}
     unfelt: tuple[str, ...] = (*_NOT_OF_A_SWEEP, *OF_TEMPERATURE)
     if specimen.force_m is None:

@@ -12,11 +12,13 @@ of.
 
 import argparse
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.identification.result import LawBand
 from fitting.laws import LAWS
 from fitting.specimen import Core
 from fitting.structures.shear_pair import ShearPair, disc
@@ -90,11 +92,16 @@ def off(found: DiagnosedTogether, material: Material, warmer: Array) -> list[tup
     of = [e for e in result.effects if e.name == "temperature_difference"]
     number = int(of[0].parameters["file"].value) if of else 0
     its = warmer[:1] if number < 0 else np.delete(warmer, number - 1) if number else warmer
-    band, rows = result.after.band, []
-    f = np.log(band.frequency_hz)
-    low, high = band.frequency_hz.min(), band.frequency_hz.max()
-    for hz in (x for x in AT_HZ if low <= x <= high):
-        G = np.mean([material.modulus(2 * np.pi * hz, w) for w in its])
+    return pulls(
+        result.after.band, lambda hz: complex(np.mean([material.modulus(2 * np.pi * hz, w) for w in its]))
+    )
+
+
+def pulls(band: LawBand, modulus: Callable[[float], complex]) -> list[tuple[float, float]]:
+    """(found - true) / standard error of G' and eta at each frequency of `AT_HZ` that a band has."""
+    f, rows = np.log(band.frequency_hz), []
+    for hz in (x for x in AT_HZ.tolist() if band.frequency_hz.min() <= x <= band.frequency_hz.max()):
+        G = modulus(hz)
         each = (
             (band.storage_modulus_pa, band.storage_modulus_standard_error_pa, G.real),
             (band.loss_factor, band.loss_factor_standard_error, G.imag / G.real),
@@ -102,6 +109,13 @@ def off(found: DiagnosedTogether, material: Material, warmer: Array) -> list[tup
         z = [(np.interp(np.log(hz), f, v) - truth) / np.interp(np.log(hz), f, e) for v, e, truth in each]
         rows.append((float(z[0]), float(z[1])))
     return rows
+
+
+def within(values: Array) -> str:
+    """Shares within the bands, rms and the worst. `values` of shape (any, 2)."""
+    inside = [np.mean(np.abs(values) < limit, axis=0).round(2).tolist() for limit in (1.0, 1.96)]
+    rms, worst = np.sqrt(np.mean(values**2, axis=0)).round(2), np.abs(values).max(axis=0).round(1)
+    return f"within 68, 95 %, G' and eta: {inside} rms {rms} worst {worst} of {len(values)}"
 
 
 def main() -> None:
@@ -122,10 +136,7 @@ def main() -> None:
         first[names] += 1
         z += off(found, material, warmer) if result.verdict != "unknown" else []
         print(seed, result.verdict, names, "warmer by", np.round(warmer, 2), flush=True)
-    values = np.array(z)
-    inside = [np.mean(np.abs(values) < limit, axis=0).round(2).tolist() for limit in (1.0, 1.96)]
-    rms = np.sqrt(np.mean(values**2, axis=0)).round(2).tolist()
-    print(dict(verdicts), dict(first), "within 68, 95 %, G' and eta:", *inside, "rms", rms, "of", len(values))
+    print(dict(verdicts), dict(first), within(np.array(z)))
 
 
 if __name__ == "__main__":

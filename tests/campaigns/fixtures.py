@@ -12,11 +12,11 @@ import argparse
 from dataclasses import replace
 
 import numpy as np
-from files_apart import AT_HZ, Material, drawn
+from files_apart import drawn, pulls, within
 
 from fitting.arrays import Array, Complex
 from instrument.models.files import File
-from instrument.models.together import Together, identify_together
+from instrument.models.together import identify_together
 
 GAIN, PHASE = 0.005, np.radians(0.5)
 
@@ -40,22 +40,6 @@ def behind(r: np.random.Generator, files: list[File], *, still: bool) -> tuple[l
         for f in files
     ]
     return read, [float(hz) for hz in at]
-
-
-def off(found: Together, material: Material) -> list[tuple[float, float]]:
-    """(found - true) / standard error of G' and eta at each frequency of `AT_HZ` that was measured."""
-    band = found.found.result.band
-    assert band is not None
-    f, rows = np.log(band.frequency_hz), []
-    for hz in (x for x in AT_HZ if band.frequency_hz.min() <= x <= band.frequency_hz.max()):
-        (G,) = material.modulus(np.array([2 * np.pi * hz]), 0.0)
-        each = (
-            (band.storage_modulus_pa, band.storage_modulus_standard_error_pa, G.real),
-            (band.loss_factor, band.loss_factor_standard_error, G.imag / G.real),
-        )
-        z = [(np.interp(np.log(hz), f, v) - truth) / np.interp(np.log(hz), f, e) for v, e, truth in each]
-        rows.append((float(z[0]), float(z[1])))
-    return rows
 
 
 def main() -> None:
@@ -82,13 +66,12 @@ def main() -> None:
         hit = {(k, hz) for k, hz in inside if any(n == k and lo <= hz <= hi for n, lo, hi in spans)}
         wrong = sum(not any(lo <= hz <= hi for hz in at) for _, lo, hi in spans)
         there, seen, elsewhere = there + len(inside), seen + len(hit), elsewhere + wrong
-        z += off(found, material)
+        band = found.found.result.band
+        assert band is not None
+        z += pulls(band, lambda hz, of=material: complex(of.modulus(2 * np.pi * hz, 0.0)))
         print(seed, np.round(at), [(n, round(lo), round(hi)) for n, lo, hi in sorted(spans)], flush=True)
-    values = np.array(z)
-    inside_band = [np.mean(np.abs(values) < limit, axis=0).round(2).tolist() for limit in (1.0, 1.96)]
-    rms, worst = np.sqrt(np.mean(values**2, axis=0)).round(2), np.abs(values).max(axis=0).round(1)
     print(f"set aside {seen} of {there} resonances, {elsewhere} stretches elsewhere")
-    print("within 68, 95 %, G' and eta:", *inside_band, "rms", rms, "worst", worst, "of", len(values))
+    print(within(np.array(z)))
 
 
 if __name__ == "__main__":

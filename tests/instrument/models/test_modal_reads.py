@@ -4,14 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from beam_tables import BEAM
+from beam_tables import BEAM, poles_of
 
 from fitting.laws import LAWS
 from fitting.mode_tables.build import member_of, with_own_error
 from fitting.mode_tables.fit import fit_modes
 from fitting.mode_tables.table import ModalTable
-from fitting.structures.small import system_of
-from fitting.structures.small_modes import small_modes
 from instrument.errors import BadInput
 from instrument.files.modal_table import read_modal_table
 from instrument.models.modal_reads import remark_on_reading
@@ -24,24 +22,9 @@ STATED = replace(BEAM, core=GUESS, exact=False, tolerances=dict.fromkeys(BEAM.nu
 COUNT = 7
 
 
-def poles():
-    """Of the beam with the law in the complex plane: what a perfect curve fit finds. Frequencies, losses."""
-    system, found = system_of(TRUE, TRUE.parts()), []
-    for mode in small_modes(TRUE, LAW, COUNT):
-        p = 2 * np.pi * mode.frequency_hz * (1 + 0.5j * mode.loss_factor)
-        y = np.array(mode.shape, complex)
-        for _ in range(30):
-            K = system.K_0 + complex(LAW.modulus(np.array([p]))[0]) * system.K_1
-            y = np.linalg.solve(K - p * p * (1 + 1e-7) * system.M, system.M @ y)
-            y /= np.sqrt(y @ (system.M @ y))
-            p = np.sqrt(y @ (K @ y))
-        found.append((abs(p) / (2 * np.pi), 2 * p.imag / abs(p)))
-    return np.array(found).T
-
-
 @pytest.fixture(scope="module")
 def read():
-    f, eta = poles()
+    f, eta = poles_of(TRUE, COUNT)
     return ModalTable(np.arange(1.0, COUNT + 1), f, eta, 1e-3 * f, 0.03 * eta)
 
 

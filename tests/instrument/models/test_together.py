@@ -1,7 +1,6 @@
 """One law from several files, and from a single shear pair."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,18 +8,10 @@ from rivals import all_but, among
 from shear_pair_cases import HEAVIER_KG, LAW, MASSES_KG, pair, sweep
 
 from fitting.planning.unseen import unseen
-from instrument.cli.main import run
 from instrument.cli.output import Output
 from instrument.cli.print_identification import print_identification
-from instrument.errors import BadInput
-from instrument.files.structure_file import read_structure
-from instrument.files.sweep_file import read_sweep
 from instrument.models.files import File
 from instrument.models.together import diagnose_together, identify_together
-
-REAL = Path(__file__).parents[3].parent / "shared/data/real/shear"
-NOMINAL_C = 21.0
-"""Of the real records: their temperature is stated, not measured."""
 
 
 def files(masses=MASSES_KG, *, points=80, **more):
@@ -297,117 +288,3 @@ def test_a_gain_and_a_phase_of_all_files_do_not_become_the_core_s():
     assert found.noise.source == "misfit"
     # Each file's own wandering is what is left: without what they have in common 8 and 10 %.
     assert law_error(found.law, (60.0, 100.0)).max() < 0.045
-
-
-@pytest.mark.skipif(not REAL.exists(), reason="the real records are not here")
-def test_real_records_of_three_masses_follow_one_law():
-    given = [_real(name, edges=True, every=5) for name in ("253g", "573g", "1196g")]
-    band = identify_together(given).found.result.band
-    k = int(np.flatnonzero(band.frequency_hz == 100.0)[0])
-    for storage_pa, loss_factor in _on_another_machine():
-        assert band.storage_modulus_pa[k] == pytest.approx(storage_pa, rel=0.12)
-        assert band.loss_factor[k] == pytest.approx(loss_factor, rel=0.12)
-
-
-def _on_another_machine():
-    """G' and loss factor at 100 Hz, 0.15 % and 21 C: of its sweep over temperatures, and over strains.
-
-    The second was run at 22.8 C; what a kelvin does is the first one's.
-    """
-    columns = {"usecols": (1, 2, 3, 4, 8), "delimiter": ",", "skip_header": 1}
-    over_t = np.genfromtxt(REAL / "material_a_dma_tf_015p.csv", **columns)
-    over_t = over_t[(over_t[:, 0] == 100.0) & (np.abs(over_t[:, 1] - NOMINAL_C) < 5)]
-    over_strain = np.genfromtxt(REAL / "material_a_dma_sd_100hz.csv", **columns)
-    at = over_strain[np.abs(over_strain[:, 4] - 0.148).argmin()]
-    (t, log_storage, loss), (near, *has) = (
-        (one[..., 1].T, np.log(one[..., 2].T), (one[..., 3] / one[..., 2]).T) for one in (over_t, at)
-    )
-
-    def at_temperature(celsius):
-        return np.exp(np.interp(celsius, t, log_storage)), np.interp(celsius, t, loss)
-
-    here, there = at_temperature(NOMINAL_C), at_temperature(near)
-    return here, (np.exp(has[0]) * here[0] / there[0], has[1] + here[1] - there[1])
-
-
-@pytest.mark.long
-@pytest.mark.skipif(not REAL.exists(), reason="the real records are not here")
-def test_the_lightest_mass_s_disturbance_is_flagged():
-    found = identify_together([_real(name) for name in ("118g", "253g", "573g", "1196g")])
-    (one,) = [one for one in found.aside if one.file == 1 and one.glitch.low_hz < 300]
-    assert one.glitch.low_hz < 230
-    assert 310 < one.glitch.high_hz < 420
-
-
-def _real(name, *, edges=False, every=1):
-    specimen = replace(read_structure(REAL / f"material_a_{name}.toml"), edges=edges)
-    data = read_sweep(REAL / f"material_a_1g_{name}.csv").sweep(specimen.base_acceleration_m_s2)
-    return File(data.take(np.arange(len(data)) % every == 0), specimen, name)
-
-
-PAIR = """
-[shear-pair]
-mass_kg = 0.3
-discs = 2
-outer_diameter_mm = 33.5
-inner_diameter_mm = 11.8
-thickness_mm = 6.0
-[core]
-density_kg_m3 = 1100.0
-[core.law]
-kind = "fractional-zener"
-g0_mpa = 4.0
-ginf_mpa = 30.0
-tau_s = 1.0e-4
-alpha = 0.6
-"""
-FAULTS = {
-    "no shape": (PAIR.replace("outer_diameter_mm = 33.5\ninner_diameter_mm = 11.8\n", ""), "area_mm2"),
-    "both shapes": (PAIR.replace("discs = 2", "discs = 2\narea_mm2 = 700.0"), "area_mm2"),
-    "hole": (PAIR.replace("11.8", "34.0"), "inner_diameter_mm = 34"),
-    "two kinds": (PAIR + "\n[plate]\n", "[plate] and [shear-pair]"),
-    "another's tolerance": (
-        PAIR + "[tolerances]\nlength_mm = 0.3\n",
-        "tolerances.length_mm: a shear-pair has no",
-    ),
-    "two pickups": (PAIR + 2 * "[[pickup]]\n", "pickup: [[pickup]], expected one table [pickup]"),
-    "unknown key": (PAIR.replace("mass_kg", "mass_g"), "mass_g"),
-    "no law": (PAIR.replace('"fractional-zener"', '"rubber"'), "core.law.kind"),
-}
-
-
-@pytest.mark.parametrize(("text", "said"), FAULTS.values(), ids=FAULTS)
-def test_a_bad_shear_pair_is_refused_in_one_line(tmp_path, text, said):
-    path = tmp_path / "pair.toml"
-    path.write_text(text)
-    with pytest.raises(BadInput) as error:
-        read_structure(path)
-    assert said in str(error.value)
-    assert "\n" not in str(error.value)
-
-
-def test_the_commands_take_shear_pairs(tmp_path, capsys):
-    (tmp_path / "pair.toml").write_text(PAIR)
-    s = sweep(read_structure(tmp_path / "pair.toml"), points=60)
-    a = s.velocity_m_s * 2j * np.pi * s.frequency_hz
-    rows = [
-        f"{f!r},{z.real!r},{z.imag!r},9.81,0"
-        for f, z in zip(s.frequency_hz.tolist(), a.tolist(), strict=True)
-    ]
-    header = "frequency_hz,acceleration_re_m_s2,acceleration_im_m_s2,base_accel_re_m_s2,base_accel_im_m_s2"
-    for name in ("a.csv", "b.csv"):
-        (tmp_path / name).write_text("\n".join([header, *rows]) + "\n")
-    pair_toml = str(tmp_path / "pair.toml")
-    for words in (
-        ["identify", str(tmp_path / "a.csv"), "--specimen", pair_toml],
-        ["identify", str(tmp_path / "a.csv"), str(tmp_path / "b.csv"), "--specimen", pair_toml],
-        ["diagnose", str(tmp_path / "a.csv"), "--specimen", pair_toml],
-        ["modes", pair_toml],
-        ["predict", pair_toml, "--frequencies", "50,100"],
-    ):
-        assert run([*words, "--json", str(tmp_path / "out.json")]) == 0, words
-    assert run(["identify", str(tmp_path / "a.csv"), *["--specimen", pair_toml] * 2]) == 2
-    assert "2 times --specimen for 1 files" in capsys.readouterr().err
-    words = ["identify", str(tmp_path / "a.csv"), "--specimen", pair_toml, "--uncertainty", "bootstrap"]
-    assert run(words) == 2
-    assert "bootstrap with a shear-pair: expected profile" in capsys.readouterr().err
