@@ -16,7 +16,7 @@ from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
-from fitting.diagnosis.usual_law import finished
+from fitting.diagnosis.usual_law import finished, within_search
 from fitting.diagnosis.wide_valley import in_wide_valley, of_effects, with_stated
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
@@ -103,6 +103,11 @@ class CandidateFit:
             rival=rival,
         )
 
+    @cached_property
+    def _law(self) -> CoreLaw:
+        """The law so far, or the usual one nearest to it: at its limits it is no place to begin."""
+        return within_search(self.before.law, self.problem.points.omega)
+
     @property
     def near(self) -> list[Refitted]:
         """Rough fits from the law so far and the starts that promise most; best first."""
@@ -159,7 +164,7 @@ class CandidateFit:
 
     def briefly(self) -> list[Refitted]:
         """A few steps from the best start of each form: where the effect cannot be what is looked for."""
-        return [self._rough(self.before.law, u, brief=True) for _, u in self._one_a_form()]
+        return [self._rough(self._law, u, brief=True) for _, u in self._one_a_form()]
 
     @property
     def elsewhere(self) -> list[Refitted]:
@@ -210,10 +215,10 @@ class CandidateFit:
         """
         promise, u = start
         if 0 < promise < SEARCH.least_promise:
-            brief = self._rough(self.before.law, u, brief=True)
+            brief = self._rough(self._law, u, brief=True)
             if brief.converged or abs(self.before.chi2 - brief.chi2) < SEARCH.least_gain:
                 return brief
-        return self._rough(self.before.law, u, rival=rival)
+        return self._rough(self._law, u, rival=rival)
 
     def set_out(self, start: Start) -> Refitted:
         """A few steps from one start."""
@@ -236,7 +241,7 @@ class CandidateFit:
     def quick(self) -> list[Refitted]:
         """One rough fit, begun in a wide valley from the better of the first and the most promising start."""
         starts = [self._first_start, *self._promising_elsewhere]
-        wide = min((self._in_wide_valley(self.before.law, u) for u in starts), key=_chi2)
+        wide = min((self._in_wide_valley(self._law, u) for u in starts), key=_chi2)
         u = with_stated(self.problem, wide)
         return [refit(self._response, self.evidence, wide.law, u, tolerance=ROUGH)]
 
@@ -261,7 +266,7 @@ class CandidateFit:
         return [u for _, u in self.starts[:1] if not np.array_equal(u, self._first_start)]
 
     def _wide(self, u: Array) -> list[Refitted]:
-        laws = (self.before.law, bent_as(self.before.law, self.problem.stated_law))
+        laws = (self._law, bent_as(self.before.law, self.problem.stated_law))
         return sorted((self._in_wide_valley(law, u) for law in laws), key=_chi2)
 
     def _in_wide_valley(self, law: CoreLaw, u: Array) -> Refitted:

@@ -216,7 +216,7 @@ class Singles:
         return [one for name in self._effects for one in self._work.on_the_way(name)]
 
     def _gains(self, order: Sequence[ScoredFit]) -> bool:
-        return bool(order) and self._search.none.cost - order[0].cost >= SEARCH.promising
+        return bool(order) and order[0].cost < self._search.none.cost
 
     def _worth_more(self) -> list[str]:
         """Effects that better starts might bring to the top, after a first pass."""

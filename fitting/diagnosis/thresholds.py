@@ -81,7 +81,7 @@ class SearchThresholds:
     unclear: float = 1.1
     """Chi-square per degree of freedom above which the first pass may have missed the cause."""
     promising: float = 5.0
-    """In cost below none's: below it nothing is gone into twice."""
+    """In cost below none's: less explains nothing that all others could begin from."""
     left_behind: float = 4.0
     """Times the least chi-square: rough fits beyond, of one effect or of two, are not followed to the end."""
     wrong: float = 2.0

@@ -15,8 +15,8 @@ from fitting.effects.full_plate import FullPlate
 from fitting.effects.released_root import along_root
 from fitting.element import THETA_Y, U_B, U_C, W
 
-_MOST = 0.95
-"""Below one: at one the springs of an edge vanish, beyond it they would push."""
+_MOST = 50.0
+"""Springs of one edge over those of the other: where they are softer still, that edge is free."""
 _SPANNED = ((6e12, 0.7), (2e13, 0.9), (6e13, 0.9), (4e14, 0.9))
 """N/m^3 and slopes, from softer than a clamp ought to be to nearly rigid."""
 
@@ -52,7 +52,11 @@ def uneven_springs(full: FullPlate) -> tuple[sp.csc_array, sp.csc_array]:
 
 
 class UnevenClampEffect(Effect):
-    """Springs k (1 + slope (2 y / width - 1)) per area of the root face."""
+    """Springs k (1 + slope (2 y / width - 1)) per area of the root face, slope = (ratio - 1) / (ratio + 1).
+
+    `ratio` is of the far edge's springs to the near one's: slopes end where an edge is free, and fits of
+    clamps that hold little there would end with them.
+    """
 
     name = "uneven_clamp"
     enters = "stiffness"
@@ -60,7 +64,7 @@ class UnevenClampEffect(Effect):
     needs = ROOT
     parameters = (
         *ClampComplianceEffect.parameters,
-        EffectParameter("slope", "1", -_MOST, _MOST, 0.3, spread=0.4, mounting=0.3),
+        EffectParameter("ratio", "1", 1 / _MOST, _MOST, 2.0, logarithmic=True, neutral=1.0, mounting=0.6),
     )
     spans = (UnevenRoot(),)
     extends = "clamp_compliance"
@@ -74,7 +78,7 @@ class UnevenClampEffect(Effect):
         return None if "uneven" in plate.group else "the plate has no clamp"
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.array([k, slope]) for k in (5e13, 1.5e13) for slope in (0.6, -0.6)]
+        return [np.array([k, ratio]) for k in (5e13, 1.5e13) for ratio in (4.0, 0.25)]
 
     def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
         return ((ClampComplianceEffect(), u[:1]),)
@@ -83,11 +87,13 @@ class UnevenClampEffect(Effect):
         return np.array([u[0] / a, u[1]])
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
-        return Change(K=u[0] * (plate.matrix("uneven.mean") + u[1] * plate.matrix("uneven.slope")))
+        k, ratio = u
+        slope = (ratio - 1) / (ratio + 1)
+        return Change(K=k * (plate.matrix("uneven.mean") + slope * plate.matrix("uneven.slope")))
 
     def story(self, u: Mapping[str, float]) -> str:
-        side = "the far" if u["slope"] > 0 else "the near"
+        side = "the far" if u["ratio"] > 1 else "the near"
         return (
-            f"the clamp yields ({u['k']:.2g} N/m^3 of root face on average) and is stiffer on {side} side, "
-            f"by {100 * abs(u['slope']):.0f} %"
+            f"the clamp yields ({u['k']:.2g} N/m^3 of root face on average) and on {side} side is "
+            f"{max(u['ratio'], 1 / u['ratio']):.2g} times as stiff as on the other"
         )

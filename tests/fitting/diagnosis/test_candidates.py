@@ -7,7 +7,11 @@ import pytest
 
 from fitting.diagnosis.candidates import CandidateFit
 from fitting.effects.base import Effect, EffectParameter
+from fitting.laws.fractional_zener import FractionalZener
 
+OMEGA = 2 * np.pi * np.geomspace(20, 300, 9)
+PROBLEM = SimpleNamespace(points=SimpleNamespace(omega=OMEGA))
+USUAL = FractionalZener(4e5, 8e6, 2e-4, 0.7)
 SIZE = EffectParameter("size", "m", -1.0, 1.0, 0.1)
 FORM = EffectParameter("form", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True)
 PLACE = EffectParameter("x", "m", 0.0, 1.0, 0.1, neutral=None)
@@ -44,11 +48,22 @@ def test_of_many_places_those_that_promise_are_followed(monkeypatch):
 
 def test_what_is_looked_at_briefly_is_looked_at_in_every_form(monkeypatch):
     begun = []
-    monkeypatch.setattr(CandidateFit, "_rough", lambda _, law, u, *, brief: begun.append(u.tolist()))
+    monkeypatch.setattr(CandidateFit, "_rough", lambda _, law, u, *, brief: begun.append((law, u.tolist())))
     starts = (9.0, [0.3, 0.0]), (8.0, [0.2, 0.0]), (0.1, [0.1, 1.0])
     known = [(promise, np.array(u)) for promise, u in starts]
-    CandidateFit(None, None, SimpleNamespace(law=None), TwoForms(), known).briefly()
-    assert begun == [[0.3, 0.0], [0.1, 1.0]]
+    CandidateFit(PROBLEM, None, SimpleNamespace(law=USUAL), TwoForms(), known).briefly()
+    assert begun == [(USUAL, [0.3, 0.0]), (USUAL, [0.1, 1.0])]
+
+
+def test_a_law_at_its_limits_is_left_for_the_usual_one_nearest_to_it(monkeypatch):
+    begun = []
+    monkeypatch.setattr(CandidateFit, "_rough", lambda _, law, u, *, brief: begun.append(law))
+    far = FractionalZener(2.4e5, 4e9, 1e-10, 0.47)
+    known = [(9.0, np.array([0.3, 0.0]))]
+    CandidateFit(PROBLEM, None, SimpleNamespace(law=far), TwoForms(), known).briefly()
+    (usual,) = begun
+    assert 1e-6 * (1 - 1e-6) <= usual.tau_s <= 1e-2
+    assert np.abs(usual.modulus(OMEGA) / far.modulus(OMEGA) - 1).max() < 0.1
 
 
 class Springs(Effect):

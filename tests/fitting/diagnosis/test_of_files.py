@@ -87,7 +87,7 @@ def test_a_spot_may_be_off_once_where_the_laser_is_aimed_at_it_in_every_file():
 
 def test_what_an_effect_contains_it_contains_in_each_file():
     uneven, masses = OfFiles(CATALOGUE["uneven_clamp"], 2, EACH), OfFiles(CATALOGUE["added_masses"], 3, 2)
-    ((clamp, u),) = uneven.within(np.array([3e13, 0.5, 4e13, -0.2, EACH]))
+    ((clamp, u),) = uneven.within(np.array([3e13, 2.0, 4e13, 0.7, EACH]))
     assert (clamp.name, clamp.file, clamp.files) == ("clamp_compliance", EACH, 2)
     assert u.tolist() == [3e13, 4e13, EACH]
     found = masses.within(np.array([1e-3, 0.1, 0.0, 2e-3, 0.2, 0.0, 2.0]))
