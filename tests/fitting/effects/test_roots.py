@@ -100,7 +100,7 @@ def test_an_even_clamp_is_the_simpler_effect(full):
 
 
 @pytest.mark.parametrize(
-    ("effect", "u", "n"), [(FREE_TREATMENT, [3e8], 0), (UNEVEN, [5e13, 0.4], 0), (UNEVEN, [5e13, 0.0], 1)]
+    ("effect", "u", "n"), [(FREE_TREATMENT, [3e8], 0), (UNEVEN, [5e13, 0.4], 0), (UNEVEN, [5e13, 1.0], 1)]
 )
 def test_derivatives(full, effect, u, n):
     by, difference = full.slope(effect, u, n)
