@@ -194,15 +194,18 @@ class CandidateFits:
         (name, number), rough, goal = one
         return self.candidates[name][number].finished(rough, goal)
 
-    def unfollowed(self, name: str) -> list[tuple[Form, Start, float]]:
-        """Further starts of an effect whose place is to be found, where nobody has followed them.
+    def unfollowed(self, name: str, *, every: bool = False) -> list[tuple[Form, Start, float]]:
+        """Further starts of an effect whose place is to be found, where nobody has followed them; or all.
 
         With the chi-square that they must come below to be among the best few of its rough fits.
         """
         rough = sorted(f.chi2 for c in self.candidates[name] for f in c.near)[: SEARCH.finished]
         rival = rough[-1] if len(rough) == SEARCH.finished else np.inf
-        each = enumerate(self.candidates[name])
-        return [((name, k), s, rival) for k, c in each if c.known.elsewhere is None for s in c.further_starts]
+        found = []
+        for k, c in enumerate(self.candidates[name]):
+            starts = [] if c.known.elsewhere is not None else [*c.further_starts]
+            found += [((name, k), s, rival) for s in [*starts, *(c.last_starts if every else [])]]
+        return found
 
     def set_out(self, one: tuple[Form, Start, float]) -> Refitted:
         """A fit that has gone a few steps from one start."""
@@ -238,12 +241,10 @@ class CandidateFits:
         forms = [((name, k), c) for k, c in enumerate(self.candidates[name])]
         return _best_first([(form, f) for form, c in forms for f in c.far])[: SEARCH.finished]
 
-    def everywhere(self, one: tuple[str, State]) -> list[Refitted]:
-        """An effect from all starts not followed so far; the best of them to the end."""
-        name, state = one
-        self.learn(name, state)
-        fits = [(c, f) for c in self.candidates[name] for f in [*c.elsewhere, *c.everywhere]]
-        return [c.finished(f) for c, f in _best_first(fits)[: SEARCH.finished]]
+    def elsewhere(self, name: str) -> list[tuple[Form, Refitted]]:
+        """Its rough fits from further starts, as far as they have been followed."""
+        each = enumerate(self.candidates[name])
+        return [((name, k), f) for k, c in each for f in c.known.elsewhere or ()]
 
     def look(self, one: tuple[Refitted, Sequence[Form]]) -> list[list[Start]]:
         """Starts of second effects beside a fit, a list for each."""

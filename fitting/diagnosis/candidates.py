@@ -178,11 +178,11 @@ class CandidateFit:
         """What `elsewhere` begins from."""
         return self.starts[self._first : self._first + self._more]
 
-    @cached_property
-    def everywhere(self) -> list[Refitted]:
-        """The same from those that are left."""
+    @property
+    def last_starts(self) -> Sequence[Start]:
+        """Those that are left."""
         followed = self._first + self._more
-        return self._from(self.starts[followed : followed + SEARCH.most_places])
+        return self.starts[followed : followed + SEARCH.most_places]
 
     def _is_told_nothing(self, start: Start) -> bool:
         return start[0] == 0 and not has_place(self.effect)

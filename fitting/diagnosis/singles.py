@@ -36,9 +36,7 @@ class Singles:
         self._finish([*ahead, *self._dismissed_on_the_way()], self._part(0.4, 0.2))
         self._finish(self._dismissed_on_the_way(), self._part(0.6, 0.1))
         self._second_pass()
-        places = [(name, self._work.state(name)) for name in self._misplaced()]
-        for fits in self._each(self._work.everywhere, places, self._part(0.9, 0.1)):
-            self._keep(fits)
+        self._look_everywhere(self._misplaced(), self._part(0.9, 0.1))
         return self._order()
 
     def _first_pass(self) -> None:
@@ -78,6 +76,16 @@ class Singles:
             work.candidates[name][number].learn(Known(elsewhere=sorted(fits, key=lambda f: f.chi2)))
         if astray:
             self._look_far(names)
+
+    def _look_everywhere(self, names: Sequence[str], report: Report) -> None:
+        """The best of some effects' fits from all starts that are left, to the end."""
+        work = self._work
+        asked = [one for name in names for one in work.unfollowed(name, every=True)]
+        found = [(form, f) for (form, *_), f in zip(asked, self._followed(asked), strict=True)]
+        for name in names:
+            mine = [*work.elsewhere(name), *(one for one in found if one[0][0] == name)]
+            best = sorted(mine, key=lambda one: one[1].chi2)[: SEARCH.finished]
+            self._to_the_end([(form, f, np.inf) for form, f in best], report)
 
     def _look_far(self, names: Sequence[str]) -> None:
         """Rough fits of some effects in wide valleys."""

@@ -158,7 +158,7 @@ def uneven(clamps):
     """A clamp that yields, evenly or not, which nobody can tell from a spot on the axis."""
     problem, evidence = clamps.problem, clamps.evidence
     clamp = clamps.each[1][0]
-    start = np.concatenate([clamp.u, [0.0]])
+    start = np.concatenate([clamp.u, [1.0]])
     other = polished(problem, [CATALOGUE["uneven_clamp"]], evidence, clamp.law, start)
     return replace(clamps, each=((clamp, 0.5), (other, 0.5)), temper=1.0)
 
