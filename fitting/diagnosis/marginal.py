@@ -91,9 +91,10 @@ def _log_share_within(fitted: Refitted, plate: EnrichedReducedPlate, H: Array, s
         for k, q in enumerate(effect.parameters):
             if not fitted.free[start + k]:
                 continue
-            if q.neutral is not None and not q.logarithmic:
-                s, u = float(np.sqrt(C[column, column])), float(fitted.u[start + k])
-                low, high = (u - float(lower[k])) / s, (float(upper[k]) - u) / s
+            if q.neutral is not None and np.isfinite(q.neutral):
+                s = float(np.sqrt(C[column, column]))
+                least, u, most = (_as_fitted(q, x) for x in (lower[k], fitted.u[start + k], upper[k]))
+                low, high = (u - least) / s, (most - u) / s
                 away = float(slope[column]) * (1.0 if low < high else -1.0) * s
                 # Within the limits a slope is only what the fit left undone.
                 t = max(away, 0.0) if min(low, high) < _AT_A_LIMIT else 0.0
@@ -101,6 +102,10 @@ def _log_share_within(fitted: Refitted, plate: EnrichedReducedPlate, H: Array, s
             column += 1
         start += len(effect.parameters)
     return found
+
+
+def _as_fitted(q: EffectParameter, u: float) -> float:
+    return float(np.log(u) if q.logarithmic else u)
 
 
 def _misfit(fitted: Refitted, temper: float) -> float:

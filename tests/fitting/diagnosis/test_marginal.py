@@ -242,6 +242,18 @@ def test_a_fit_that_a_limit_holds_has_only_what_lies_within(deviations):
     assert cost(held, None) == pytest.approx(expected, abs=0.06)
 
 
+class Uneven(Effect):
+    name, chance = "uneven", 0.02
+    parameters = (EffectParameter("ratio", "1", 0.1, 10.0, 2.0, logarithmic=True, neutral=1.0),)
+
+
+def test_of_a_ratio_at_its_limit_only_half_lies_within():
+    columns, data = design(7, 3), np.zeros(N)
+    found = linear(columns, data, effects=[Uneven()])
+    middle, end = (cost(replace(found, u=np.array([ratio])), None) for ratio in (1.0, 10.0))
+    assert end - middle == pytest.approx(2 * np.log(2), abs=1e-3)
+
+
 def test_where_the_noise_is_unknown_only_ratios_count():
     columns, data = design(17, 3), np.random.default_rng(18).normal(size=N)
 
