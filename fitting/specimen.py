@@ -153,7 +153,7 @@ class StatedSpecimen(Protocol):
 
     @property
     def offers(self) -> frozenset[str]:
-        """What an effect may need: `base`, one that moves; `clamp`, a clamped root."""
+        """What an effect may need: `base`, one that moves, or a `force`; `clamp`, a clamped root."""
 
     @property
     def reads(self) -> Reading:
@@ -269,7 +269,7 @@ class Specimen:
 
         `root`: one clamped edge alone, both sides of the axis alike.
         """
-        found = {"base"} if self.force_m is None else set()
+        found = {"base"} if self.force_m is None else {"force"}
         if "clamped" in self.edges:
             found.add("clamp")
         if self.boundary == "cantilever" and self.mirrored:

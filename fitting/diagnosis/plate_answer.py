@@ -41,7 +41,7 @@ class Asked:
         """As changed."""
         plate, change = self.plate, self.change
         C_1 = (plate.U * (plate.d * change.damping)) @ plate.U.T
-        return stacked(plate.K_0 + change.K, plate.K_1 + change.K_1, plate.M + change.M, C_1)
+        return stacked(plate.K_0 + change.K, plate.K_1 + change.K_1, plate.M + change.M, C_1 + change.C)
 
     def alike(self, other: "Asked") -> bool:
         """Whether another asks for the same matrix at the same nodes, but for what drives and reads it."""
@@ -211,7 +211,7 @@ def _between(up: Change, down: Change, per_step: float) -> Change:
     return Change(
         *(
             (getattr(up, n) - getattr(down, n)) * per_step
-            for n in ("K", "K_1", "M", "load", "observe", "damping", "travel_load", "travel")
+            for n in ("K", "K_1", "M", "load", "observe", "C", "damping", "travel_load", "travel")
         )
     )
 
@@ -236,6 +236,7 @@ class _Step:
             (d.K, 1.0),
             (d.K_1, self.G),
             (d.M, -(self.omega**2)),
+            (d.C, np.asarray(1j * self.omega, dtype=complex)),
         ]
         for A, factor in parts:
             if isinstance(A, np.ndarray):

@@ -46,7 +46,7 @@ Entry = Literal["stiffness", "mass", "load", "observation", "channel", "time", "
 
 
 PLATE_ONLY = frozenset({"plate"})
-BASE, CLAMP = frozenset({"base"}), frozenset({"clamp"})
+BASE, CLAMP, FORCE = frozenset({"base"}), frozenset({"clamp"}), frozenset({"force"})
 ROOT = CLAMP | {"root"}
 WHOLE = frozenset({"whole"})
 CONSTRAINED, ONE_PIECE = frozenset({"constraining"}), frozenset({"one piece"})
@@ -163,9 +163,9 @@ class Effect:
     """Kinds of specimens on which it has a meaning as it is."""
 
     needs: ClassVar[frozenset[str]] = frozenset()
-    """What a specimen must offer: a `base` that moves, a `clamp`, a plate's `root`, one side treated as a
-    `whole`; of a beam a
-    `constraining` layer, and to be `one piece`, not two halves about a driven centre."""
+    """What a specimen must offer: a `base` that moves, a `force` at a point, a `clamp`, a plate's `root`, one
+    side treated as a `whole`; of a beam a `constraining` layer, and to be `one piece`, not two halves about a
+    driven centre."""
 
     chance: ClassVar[float] = 0.02
     """Prior probability that a laboratory's set-up has it, to be seen or not."""

@@ -15,6 +15,8 @@ class Change:
     M: Any = 0.0
     load: Any = 0.0
     observe: Any = 0.0
+    C: Any = 0.0
+    """Viscous, beside C_1."""
     damping: Any = 1.0
     """Factor on C_1, or one on each of its modes. Shape () or (modes,)."""
     travel_load: Any = 0.0
@@ -35,6 +37,7 @@ class Change:
             self.M + other.M,
             self.load + other.load,
             self.observe + other.observe,
+            self.C + other.C,
             self.damping * other.damping,
             self.travel_load + other.travel_load,
             self.travel + other.travel,

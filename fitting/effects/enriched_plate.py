@@ -222,6 +222,8 @@ class EnrichedReducedPlate:
             for a, b in (("K_0", "K"), ("K_1", "K_1"), ("M", "M"))
         )
         C_1 = (self.U[own] * (self.d * change.damping)) @ self.U[own].T
+        if isinstance(change.C, np.ndarray):
+            C_1 = C_1 + change.C[square]
         A = dynamic_stiffness(stacked(K_0, K_1, M, C_1), omega, G)
         given = [self.load + change.load, self.observe + change.observe, self.pitch, *further]
         sides = np.stack([side[own] for side in given if np.any(side)], axis=1).astype(complex)

@@ -45,7 +45,7 @@ class ModalMatrices:
     def of(cls, system: EnrichedReducedPlate, change: Change) -> "ModalMatrices":
         """A structure with something changed."""
         C_1 = (system.U * (system.d * change.damping)) @ system.U.T
-        return cls(system.K_0 + change.K, system.K_1 + change.K_1, system.M + change.M, C_1)
+        return cls(system.K_0 + change.K, system.K_1 + change.K_1, system.M + change.M, C_1 + change.C)
 
     def on(self, V: Array) -> "ModalMatrices":
         """On the combinations V of the columns. Shape (k, few)."""

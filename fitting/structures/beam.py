@@ -83,7 +83,7 @@ class Beam:
     @property
     def offers(self) -> frozenset[str]:
         """As `StatedSpecimen` has it; `one piece`: not two halves about a driven centre."""
-        found = {"base"} if self.force_m is None else set()
+        found = {"base"} if self.force_m is None else {"force"}
         if self.boundary != "free-free":
             found.add("clamp")
         if self.boundary != "centre-driven":

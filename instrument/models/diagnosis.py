@@ -9,7 +9,7 @@ from threadpoolctl import threadpool_limits
 from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
 from fitting.diagnosis.result import Diagnosis
 from fitting.effects import CATALOGUE, Effect
-from fitting.effects.base import BASE, ROOT
+from fitting.effects.base import BASE, FORCE, ROOT
 from fitting.errors import OutsideModel
 from fitting.specimen import Specimen, StatedSpecimen
 from fitting.sweep import Sweep
@@ -57,7 +57,7 @@ def effects_among(
     standing = {}
     for name, effect in CATALOGUE.items():
         form = effect.on(first.kind)
-        if form is None or not all(form.needs - (BASE | ROOT) <= s.offers for s in specimens):
+        if form is None or not all(form.needs - (BASE | FORCE | ROOT) <= s.offers for s in specimens):
             continue
         of_level = form.enters == "level" and any(s.drive == "base" for s in specimens)
         stands = tuple(form.needs <= s.offers and not (of_level and s.drive == "force") for s in specimens)

@@ -49,6 +49,13 @@ class PlateMaterialLaw:
             return np.asarray(np.exp(ln_g) * (1 + 1j * np.exp(ln_eta)))
         raise ValueError(f"law kind {self.kind!r}, expected one of {', '.join(KINDS)}")
 
+    def beside(self, omega: float, per_s: float) -> complex:
+        """At s = i omega + per_s, where that is near i omega: by the first two terms of Taylor's series."""
+        h = 1e-3 * omega
+        below, G, above = self.modulus(omega + h * np.array([-1.0, 0.0, 1.0]))
+        step = -1j * per_s
+        return complex(G + step * (above - below) / (2 * h) + step**2 / 2 * (above - 2 * G + below) / h**2)
+
     @property
     def is_usual(self) -> bool:
         """Whether a fractional Zener, the law that every specimen states, can follow it exactly."""

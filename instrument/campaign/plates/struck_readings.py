@@ -12,7 +12,12 @@ from instrument.campaign.plates import kept
 from instrument.campaign.plates.blows import Blows
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden.base import Hidden
-from instrument.campaign.plates.hidden.struck import PLACES, HiddenOfBlows, Place
+from instrument.campaign.plates.hidden.struck import (
+    PLACES,
+    HiddenExponentialWindow,
+    HiddenOfBlows,
+    Place,
+)
 from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.reduced import MODULI_PA, ReducedSolid, reduced
 from instrument.campaign.plates.response import BaseMotion, remaining_damping
@@ -66,12 +71,19 @@ def mobilities(
     rows = [solid.reading(a.x_m, a.y_m) for a in hung]
     C_1 = remaining_damping(solid, np.array(ratios)) if len(ratios) else 0.0
     K_0 = solid.K_0 + 1j * solid.rubbing
+    windows = [h for h in hidden if isinstance(h, HiddenExponentialWindow)]
+    per_s = sum(1 / h.tau_s for h in windows)
+    integrations = sum(h.integrations for h in windows)
     found = np.empty((len(spots_m), len(hits_m), len(frequency_hz)), complex)
     for k, w in enumerate(omega):
-        Z = K_0 + law.modulus(w) * solid.whole_core - w**2 * solid.M + 1j * w * C_1
+        s = 1j * w + per_s
+        G = law.beside(w, per_s) if per_s else law.modulus(w)
+        Z = K_0 + G * solid.whole_core + s**2 * solid.M + s * C_1
         for a, row in zip(hung, rows, strict=True):
             Z = Z + a.stiffness_n_m[k] * np.outer(row, row)
-        found[:, :, k] = 1j * w * (read @ np.linalg.solve(Z, push.T.astype(complex)))
+        found[:, :, k] = (
+            s * (s / (1j * w)) ** integrations * (read @ np.linalg.solve(Z, push.T.astype(complex)))
+        )
     return found
 
 

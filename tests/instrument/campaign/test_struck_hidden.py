@@ -15,6 +15,7 @@ from instrument.campaign.plates.hidden.struck import (
     STRUCK_KINDS,
     HiddenCable,
     HiddenDoubleHit,
+    HiddenExponentialWindow,
     HiddenGainOfASpot,
     HiddenHitElsewhere,
     HiddenPads,
@@ -48,6 +49,24 @@ def solid():
 
 def cords():
     return HiddenPads(800.0, 0.2, tuple((x, y) for x in (0.04, 0.28) for y in (0.02, 0.158)))
+
+
+def test_a_weighted_record_is_what_its_spectrum_folded_with_the_window_s_gives(solid):
+    """Y_w(omega) = integral of Y(omega') / (1/tau + i (omega - omega')) / 2 pi, whatever the plate is."""
+    tau, held = 0.12, HiddenPads(4e4, 0.0, cords().corners_m)
+    asked = F[1:3]
+    near = [f + np.arange(-30.0, 30.0, 0.05) for f in asked]
+    f = np.unique(np.concatenate([np.geomspace(0.02, 2e5, 4000), *near]))
+    own = mobilities(solid, LAW, f, HITS, SPOTS[:1], (held,))[0, 0]
+    omega = 2 * np.pi * np.concatenate([-f[::-1], f])
+    Y = np.concatenate([own[::-1].conj(), own])
+    kernel = 1 / (1 / tau + 1j * (2 * np.pi * asked[:, None] - omega))
+    folded = np.trapezoid(Y * kernel, omega) / (2 * np.pi)
+    window = HiddenExponentialWindow(tau, 0)
+    found = mobilities(solid, LAW, asked, HITS, SPOTS[:1], (held, window))[0, 0]
+    plain = mobilities(solid, LAW, asked, HITS, SPOTS[:1], (held,))[0, 0]
+    assert np.abs(found / plain - 1).min() > 0.05
+    np.testing.assert_allclose(found, folded, rtol=8e-3)
 
 
 def test_every_kind_is_drawn_the_same_twice():

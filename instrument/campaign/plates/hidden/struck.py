@@ -139,6 +139,23 @@ class HiddenDoubleHit(HiddenOfBlows):
 
 
 @dataclass(frozen=True)
+class HiddenExponentialWindow(HiddenOfBlows):
+    """Every record was weighted by exp(-t / tau), which the analyser offers where a blow rings on."""
+
+    name: ClassVar[str] = "exponential_window"
+    place: ClassVar[str] = "velocity channel"
+
+    tau_s: float
+    integrations: int
+    """Of what is read, to a velocity."""
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenExponentialWindow":
+        # Of records of a second or two, weighted down to 0.1 to 5 % at their ends.
+        return cls(float(rng.uniform(0.8, 2.0)) / -np.log(log_uniform(rng, 1e-3, 5e-2)), int(rng.integers(2)))
+
+
+@dataclass(frozen=True)
 class HiddenCable(HiddenTether):
     """A cable from one of the points, but the one by the root, to a table."""
 
@@ -215,6 +232,7 @@ _OWN: tuple[type[Hidden], ...] = (
     HiddenGainOfASpot,
     HiddenHitElsewhere,
     HiddenDoubleHit,
+    HiddenExponentialWindow,
     HiddenPads,
 )
 _EFFECTS = {name: HIDDEN[name] for name in (*_OF_BOTH, *OF_CLAMPED)} | {h.name: h for h in _OWN}
