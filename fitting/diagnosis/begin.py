@@ -15,6 +15,7 @@ from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, refit
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
+from fitting.diagnosis.thresholds import SEARCH
 from fitting.diagnosis.usual_law import followed, polished, within_search
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.identification.direct import fit_direct
@@ -64,8 +65,11 @@ def begin(
     if inside is not first.law:
         # A law alone may end at its limits, where numbers that are not quite as stated keep it.
         laws.append(inside)
+    # The law alone may end far from where tolerances let it be, and from there in a valley of its own.
+    stated: CoreLaw = start
     if not problem.specimen.exact:
         laws = [BentLaw.over(one, sweep.frequency_hz, problem.freedom) for one in laws]
+        stated = BentLaw.over(stated, sweep.frequency_hz, problem.freedom)
     law, u = laws[0], problem.as_stated
     v = model.velocity(law)
     for round in range(_ROUNDS):
@@ -81,6 +85,9 @@ def begin(
             best = min(fits, key=lambda f: f.chi2)
             law, u, laws = best.law, best.u, [best.law]
         none = polished(here, (), evidence, law, u)
+        if round == 0 and none.chi2_per_dof > SEARCH.wrong:
+            again = polished(here, (), evidence, stated, problem.as_stated, goal=none.chi2)
+            none = min(none, again, key=lambda f: f.chi2)
         omega = problem.coarse.nodes.omega
         moved = np.max(np.abs(none.law.modulus(omega) / law.modulus(omega) - 1))
         law, u = none.law, none.u

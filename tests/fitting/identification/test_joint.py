@@ -16,6 +16,7 @@ from fitting.diagnosis.posterior import posterior
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.usual_law import within_search
 from fitting.diagnosis.whitening import SHARE
+from fitting.identification.direct import fit_direct
 from fitting.identification.uncertainty import uncertainty_of
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.noise import noise_of
@@ -161,6 +162,21 @@ def test_a_fit_by_the_law_alone_that_ran_to_its_limits_is_not_where_the_joint_on
         one = Drawn(ready, 56)
     assert one.begun.first.law.ginf_pa == pytest.approx(1e11)
     assert one.begun.none.law.plain.ginf_pa < 1e8
+    assert np.abs(one.pulls).max() < 2.5
+
+
+def test_a_fit_by_the_law_alone_that_ended_in_a_valley_of_its_own_is_begun_again_from_the_stated_law(
+    ready, monkeypatch
+):
+    def astray(residuals, start):
+        found = fit_direct(residuals, start)
+        g0, ginf, tau, alpha = found.law.values
+        return replace(found, law=FractionalZener(5 * g0, ginf / 5, tau, alpha))
+
+    monkeypatch.setattr("fitting.diagnosis.begin.fit_direct", astray)
+    with threadpool_limits(1, "blas"):
+        one = Drawn(ready, 3)
+    assert one.begun.none.chi2_per_dof < 1.5
     assert np.abs(one.pulls).max() < 2.5
 
 
