@@ -3,6 +3,7 @@
 `identify` reports it, `diagnose` begins with it.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +18,7 @@ from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.diagnosis.usual_law import followed, polished, within_search
+from fitting.diagnosis.wide_valley import in_wide_valley, with_stated
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.identification.direct import fit_direct
 from fitting.identification.fit import Fit
@@ -65,7 +67,6 @@ def begin(
     if inside is not first.law:
         # A law alone may end at its limits, where numbers that are not quite as stated keep it.
         laws.append(inside)
-    # The law alone may end far from where tolerances let it be, and from there in a valley of its own.
     stated: CoreLaw = start
     if not problem.specimen.exact:
         laws = [BentLaw.over(one, sweep.frequency_hz, problem.freedom) for one in laws]
@@ -85,9 +86,9 @@ def begin(
             best = min(fits, key=lambda f: f.chi2)
             law, u, laws = best.law, best.u, [best.law]
         none = polished(here, (), evidence, law, u)
-        if round == 0 and none.chi2_per_dof > SEARCH.wrong:
-            again = polished(here, (), evidence, stated, problem.as_stated, goal=none.chi2)
-            none = min(none, again, key=lambda f: f.chi2)
+        if round == 0 and (inside is not first.law or none.chi2_per_dof > SEARCH.wrong):
+            # The law alone did what tolerances might do, and led to a valley of its own.
+            none = min([none, *_from_elsewhere(here, evidence, stated, none)], key=lambda f: f.chi2)
         omega = problem.coarse.nodes.omega
         moved = np.max(np.abs(none.law.modulus(omega) / law.modulus(omega) - 1))
         law, u = none.law, none.u
@@ -97,3 +98,15 @@ def begin(
         if problem.errs_as_found:
             problem, v = problem.as_found(none.z), none.velocity_m_s
     return Begun(here, problem.plate, evidence, followed(here, evidence, none, executor), first)
+
+
+def _from_elsewhere(
+    problem: DiagnosisProblem, evidence: Evidence, stated: CoreLaw, none: Refitted
+) -> Iterator[Refitted]:
+    """Fits from everything as stated, and from the wide valley about a law, as far as they may come below."""
+    wide = in_wide_valley(problem, (), evidence, none.law, np.zeros(0))
+    for law, u in ((stated, problem.as_stated), (wide.law, with_stated(problem, wide))):
+        rough = response_of(problem, (), problem.coarse)
+        found = refit(rough, evidence, law, u, tolerance=ROUGH)
+        if found.chi2 < none.chi2 or (not found.converged and found.may_reach(none.chi2)):
+            yield polished(problem, (), evidence, found.law, found.u, goal=none.chi2)
