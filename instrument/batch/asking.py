@@ -4,6 +4,7 @@ A table has the column `data`, and where they are wanted `specimen`, `hammer` an
 passed over.
 """
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -20,6 +21,9 @@ _OPTIONAL = ("hammer", "temperature_c")
 """Columns of a table beside its data and specimens."""
 _MEANT = 0.8
 """How alike an unknown column is to the one that was meant."""
+_COLDEST_C = -273.15
+_WARM = re.compile(r"t|temp(?:eratur|erature)?(?:[^a-z].*)?", re.I)
+"""Names of temperatures in whatever unit: left out, rows of all of them would be one group."""
 
 
 def tasks_of(
@@ -79,6 +83,8 @@ def _of_table(table: Path, specimen: Path | None, hammer: Path | None, *, insist
             raise BadInput(f"{table}: line {line}: data is empty, expected a session or a sweep")
         t = cell.get("temperature_c") or ""
         warm = number(table, line, "temperature_c", t) if t else None
+        if warm is not None and warm <= _COLDEST_C:
+            raise BadInput(f"{table}: line {line}: temperature_c = {t}, expected more than {_COLDEST_C:g}")
         if not insist and (doubt := kelvin_doubt(warm)):
             raise BadInput(f"{table}: line {line}: {doubt}; {INSIST}")
         found.append(
@@ -93,11 +99,19 @@ def _of_table(table: Path, specimen: Path | None, hammer: Path | None, *, insist
 
 
 def _check_specimens(table: Path, header: list[str], rows: Rows, specimen: Path | None) -> None:
-    """Raise `BadInput` where sweeps have no specimen and a column was meant to name it."""
-    near = nearest("specimen", [name for name in header if name != "data"])
-    if specimen is not None or "specimen" in header or near is None:
+    """Raise `BadInput` where sweeps have no specimen and a column was meant to name it, or does name some."""
+    if "specimen" in header:
         return
-    if not all(is_session(Path(row[header.index("data")])) for _, row in rows):
+    for k, name in enumerate(header):
+        named = next((row[k] for _, row in rows if row[k].lower().endswith(".toml")), None)
+        if named is not None and name not in ("data", *_OPTIONAL):
+            raise BadInput(f"{table}: header: column {name} has {named}, expected its name to be specimen")
+    near = nearest("specimen", [name for name in header if name != "data"])
+    if (
+        specimen is None
+        and near is not None
+        and not all(is_session(Path(row[header.index("data")])) for _, row in rows)
+    ):
         raise BadInput(f"{table}: header: no specimen, the nearest is {near}; expected it, or --specimen")
 
 
@@ -105,7 +119,10 @@ def _check_optional(table: Path, header: list[str]) -> None:
     """Raise `BadInput` where a column was meant to name a hammer test or a temperature."""
     missing = [name for name in _OPTIONAL if name not in header]
     for name in header:
-        meant = nearest(name, missing, _MEANT) if name not in ("data", "specimen", *_OPTIONAL) else None
+        if name in ("data", "specimen", *_OPTIONAL):
+            continue
+        is_warm = "temperature_c" in missing and _WARM.fullmatch(name) is not None
+        meant = "temperature_c" if is_warm else nearest(name.lower(), missing, _MEANT)
         if meant is not None:
             raise BadInput(
                 f"{table}: header: column {name} is unknown, the nearest is {meant}: expected that, or a "

@@ -1,5 +1,6 @@
 """Between the rows of one temperature: how far their laws lie apart beyond what is not known of each."""
 
+import os
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -70,10 +71,12 @@ def between_rows(rows: Iterable[BatchRow]) -> list[Between]:
 
 
 def _once(rows: Iterable[BatchRow]) -> Iterator[BatchRow]:
-    """A file that is named twice is one specimen."""
+    """A file that is named twice, by whatever path, is one specimen."""
     seen = set()
     for row in rows:
-        named = row.task.data, row.task.specimen, row.task.hammer, _group(row)
+        task = row.task
+        files = (os.path.realpath(path) if path else None for path in (task.data, task.specimen, task.hammer))
+        named = *files, _group(row)
         if named not in seen:
             seen.add(named)
             yield row

@@ -123,5 +123,5 @@ def _unread(task: BatchTask) -> Outcome:
             except BadInput as error:
                 return failure(str(error).replace(path, Path(path).name), again=True)
             except OSError as error:
-                return failure(f"{Path(path).name}: {error.strerror or error}", again=True)
+                return failure(f"{Path(path).name or path}: {error.strerror or error}", again=True)
     return failure("its files changed while the batch went on", again=True)

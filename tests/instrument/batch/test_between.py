@@ -78,3 +78,13 @@ def test_a_file_that_is_named_twice_is_one_specimen():
     (found,) = between_rows([*some, some[1], some[1]])
     assert found.result.rows == 4
     assert between_rows([some[0], some[0], some[1]]) == []
+
+
+def test_a_file_that_is_named_by_two_paths_is_one_specimen(tmp_path):
+    some = rows(4, 0.02)
+    (tmp_path / "0.csv").touch()
+    (tmp_path / "link.csv").symlink_to("0.csv")
+    files = [tmp_path / name for name in ("0.csv", "link.csv", "../" + tmp_path.name + "/0.csv")]
+    again = [BatchRow(BatchTask(str(path)), some[0].outcome) for path in files]
+    (found,) = between_rows([*again, *some[1:]])
+    assert found.result.rows == 4

@@ -7,13 +7,11 @@ import numpy as np
 import pytest
 
 from instrument.batch import work
-from instrument.batch.asking import tasks_of
 from instrument.batch.keys import Keys
 from instrument.batch.of_modes import identified_modes
 from instrument.batch.task import BatchTask
 from instrument.batch.work import outcome_of
 from instrument.cli.main import run
-from instrument.errors import BadInput
 
 SHARED = ("law_kind", "parameters", "standard_errors", "chi2_per_dof", "converged", "warnings")
 MODES = "mode,frequency_hz,loss_factor\n1,75.6,0.233\n2,377.5,0.264\n3,963.9,0.228\n4,1744.8,0.175\n"
@@ -117,26 +115,6 @@ def test_what_fails_inside_says_what_to_do_about_it_and_warns_no_one(
     assert ends in said["failed"]
     assert said["again"]
     assert not recwarn.list
-
-
-@pytest.mark.parametrize(
-    ("name", "meant"), [("hamer", "hammer"), ("temperature", "temperature_c"), ("Hammer", "hammer")]
-)
-def test_a_misspelt_optional_column_is_named(tmp_path, name, meant):
-    (tmp_path / "t.csv").write_text(f"data,{name},operator\na.csv,1,me\n")
-    with pytest.raises(BadInput, match=f"column {name} is unknown, the nearest is {meant}"):
-        tasks_of([tmp_path / "t.csv"], tmp_path / "b.toml")
-    (tmp_path / "t.csv").write_text("data,operator\na.csv,me\n")
-    assert tasks_of([tmp_path / "t.csv"], tmp_path / "b.toml")
-
-
-def test_a_misspelt_column_of_specimens_is_named(tmp_path):
-    (tmp_path / "t.csv").write_text("data,spec\na.csv,b.toml\n")
-    with pytest.raises(BadInput, match="no specimen, the nearest is spec; expected it, or --specimen"):
-        tasks_of([tmp_path / "t.csv"], None)
-    assert tasks_of([tmp_path / "t.csv"], tmp_path / "b.toml")
-    (tmp_path / "t.csv").write_text("data,spec\na.h5,steel\n")
-    assert tasks_of([tmp_path / "t.csv"], None)
 
 
 def test_what_a_table_leaves_is_of_its_frequencies(folder):
