@@ -20,7 +20,7 @@ from instrument.campaign.plates.run import plate_jobs, run_plates, write_plate_s
 from instrument.campaign.plates.visible import visible_chi2
 from instrument.campaign.plates.weak import WEAK
 from instrument.campaign.run import jobs_of, run_campaign, write_summary
-from instrument.cli.options import json_option
+from instrument.cli.options import NumberRange, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.facts.bench import BenchResult, BenchRow
@@ -76,7 +76,7 @@ from instrument.progress import bar
 )
 @click.option(
     "--shows",
-    type=click.FloatRange(min=0),
+    type=NumberRange(min=0),
     help="With --plates or --beams: where what is hidden shows by less than this in chi-square, beside law, "
     "tolerances and hammer test, the sweep is drawn and not diagnosed.",
 )

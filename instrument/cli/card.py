@@ -8,7 +8,7 @@ import click
 from instrument.cards.card import Card
 from instrument.cards.formats import FORMATS
 from instrument.cards.plain import card_result
-from instrument.cli.options import file_argument, json_option
+from instrument.cli.options import NumberRange, file_argument, json_option
 from instrument.cli.output import Output
 from instrument.cli.printable import printable
 from instrument.errors import BadInput
@@ -34,7 +34,7 @@ from instrument.progress import bar
 @click.option(
     "--error",
     "wanted",
-    type=click.FloatRange(0.01, 50.0),
+    type=NumberRange(0.01, 50.0),
     default=1.0,
     show_default=True,
     help="Of the Prony series over the band, in percent: as few terms as reach it.",

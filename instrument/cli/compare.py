@@ -6,9 +6,10 @@ from pathlib import Path
 import click
 import numpy as np
 
-from instrument.cli.options import file_arguments, json_option
+from instrument.cli.options import NumberRange, file_arguments, json_option
 from instrument.cli.output import Output
 from instrument.facts.comparison import CompareResult
+from instrument.interchange.questions import kelvin_doubt
 from instrument.material.comparing import LEVEL, Comparison, compared_pair
 from instrument.material.comparing import compare as compare_laws
 from instrument.material.found_law import read_law
@@ -37,7 +38,7 @@ _SAYS = {True: "differ", False: "agree", None: "cannot be told"}
 @click.option(
     "--repeatability",
     "repeatability_percent",
-    type=click.FloatRange(0, 100),
+    type=NumberRange(0, 100),
     default=0.0,
     metavar="PERCENT",
     help="Of G' and of eta from mount to mount, where it is known: counted in beside each law's own errors.",
@@ -73,6 +74,11 @@ def compare(
         ["A", "B", "band / Hz", "G' B/A / %", "eta B-A", "chi2", "dof", "p", f"at {LEVEL:g}"],
         [[*pair, *_cells(c)] for pair, c in zip(pairs, found, strict=True)],
     )
+    for name, law in zip(names, laws, strict=True):
+        if law.verdict == "unknown":
+            out.say(f"{name}: verdict unknown: this law may be biased beyond what is known of it")
+        if doubt := kelvin_doubt(law.temperature_c):
+            out.say(f"{name}: {doubt}")
     for (a, b), c in zip(pairs, found, strict=True):
         if (warm := _unlike_temperatures(c)) is not None:
             out.say(f"{a} and {b}: of {warm[0]:.4g} and {warm[1]:.4g} degC, which alone makes laws differ")

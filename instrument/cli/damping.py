@@ -7,6 +7,7 @@ import click
 from fitting.modal.frf import DampingEstimate, Refusal
 from instrument.cli.options import (
     DECIMAL_COMMA,
+    NumberRange,
     figures_option,
     file_arguments,
     is_decimal_comma,
@@ -63,13 +64,13 @@ def _at(_: click.Context, __: click.Parameter, text: str | None) -> tuple[float,
 )
 @click.option(
     "--rate",
-    type=click.FloatRange(min=0, min_open=True),
+    type=NumberRange(min=0, min_open=True),
     help="Samples a second, where the file does not say.",
 )
 @click.option("--estimator", type=click.Choice(["h1", "h2", "hv"]), default="h1", show_default=True)
 @click.option(
     "--exponential",
-    type=click.FloatRange(0, 100, min_open=True, max_open=True),
+    type=NumberRange(0, 100, min_open=True, max_open=True),
     metavar="PERCENT",
     help="Exponential window ending at this, its damping taken off again. Half power always has one (1 %).",
 )

@@ -14,7 +14,7 @@ from fitting.specimen import Specimen
 from fitting.temperature.shifts import Kind
 from instrument.cli.identify_modes import identify_modes
 from instrument.cli.identify_shifted import identify_shifted, identify_tables_shifted
-from instrument.cli.options import figures_option, file_arguments, json_option
+from instrument.cli.options import NumberRange, figures_option, file_arguments, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_beside import print_beside
 from instrument.cli.print_budget import print_budget
@@ -105,7 +105,7 @@ from instrument.results.uncertainty_facts import Depth, in_depth, in_depth_facts
 )
 @click.option(
     "--temperature-k",
-    type=click.FloatRange(min=0.0),
+    type=NumberRange(min=0.0),
     help="With --shift: standard deviation of each stated temperature; 0.3 otherwise, 0 where everything "
     "stated is exact.",
 )

@@ -1,5 +1,6 @@
 """Options and arguments shared by commands."""
 
+import math
 import os
 import re
 from functools import partial
@@ -68,6 +69,17 @@ acceleration_option: Any = click.option(
     callback=_show_in,
     help="Unit in which accelerations are shown; files and JSON keep theirs.",
 )
+
+
+class NumberRange(click.FloatRange):
+    """A range that NaN, which no comparison keeps out, is not in."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """As given."""
+        found = float(super().convert(value, param, ctx))
+        if math.isnan(found):
+            self.fail(f"{value!r} is not a number", param, ctx)
+        return found
 
 
 class Level(click.ParamType):  # type: ignore[type-arg]

@@ -6,7 +6,14 @@ import click
 
 from fitting.planning.sensitivity import ReadingNoise
 from fitting.specimen import Specimen
-from instrument.cli.options import Level, acceleration_option, figures_option, file_argument, json_option
+from instrument.cli.options import (
+    Level,
+    NumberRange,
+    acceleration_option,
+    figures_option,
+    file_argument,
+    json_option,
+)
 from instrument.cli.output import Output
 from instrument.cli.print_plan import print_plan
 from instrument.errors import BadInput
@@ -43,7 +50,7 @@ class Band(click.ParamType):  # type: ignore[type-arg]
 @file_argument("specimen")
 @click.option(
     "--target",
-    type=click.FloatRange(0.01, 100),
+    type=NumberRange(0.01, 100),
     default=100 * TARGET,
     show_default=True,
     metavar="PERCENT",
@@ -52,7 +59,7 @@ class Band(click.ParamType):  # type: ignore[type-arg]
 @click.option("--band", type=Band(), help="In Hz; around the first three resonances where none is given.")
 @click.option(
     "--noise",
-    type=click.FloatRange(0, 100),
+    type=NumberRange(0, 100),
     default=100 * NOISE.share,
     show_default=True,
     metavar="PERCENT",
@@ -60,7 +67,7 @@ class Band(click.ParamType):  # type: ignore[type-arg]
 )
 @click.option(
     "--floor",
-    type=click.FloatRange(0, 1e6),
+    type=NumberRange(0, 1e6),
     default=1e6 * NOISE.floor_m_s,
     show_default=True,
     metavar="UM_S",
@@ -73,7 +80,7 @@ class Band(click.ParamType):  # type: ignore[type-arg]
 )
 @click.option(
     "--causes",
-    type=click.FloatRange(0, 80),
+    type=NumberRange(0, 80),
     default=100 * CAUSES_SHARE,
     show_default=True,
     metavar="PERCENT",

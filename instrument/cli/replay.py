@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from instrument.cli.options import acceleration_option, file_argument, json_option
+from instrument.cli.options import NumberRange, acceleration_option, file_argument, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_run import print_found, print_quality
 from instrument.cli.watching import Watcher
@@ -20,7 +20,7 @@ from instrument.stream.event import Event
 @file_argument("session")
 @click.option(
     "--speed",
-    type=click.FloatRange(min=0, min_open=True),
+    type=NumberRange(min=0, min_open=True),
     help="Times as fast as it was; as fast as it goes where none is given.",
 )
 @acceleration_option

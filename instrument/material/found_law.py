@@ -34,6 +34,10 @@ Positive = Annotated[float, Field(gt=0, le=LARGEST, allow_inf_nan=False)]
 Finite = Annotated[float, Field(ge=-LARGEST, le=LARGEST, allow_inf_nan=False)]
 
 
+Warmth = Annotated[float, Field(gt=-273.15, le=LARGEST, allow_inf_nan=False)]
+"""Degrees Celsius."""
+
+
 def _an_error(value: float) -> float:
     """NaN says that nothing is known."""
     if value < 0 or value > LARGEST:
@@ -59,7 +63,7 @@ class _LawFound(BaseModel):
     parameters: dict[str, float]
     standard_errors: dict[str, float | None] = {}
     law: list[_Row] = Field(min_length=2)
-    temperature_c: float | None = None
+    temperature_c: Warmth | None = None
 
 
 class _Warm(BaseModel):
@@ -164,11 +168,19 @@ def read_law(path: Path, progress: Progress = quiet) -> MaterialLaw:
 
 
 def _of_facts(path: Path, facts: Any) -> MaterialLaw | None:
-    """Of a diagnosis where there is one, else of an identification."""
+    """Of a diagnosis where there is one, else of an identification; None where either is damaged."""
     if not isinstance(facts, dict):
         return None
     if "shift" in facts:
         return _shifted(path, facts)
+    for inside in (facts, facts.get("diagnose")):
+        # The law before a diagnosis does not stand for one that cannot be read.
+        if (
+            isinstance(inside, dict)
+            and {"verdict", "after"} <= set(inside)
+            and _diagnosed(path, inside) is None
+        ):
+            return None
     for read in (_diagnosed, _identified):
         for inside in (facts, facts.get("diagnose"), facts.get("identify")):
             if isinstance(inside, dict) and (found := read(path, inside)) is not None:
@@ -261,7 +273,7 @@ def _identified_now(path: Path, contents: Contents, progress: Progress) -> Mater
 def _law(path: Path, found: _LawFound, verdict: str) -> MaterialLaw | None:
     rows = {row.frequency_hz: row for row in found.law}
     f = np.array(sorted(rows))
-    if len(f) < 2:
+    if len(f) < 2 or any(rows[row.frequency_hz] != row for row in found.law):
         return None
 
     def column(name: str) -> Array:

@@ -1,23 +1,33 @@
 """How a law found over several temperatures goes from one to another, as its file says it."""
 
-from typing import Literal
+from typing import Literal, Self
 
-from pydantic import BaseModel, Field
+from pydantic import BaseModel, Field, FiniteFloat, model_validator
+
+_NEEDED = {"wlf": {"c1", "c2_k"}, "arrhenius": {"activation_energy_j_mol"}, "free": set[str]()}
+"""Parameters by the kind of the shift."""
 
 
 class _At(BaseModel):
-    temperature_c: float
-    log10_shift: float
+    temperature_c: FiniteFloat
+    log10_shift: FiniteFloat
 
 
 class FoundShift(BaseModel):
     """Of the JSON of `identify --shift`: a law at the reference, its band in reduced frequency."""
 
     shift: Literal["wlf", "arrhenius", "free"]
-    reference_c: float
+    reference_c: FiniteFloat
     shift_parameters: dict[str, float]
     temperatures: list[_At] = Field(min_length=2)
     simple: bool | None
+
+    @model_validator(mode="after")
+    def _whole(self) -> Self:
+        missing = _NEEDED[self.shift] - set(self.shift_parameters)
+        if missing:
+            raise ValueError(f"shift_parameters without {', '.join(sorted(missing))}")
+        return self
 
     @property
     def verdict(self) -> str:

@@ -10,6 +10,7 @@ from diagnosed_session import diagnosed_session
 from found_law_cases import ERRORS, HIGH, LOW, facts
 
 from instrument.cli.main import run
+from instrument.errors import BadInput
 from instrument.material.comparing import SURELY, compare
 from instrument.material.found_law import read_law
 
@@ -104,6 +105,37 @@ def test_laws_of_unlike_temperatures_are_said_to_be(tmp_path, capsys):
         "20.json and 35.json: of 20 and 35 degC, which alone makes laws differ",
         "20.5.json and 35.json: of 20.5 and 35 degC, which alone makes laws differ",
     ]
+
+
+def test_a_temperature_in_kelvin_and_an_unknown_verdict_are_said(tmp_path, capsys):
+    diagnosed = {"verdict": "unknown", "after": facts(TABLE_4)}
+    for name, found in (("a.json", diagnosed), ("b.json", facts(TABLE_4) | {"temperature_c": 294.6})):
+        (tmp_path / name).write_text(json.dumps(found))
+    assert run(["compare", str(tmp_path / "a.json"), str(tmp_path / "b.json")]) == 0
+    said = capsys.readouterr().out
+    assert "a.json: verdict unknown: this law may be biased" in said
+    assert "b.json: temperature_c = 294.6: is it in K?" in said
+
+
+_SOFTER = [{**row, "storage_modulus_pa": 0.5 * row["storage_modulus_pa"]} for row in facts(TABLE_4)["law"]]
+_NO_LAW = {"verdict": "effect", "after": facts(TABLE_4) | {"law": []}}
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"temperature_c": -300.0},
+        {"temperature_c": float("inf")},
+        {"law": facts(TABLE_4)["law"] + _SOFTER},
+        {"diagnose": _NO_LAW},
+    ],
+    ids=["below absolute zero", "no temperature", "two moduli at each frequency", "a diagnosis cut off"],
+)
+def test_a_law_that_contradicts_itself_is_refused(tmp_path, changed):
+    path = tmp_path / "a.json"
+    path.write_text(json.dumps(facts(TABLE_4) | changed))
+    with pytest.raises(BadInput, match=r"a\.json: expected the JSON of 'viscorig identify'"):
+        read_law(path)
 
 
 def test_nothing_is_printed_where_the_mounts_are_refused(tmp_path, capsys):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from conftest import TABLE_4
 from found_law_cases import ERRORS, facts
+from pydantic import ValidationError
 
 from instrument.material.found_shift import FoundShift
 from instrument.material.knowledge import posterior_of
@@ -41,6 +42,12 @@ def test_a_shift_is_a_formula_with_the_range_it_was_measured_over(kind):
 )
 def test_a_law_that_may_not_be_simple_is_not_called_so(simple, verdict):
     assert shift(simple=simple).verdict == verdict
+
+
+@pytest.mark.parametrize("kind", ["wlf", "arrhenius"])
+def test_a_shift_without_its_parameters_is_none(kind):
+    with pytest.raises(ValidationError, match="shift_parameters without"):
+        FoundShift.model_validate(shift(kind).model_dump() | {"shift_parameters": {}})
 
 
 def test_the_covariance_of_a_curve_is_that_of_laws_drawn():
