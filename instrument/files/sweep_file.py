@@ -121,13 +121,30 @@ def read_sweep(path: Path) -> SweepFile:
     for k, name in enumerate(header):
         if name in known:
             columns[name] = np.array([_number(path, line, known[name], row[k]) for line, row in rows])
-    lines = [line for line, _ in rows]
+    lines = [f"line {line}" for line, _ in rows]
     _check_phasors(path, lines, columns)
     _check_twice(path, lines, columns)
     unknown = {
         name: [row[k] for _, row in rows] for k, name in enumerate(header) if name and name not in known
     }
     return SweepFile(path, columns, unknown)
+
+
+def sweep_of_columns(path: Path, columns: dict[str, Array]) -> SweepFile:
+    """The same of columns from another program's file, NaN for what is not known of a row.
+
+    Shape (rows,) each. Raises `BadInput` naming file, row and column.
+    """
+    known = {column.name: column for column in understood()}
+    own = {name: values for name, values in columns.items() if name in known}
+    for name, values in own.items():
+        for row, value in enumerate(values.tolist(), start=1):
+            _check_number(f"{path}: row {row}", known[name], value, f"{value:g}")
+    rows = [f"row {n}" for n in range(1, len(columns["frequency_hz"]) + 1)]
+    _check_phasors(path, rows, own)
+    _check_twice(path, rows, own)
+    others = {name: values.tolist() for name, values in columns.items() if name not in known}
+    return SweepFile(path, own, {n: ["" if v != v else repr(v) for v in some] for n, some in others.items()})
 
 
 def _check_header(path: Path, header: list[str]) -> None:
@@ -179,35 +196,38 @@ def _phasors() -> list[tuple[str, str]]:
 
 
 def _number(path: Path, line: int, column: Column, text: str) -> float:
-    name = column.name
-    value = number(path, line, name, text)
-    if column.above_zero and value <= 0:
-        raise BadInput(f"{path}: line {line}: {name} = {text}, expected more than 0")
-    if column.whole and (value != int(value) or abs(value) > _LARGEST_WHOLE):
-        raise BadInput(f"{path}: line {line}: {name} = {text}, expected a whole number below 1e9")
+    value = number(path, line, column.name, text)
+    _check_number(f"{path}: line {line}", column, value, text)
     return value
 
 
-def _check_phasors(path: Path, lines: list[int], columns: dict[str, Array]) -> None:
+def _check_number(where: str, column: Column, value: float, text: str) -> None:
+    if column.above_zero and value <= 0:
+        raise BadInput(f"{where}: {column.name} = {text}, expected more than 0")
+    if column.whole and (value != int(value) or abs(value) > _LARGEST_WHOLE):
+        raise BadInput(f"{where}: {column.name} = {text}, expected a whole number below 1e9")
+
+
+def _check_phasors(path: Path, places: list[str], columns: dict[str, Array]) -> None:
     for real, imaginary in _phasors():
         if real in columns:
             zero = np.flatnonzero((columns[real] == 0) & (columns[imaginary] == 0))
             if zero.size:
                 stem = real.partition("_re_")[0]
-                raise BadInput(f"{path}: line {lines[zero[0]]}: {stem} is zero, expected a reading")
+                raise BadInput(f"{path}: {places[zero[0]]}: {stem} is zero, expected a reading")
 
 
-def _check_twice(path: Path, lines: list[int], columns: dict[str, Array]) -> None:
+def _check_twice(path: Path, places: list[str], columns: dict[str, Array]) -> None:
     names = [column.name for column in understood() if column.identity and column.name in columns]
     keys = [columns[name] for name in names]
-    seen: dict[tuple[float, ...], int] = {}
-    for line, key in zip(lines, zip(*keys, strict=True), strict=True):
+    seen: dict[tuple[float, ...], str] = {}
+    for place, key in zip(places, zip(*keys, strict=True), strict=True):
         if key in seen:
             raise BadInput(
-                f"{path}: line {line}: the same point as line {seen[key]} "
+                f"{path}: {place}: the same point as {seen[key]} "
                 f"({', '.join(names)} all equal), expected each once, or a column sweep that numbers passes"
             )
-        seen[key] = line
+        seen[key] = place
 
 
 def sweep_text(sweep: Sweep, acceleration_m_s2: float) -> str:

@@ -11,7 +11,7 @@ from fitting.specimen import Drive
 from fitting.sweep import Sweep, segments_by_gap
 from instrument.errors import BadInput
 from instrument.files.impact_csv import FRF_STEMS, frfs_of
-from instrument.files.sweep_file import SweepFile
+from instrument.files.sweep_file import SweepFile, sweep_of_columns
 from instrument.files.table import number, read_rows
 from instrument.interchange.importing import one_table
 from instrument.interchange.readers import read_foreign
@@ -47,17 +47,22 @@ def _only(path: Path, found: dict[str, Frf]) -> Frf:
 
 def sweep_of_foreign(path: Path, amplitude: float, drive: Drive = "base") -> Sweep:
     """The FRFs over a base's motion, or the one over a force, of a foreign file. Raises `BadInput`."""
+    if drive == "base":
+        return file_of_foreign(path).sweep(amplitude)
     found = read_foreign(path)
-    if drive == "force":
-        if len(found.frfs) != 1:
-            raise BadInput(f"{path}: {len(found.frfs)} responses over a force, expected one")
-        return _sweep(path, found.frfs[0][1], amplitude)
+    if len(found.frfs) != 1:
+        raise BadInput(f"{path}: {len(found.frfs)} responses over a force, expected one")
+    return _sweep(path, found.frfs[0][1], amplitude)
+
+
+def file_of_foreign(path: Path) -> SweepFile:
+    """Its responses over a base's motion as rows of a sweep. Raises `BadInput`."""
+    found = read_foreign(path)
     if not found.sweeps:
         raise BadInput(
             f"{path}: {'; '.join(found.said)}: no response over a base's acceleration, expected one"
         )
-    columns = one_table(found.sweeps)
-    return SweepFile(path, columns, {}).sweep(amplitude)
+    return sweep_of_columns(path, one_table(found.sweeps))
 
 
 def _sweep(path: Path, frf: Frf, amplitude: float) -> Sweep:

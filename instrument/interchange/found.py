@@ -16,6 +16,9 @@ from instrument.impact.record import Hit, ResponseChannel
 Columns = dict[str, Array]
 """Of the sweep CSV, by their names."""
 
+CARRIED = ("mass_kg", "mounting", "temperature_c")
+"""Columns of ours that say of which plate, or at what temperature, a row is: whoever fits asks about them.
+NaN where it is not known."""
 REFERENCE_M_S2 = PUBLISHED_G_M_S2
 """Base acceleration a ratio is stated at where its level is not known: it cancels in the fit."""
 _CSV_NAMES = {motion: name for name, motion in MOTIONS.items()}

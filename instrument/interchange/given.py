@@ -16,7 +16,7 @@ from instrument.facts.session_result import SessionResult
 from instrument.files.hammer_file import HammerModes, read_hammer
 from instrument.files.structure_file import read_structure
 from instrument.files.sweep_file import read_sweep
-from instrument.interchange.base_frf import is_frf_csv, sweep_of_foreign, sweep_of_frf_csv
+from instrument.interchange.base_frf import file_of_foreign, is_frf_csv, sweep_of_foreign, sweep_of_frf_csv
 from instrument.interchange.files_of import files_of
 from instrument.interchange.identified import session_modes, session_sweep
 from instrument.interchange.readers import is_foreign
@@ -98,13 +98,14 @@ def _of_sweep(data: Path, specimen: Path | None) -> Given:
         raise BadInput("Missing option '--specimen': a sweep does not say which plate it was")
     read = read_structure(specimen)
     level, drive = read.drive_amplitude, read.drive
-    if is_foreign(data):
+    foreign = is_foreign(data)
+    if foreign and drive == "force":
         return Given(read, sweep_of_foreign(data, level, drive), None)
-    if is_frf_csv(data):
+    if not foreign and is_frf_csv(data):
         over = "the base's acceleration" if drive == "base" else "the force"
         said = f"an FRF: taken as the pickup over {over}"
         return Given(read, sweep_of_frf_csv(data, level), None, remark=said)
-    file = read_sweep(data)
+    file = file_of_foreign(data) if foreign else read_sweep(data)
     if any(cell.strip(" .0") for cell in file.unknown.get("mounting", [])):
         raise BadInput(
             f"{data}: column mounting: the plate was clamped anew for some rows, expected a file for each "

@@ -13,7 +13,7 @@ from instrument.errors import BadInput
 from instrument.files.at_once import write_at_once
 from instrument.files.impact_csv import write_frf_csv, write_impact_csv
 from instrument.files.point_columns import understood
-from instrument.files.sweep_file import read_sweep
+from instrument.files.sweep_file import read_sweep, sweep_of_columns
 from instrument.impact.record import Hit
 from instrument.interchange.found import Columns
 from instrument.interchange.provenance import one_line
@@ -36,6 +36,9 @@ def import_file(path: Path, out: Path | None, columns: Sequence[str] | None = No
     One kind of thing goes to `out` itself; several get its name with `-sweep`, `-frf` or `-hits` behind it.
     """
     found = read_foreign(path, columns)
+    if found.sweeps:
+        # Said by its own rows: nobody has seen those that would be written.
+        sweep_of_columns(path, one_table(found.sweeps))
     target = out if out is not None else Path(f"{path.stem}.csv")
     if target.suffix.lower() != ".csv":
         raise BadInput(f"{target}: ending {target.suffix!r}, expected .csv")
@@ -147,10 +150,17 @@ def _sweep_text(sweeps: list[Columns]) -> str:
     table = one_table(sweeps)
     whole = {column.name for column in understood() if column.whole}
     rows = (
-        ",".join(f"{v:.0f}" if n in whole else repr(float(v)) for n, v in zip(table, row, strict=True))
+        ",".join(_cell(float(v), whole=n in whole) for n, v in zip(table, row, strict=True))
         for row in zip(*table.values(), strict=True)
     )
     return "\n".join([",".join(table), *rows]) + "\n"
+
+
+def _cell(value: float, *, whole: bool) -> str:
+    """Empty for what is not known."""
+    if value != value:
+        return ""
+    return f"{value:.0f}" if whole else repr(value)
 
 
 def _told_apart(sweeps: list[Columns]) -> list[Columns]:

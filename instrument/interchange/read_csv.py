@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from instrument.errors import BadInput
 from instrument.files.table import Rows, rate_stated_in
 from instrument.interchange.decoded import decoded
-from instrument.interchange.found import Found
+from instrument.interchange.found import CARRIED, Found
 from instrument.interchange.read_table import Named, read_table
 from instrument.interchange.said_by_name import NotSaid, part_in, unit_in
 from instrument.interchange.text_table import TextTable, find_table, is_number, number_of
@@ -72,15 +72,22 @@ def _numbers(path: Path, stands: TextTable) -> Named:
         _check_marks(path, rows)
 
     def is_numeric(k: int, name: str) -> bool:
-        if unit_in(name) is not None or part_in(name) == "phase":
+        if unit_in(name) is not None or part_in(name) == "phase" or name in CARRIED:
             return any(is_number(row[k], comma=comma) for _, row in rows)
         return is_number(rows[0][1][k], comma=comma)
 
     numeric = [k for k, name in enumerate(names) if name and name != "-" and is_numeric(k, name)]
     return {
-        names[k]: _real(np.array([_number(path, line, row[k], comma=comma) for line, row in rows]))
+        names[k]: _real(
+            np.array([_number(path, line, _cell(names[k], row[k]), comma=comma) for line, row in rows])
+        )
         for k in numeric
     }
+
+
+def _cell(name: str, text: str) -> str:
+    """Nothing is "not known" where a column need not say something of every row."""
+    return text or ("nan" if name in CARRIED else "")
 
 
 def _real(values: NDArray[np.complex128]) -> NDArray[Any]:

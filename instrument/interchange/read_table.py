@@ -13,7 +13,7 @@ from instrument.files.point_columns import understood
 from instrument.files.rates import CONTRADICTION
 from instrument.files.table import rate_of_times
 from instrument.files.units import DERIVATIVE, KNOWN, Quantity, Unit
-from instrument.interchange.found import Columns, Found, Ratio
+from instrument.interchange.found import CARRIED, Columns, Found, Ratio
 from instrument.interchange.said_by_name import (
     BASE,
     NotSaid,
@@ -38,8 +38,6 @@ _TIMES = ("time", "t", "zeit", "temps")
 _LONGEST = 200
 _SAME = 0.02
 """Magnitude and phase beside real and imaginary part are written with few digits."""
-_CARRIED = ("mass_kg", "mounting", "temperature_c")
-"""Columns of ours that say of which plate, or at what temperature, a row is: whoever fits asks about them."""
 _AXIS_HZ = {"Hz": 1.0, "kHz": 1e3, "rad/s": 1 / (2 * np.pi), "": 1.0}
 _AXIS_S = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "": 1.0}
 
@@ -83,7 +81,7 @@ def read_table(source: str, table: Named, found: Found) -> bool:
 def _say_left(source: str, table: Named, used: list[_Signal], found: Found) -> None:
     """Of what was not taken, its names: nobody else would miss them."""
     taken = {name for signal in used for name in signal.names}
-    words = (*_RATES, "coherence", "accepted", "hit", *_others(), *_CARRIED)
+    words = (*_RATES, "coherence", "accepted", "hit", *_others(), *CARRIED)
     left = [
         n
         for n in table
@@ -102,7 +100,11 @@ def _axis(
     source: str, table: Named, words: tuple[str, ...], units: dict[str, float], *, needed: bool = True
 ) -> Array | None:
     """The column of an axis in its SI unit; where it is `needed` one in another unit is refused."""
-    rows = [n for n, values in table.items() if values.ndim == 1 and values.size > 1 and unit_in(n) is None]
+    rows = [
+        n
+        for n, values in table.items()
+        if values.ndim == 1 and values.size > 1 and not np.iscomplexobj(values) and unit_in(n) is None
+    ]
     found = axis_of(source, rows, words, units, needed=needed)
     return None if found is None else np.asarray(table[found[0]], float) * found[1]
 
@@ -259,13 +261,22 @@ def _sweep(
         columns |= _phasor("force", "n", a) if is_force else _phasor("base_accel", "m_s2", a)
         unsaid = np.iscomplexobj(v) and not np.iscomplexobj(a)
         over = f", with {drive.words}{' (no phase: taken as 0)' if unsaid else ''}"
-    columns |= {n: np.asarray(table[n], float) for n in _others() if n in table and table[n].shape == f.shape}
-    columns |= {
-        n: x for n in _CARRIED if n in table and np.all(np.isfinite(x := np.asarray(table[n], float)))
-    }
+    columns |= _beside(source, table, f, found)
     how = "phasors" if np.iscomplexobj(v) else "amplitudes"
     band = f"{len(f)} points, {f.min():.5g} to {f.max():.5g} Hz"
     found.said.append(f"{source}: {reading.words} as velocity {how}{over}, {band}")
+    return columns
+
+
+def _beside(source: str, table: Named, f: Array, found: Found) -> Columns:
+    """Columns of ours as they stand; a single number is that of every row."""
+    columns: Columns = {}
+    for name in (n for n in (*_others(), *CARRIED) if n in table):
+        x = np.full(f.shape, table[name].ravel()[0]) if table[name].size == 1 else table[name]
+        if x.shape != f.shape or np.iscomplexobj(x):
+            found.said.append(f"passed over: {source}: {name}: {x.dtype} of shape {x.shape}")
+        elif name not in CARRIED or not np.all(np.isnan(x)):
+            columns[name] = np.asarray(x, float)
     return columns
 
 

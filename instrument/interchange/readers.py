@@ -11,7 +11,7 @@ from fitting.plugins import NoPlugin, Registry
 from instrument.errors import BadInput
 from instrument.files.guard import checked_frf, checked_hits, said_of
 from instrument.files.table import LARGEST
-from instrument.interchange.found import Found
+from instrument.interchange.found import CARRIED, Found
 from instrument.interchange.provenance import one_line
 
 Reader = Callable[[Path], Found]
@@ -85,7 +85,8 @@ def _checked(path: Path, found: Found) -> Found:
     for sweep in found.sweeps:
         for name, values in sweep.items():
             size = np.abs(np.asarray(values, dtype=float))
-            if not np.all(size <= LARGEST):
+            known = size[~np.isnan(size)] if name in CARRIED else size
+            if not np.all(known <= LARGEST):
                 raise BadInput(f"{path}: {name}: values that are none, or beyond {LARGEST:g}")
     return found
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from following_cases import MASS, MASS_KG, MASS_MM, SPOT, SPOT_MM, run
 from formula_rig import SWEEP, formula_rig
+from scipy.io import savemat
 
 from fitting.specimen import PlacedMass
 from fitting.sweep import Sweep
@@ -120,3 +121,10 @@ def test_several_spots_of_a_file_take_a_hammer_test(tmp_path):
     given = read_given(tmp_path / "sweep.csv", tmp_path / "plate.toml", tmp_path / "hammer.json")
     assert sorted(set(given.sweep.pickup)) == [0, 1]
     assert given.modes.frequency_hz.tolist() == [18.0]
+
+
+def test_known_masses_in_another_program_s_file_are_asked_about_too(tmp_path):
+    variables = {"frequency_hz": [20.0, 21.0], "velocity_m_s": [1.0, 2.0], "mass_kg": [0.0, 0.01]}
+    savemat(tmp_path / "a.mat", {k: np.array(v) for k, v in variables.items()})
+    with pytest.raises(BadInput, match="column mass_kg: a known mass was on the plate in some rows"):
+        read_given(tmp_path / "a.mat", case_file("zn1.toml"), None)

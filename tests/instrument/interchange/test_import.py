@@ -1,6 +1,7 @@
 """Foreign files to this program's CSV, and refusals in a line."""
 
 import json
+import re
 
 import h5py
 import numpy as np
@@ -10,8 +11,10 @@ from scipy.io import savemat
 from uff_files import write_sets
 
 from instrument.cli.main import run
+from instrument.errors import BadInput
 from instrument.files.impact_csv import read_impact_csv
 from instrument.files.sweep_file import read_sweep
+from instrument.interchange.base_frf import file_of_foreign
 from instrument.interchange.exporting import export_session
 from instrument.interchange.importing import import_file
 from instrument.session.contents import contents_of
@@ -103,6 +106,36 @@ def test_the_command_lists_what_it_found(capsys, exported, tmp_path):
     said = capsys.readouterr().out
     assert "velocity over base acceleration, 9 lines, 18 to 22 Hz" in said
     assert f"wrote {out}" in said
+
+
+ROWS = {"frequency_hz": [20.0, 21.0, 22.0], "velocity_m_s": [1.0, 2.0, 3.0]}
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"segment": [1.0, 1.4, 2.0]}, "row 2: segment = 1.4, expected a whole number"),
+        ({"velocity_m_s": [1.0, -2.0, 3.0]}, "row 2: velocity_m_s = -2, expected more than 0"),
+        ({"level_g": 0.0}, "row 1: level_g = 0, expected more than 0"),
+        ({"frequency_hz": [20.0, 21.0, 20.0]}, "row 3: the same point as row 1"),
+    ],
+)
+def test_a_row_that_is_none_is_refused_by_its_place_in_its_own_file(capsys, tmp_path, changed, said):
+    savemat(tmp_path / "a.mat", {k: np.array(v) for k, v in (ROWS | changed).items()})
+    assert run(["import", str(tmp_path / "a.mat"), "--out", str(tmp_path / "b.csv")]) == 2
+    assert f"a.mat: {said}" in capsys.readouterr().err
+    with pytest.raises(BadInput, match=re.escape(said)):
+        file_of_foreign(tmp_path / "a.mat")
+
+
+def test_temperatures_known_of_some_rows_are_written_as_far_as_they_are(tmp_path):
+    rows = ROWS | {"temperature_c": [20.0, np.nan, 22.0]}
+    savemat(tmp_path / "a.mat", {k: np.array(v) for k, v in rows.items()})
+    assert file_of_foreign(tmp_path / "a.mat").temperature_c == 21.0
+    import_file(tmp_path / "a.mat", tmp_path / "b.csv")
+    import_file(tmp_path / "b.csv", tmp_path / "c.csv")
+    assert read_sweep(tmp_path / "b.csv").temperature_c == 21.0
+    assert read_sweep(tmp_path / "c.csv").temperature_c == 21.0
 
 
 def mat73(path):

@@ -56,6 +56,35 @@ def test_an_axis_of_frequencies_is_known_by_its_name_and_unit(axis):
     np.testing.assert_allclose(columns["velocity_m_s"], np.abs(V))
 
 
+def test_a_single_number_is_that_of_every_row():
+    table = {"frequency_hz": F, "velocity_m_s": np.abs(V), "level_g": np.array(0.5)}
+    (columns,) = of(table | {"temperature_c": np.array([21.0]), "segment": np.array(3)}).sweeps
+    assert columns["level_g"].tolist() == [0.5] * 5
+    assert columns["temperature_c"].tolist() == [21.0] * 5
+    assert columns["segment"].tolist() == [3.0] * 5
+
+
+def test_what_is_known_of_some_rows_is_kept_and_of_none_is_not():
+    some = np.array([21.0, np.nan, 21.0, 21.0, 21.0])
+    table = {"frequency_hz": F, "velocity_m_s": np.abs(V), "mass_kg": some, "temperature_c": some * np.nan}
+    (columns,) = of(table).sweeps
+    np.testing.assert_array_equal(columns["mass_kg"], some)
+    assert "temperature_c" not in columns
+
+
+def test_columns_of_other_shapes_and_kinds_are_said_to_be_left_out():
+    table = {"frequency_hz": F, "velocity_m_s": np.abs(V), "level_g": np.ones((5, 2)), "weight": V}
+    assert of(table).said[:2] == [
+        "passed over: a: level_g: float64 of shape (5, 2)",
+        "passed over: a: weight: complex128 of shape (5,)",
+    ]
+
+
+def test_complex_frequencies_are_no_axis():
+    found = Found()
+    assert not read_table("a", {"frequency_hz": F + 1j, "velocity_m_s": np.abs(V)}, found)
+
+
 def test_a_motion_of_the_base_stands_beside_the_response_as_acceleration():
     base_m_s = 0.01 * np.exp(0.3j) * np.ones(5)
     found = of({"frequency_hz": F, "tip (m/s)": V, "base (m/s)": base_m_s, "signal_level": np.full(5, 0.5)})
