@@ -11,6 +11,8 @@ _MARKED = {
     codecs.BOM_UTF16_LE: "utf-16",
     codecs.BOM_UTF16_BE: "utf-16",
 }
+_MINUS = "\N{MINUS SIGN}"
+"""In numbers as typesetting programs write them."""
 _UNMARKED = ("utf-8", "cp1252", "latin-1")
 """Windows' own beside UTF-8: of what is looked for only degrees, micro and superscripts are beyond ASCII, and
 these are alike in it and in Latin-1."""
@@ -29,5 +31,5 @@ def decoded(path: Path) -> str:
             raise BadInput(f"{path}: byte {content.index(0)}: a NUL byte, expected a text file")
         if not text.strip():
             raise BadInput(f"{path}: the file is empty")
-        return text
+        return text.replace(_MINUS, "-")
     raise BadInput(f"{path}: not {named} text as its first bytes say")

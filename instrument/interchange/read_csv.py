@@ -16,6 +16,8 @@ from instrument.interchange.read_table import Named, read_table
 from instrument.interchange.said_by_name import NotSaid, part_in, unit_in
 from instrument.interchange.text_table import TextTable, find_table, is_number, number_of
 
+_PARTED = re.compile(r"[-+]?[1-9]\d{0,2}(?:[.,]\d{3})+")
+_HUNDREDS = re.compile(r"[-+]?[1-9]\d\d")
 _MARKED = re.compile(r"[-+]?\d[\d.,]*(?:[eE][-+]?\d+)?")
 
 
@@ -68,8 +70,8 @@ def _hits_apart(path: Path, table: Named) -> list[tuple[str, Named]]:
 def _numbers(path: Path, stands: TextTable) -> Named:
     """Columns of numbers; one of none, or of some and without a unit in its name, is text and passed over."""
     names, rows, comma = stands.names, stands.rows, stands.separator != ","
-    if comma:
-        _check_marks(path, rows)
+    _check_marks(path, rows, comma=comma)
+    _check_thousands(path, names, rows)
 
     def is_numeric(k: int, name: str) -> bool:
         if unit_in(name) is not None or part_in(name) == "phase" or name in CARRIED:
@@ -95,11 +97,31 @@ def _real(values: NDArray[np.complex128]) -> NDArray[Any]:
     return values if np.iscomplexobj(values) and np.any(values.imag) else np.asarray(values.real)
 
 
-def _check_marks(path: Path, rows: Rows) -> None:
-    """Raise `BadInput` where commas and points stand in a file's numbers: one of them parts thousands."""
+def _check_thousands(path: Path, names: Sequence[str], rows: Rows) -> None:
+    """Raise `BadInput` for a column that goes on from 999 to 1.000: there the mark parts thousands."""
+    for k, name in enumerate(names):
+        column = [(line, row[k]) for line, row in rows if k < len(row)]
+        marked = [(line, text) for line, text in column if "." in text or "," in text]
+        hundreds = any(_HUNDREDS.fullmatch(text) for _, text in column)
+        if hundreds and marked and all(_PARTED.fullmatch(text) for _, text in marked):
+            line, text = marked[0]
+            raise BadInput(
+                f"{path}: line {line}: {name} = {text!r} beside whole numbers: a mark between thousands?"
+            )
+
+
+def _check_marks(path: Path, rows: Rows, *, comma: bool) -> None:
+    """Raise `BadInput` where commas and points stand in a file's numbers: one of them parts thousands.
+
+    Without `comma` they part columns, and none may stand within a number.
+    """
     fields = [(line, field) for line, row in rows for field in row if _MARKED.fullmatch(field)]
     points = [field for _, field in fields if "." in field]
     for line, field in fields:
+        if "," in field and not comma:
+            raise BadInput(
+                f"{path}: line {line}: {field!r} where commas are between columns, expected a decimal point"
+            )
         if "," in field and points:
             raise BadInput(
                 f"{path}: line {line}: {field!r} beside {points[0]!r}, expected one decimal mark, and none "

@@ -25,7 +25,9 @@ from instrument.interchange.said_by_name import (
     part_in,
     radians,
     reference_of_db,
+    refuse_contradiction,
     refuse_unknown,
+    stated_factor,
     stem_of,
     unit_in,
 )
@@ -146,8 +148,29 @@ def _signals(source: str, table: Named) -> list[_Signal]:
             refuse_unknown(source, name, unit)
         if unit is None and part_in(name) != "phase":
             continue
+        if unit is not None:
+            refuse_contradiction(source, name, unit)
         parts.setdefault(stem_of(name), {})[part_in(name)] = name
+    _lend_phase(table, parts)
     return [s for stem, by_part in parts.items() if (s := _signal(source, table, stem, by_part)) is not None]
+
+
+def _lend_phase(table: Named, parts: dict[tuple[str, ...], dict[Part, str]]) -> None:
+    """A phase that does not say of what is that of the only size, beside which there may be a base's."""
+    lent = parts.get(())
+    if lent is None or set(lent) != {"phase"}:
+        return
+    sizes = [
+        (stem, names)
+        for stem, names in parts.items()
+        if not BASE & set(stem)
+        and set(names) in ({"whole"}, {"magnitude"})
+        and not any(np.iscomplexobj(table[name]) for name in names.values())
+    ]
+    readings = [stem for stem in parts if stem and not BASE & set(stem)]
+    if len(sizes) == len(readings) == 1:
+        sizes[0][1]["phase"] = lent["phase"]
+        del parts[()]
 
 
 def _signal(source: str, table: Named, stem: tuple[str, ...], names: dict[Part, str]) -> _Signal | None:
@@ -168,7 +191,10 @@ def _signal(source: str, table: Named, stem: tuple[str, ...], names: dict[Part, 
     elif size is None:
         return None
     elif "phase" in names:
-        values = _size(table, size) * np.exp(1j * radians(source, names["phase"], table[names["phase"]]))
+        values = _size(table, size)
+        if not np.iscomplexobj(values) and np.any(values < 0):
+            raise NotSaid(f"{source}: {size}: {np.nanmin(values):g} as a size beside a phase: is it in dB?")
+        values = values * np.exp(1j * radians(source, names["phase"], table[names["phase"]]))
     else:
         values = _size(table, size)
     # Of a ratio both are stated alike.
@@ -253,6 +279,7 @@ def _sweep(
     columns: Columns = {"frequency_hz": f}
     v = _as(source, reading, "velocity", f)
     _check_rows(source, reading, f)
+    _check_sizes(source, reading, drive)
     columns |= _phasor("velocity", "m_s", v) if np.iscomplexobj(v) else {"velocity_m_s": v}
     over = ", no base channel"
     if drive is not None:
@@ -278,6 +305,17 @@ def _beside(source: str, table: Named, f: Array, found: Found) -> Columns:
         elif name not in CARRIED or not np.all(np.isnan(x)):
             columns[name] = np.asarray(x, float)
     return columns
+
+
+def _check_sizes(source: str, reading: _Signal, drive: _Signal | None) -> None:
+    """Raise `NotSaid` where one of the two is rms or peak to peak and nothing is said of the other."""
+    if drive is None:
+        return
+    for one, other in ((reading, drive), (drive, reading)):
+        if one.peak != 1.0 and all(stated_factor(name) is None for name in other.names):
+            raise NotSaid(
+                f"{source}: {other.name}: rms, peak or peak to peak beside {one.name}? expected in its name"
+            )
 
 
 def _check_rows(source: str, reading: _Signal, f: Array) -> None:

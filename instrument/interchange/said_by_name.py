@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array
 from instrument.errors import BadInput
-from instrument.files.units import KNOWN, Unit, unit_of
+from instrument.files.units import KNOWN, Quantity, Unit, unit_of
 
 Part = Literal["whole", "re", "im", "magnitude", "phase"]
 
@@ -28,7 +28,13 @@ _PARTS: dict[str, Part] = {
     **dict.fromkeys(("phase", "phi", "arg", "angle"), "phase"),
 }
 """Accents are taken off before."""
-_MEASURED = {"velocity", "vel", "acceleration", "accel", "acc", "displacement", "disp", "force", "frf"}
+_QUANTITIES: dict[str, Quantity] = {
+    **dict.fromkeys(("velocity", "vel"), "velocity"),
+    **dict.fromkeys(("acceleration", "accel", "acc"), "acceleration"),
+    **dict.fromkeys(("displacement", "disp"), "displacement"),
+    "force": "force",
+}
+_MEASURED = {*_QUANTITIES, "frf"}
 """Words of what is wanted: without its unit it is not passed over in silence."""
 _OF_BASE = {"base", "clamp", "reference", "ref"}
 """Of a measured base: left out, its commanded level would stand in its place."""
@@ -55,7 +61,8 @@ _PEAKS = (
 )
 """How a sine's size is stated, and what makes its amplitude of it."""
 _ANGLES = {"deg": np.pi / 180, "degree": np.pi / 180, "degrees": np.pi / 180, "°": np.pi / 180, "rad": 1.0}
-_TURN_RAD = 2 * np.pi
+_MOST_RAD = 8 * np.pi
+"""Phases in rad, unwrapped over four turns: a resonance alone takes phases in degrees beyond that."""
 _LAST_GROUP = re.compile(r"\(((?:[^()]|\([^()]*\))*)\)\s*$")
 _DECIBELS = re.compile(r"dB\b\s*(?:re[lf]?\b[.:]?)?\s*([\d.]+(?:e[-+]?\d+)?)?\s*(.*)", re.I)
 _HALF_DECADE_DB = 20.0
@@ -137,8 +144,14 @@ def stem_of(name: str) -> tuple[str, ...]:
 
 def amplitude_factor(name: str) -> float:
     """Of a sine's size as stated to its amplitude: the square root of 2 for rms, a half for peak to peak."""
+    stated = stated_factor(name)
+    return 1.0 if stated is None else stated
+
+
+def stated_factor(name: str) -> float | None:
+    """The same, None where the name does not say how the size is stated."""
     said = " " + re.sub(r"[^a-z0-9]+", " ", name.lower()) + " "
-    return float(next((factor for words, factor in _PEAKS if re.search(rf" (?:{words}) ", said)), 1.0))
+    return next((float(factor) for words, factor in _PEAKS if re.search(rf" (?:{words}) ", said)), None)
 
 
 def _without_size(unit: str) -> str:
@@ -156,7 +169,7 @@ def radians(source: str, name: str, values: NDArray[np.float64]) -> NDArray[np.f
     said = unit.strip().lower() or next((w for w in words if w in _ANGLES), "")
     if said and said not in _ANGLES:
         raise NotSaid(f"{source}: {name}: in {unit!r}, expected deg or rad")
-    if not said and np.any(values) and np.max(np.abs(values)) <= _TURN_RAD:
+    if not said and np.any(values) and np.max(np.abs(values)) <= _MOST_RAD:
         raise NotSaid(
             f"{source}: {name}: no more than {np.max(np.abs(values)):.3g} in size, are these rad? "
             "expected deg or rad in its name"
@@ -191,6 +204,17 @@ def axis_of(
 def _last_unit(words: list[str], units: dict[str, float]) -> str:
     """The unit that the last words of a name are; "?" for none."""
     return next((u for u in ("/".join(words[-2:]), words[-1]) if u in units), "?")
+
+
+def refuse_contradiction(source: str, name: str, unit: Unit) -> None:
+    """Raise `NotSaid` where a name's words and its unit are of different quantities."""
+    _, words = bracketed(name)
+    stems = [u for word in words if word in _STEMS and (u := unit_of(_STEMS[word])) is not None]
+    said = {_QUANTITIES[w] for word in words if (w := word.rstrip("0123456789")) in _QUANTITIES}
+    is_other = unit.per is None and bool(said) and unit.quantity not in said
+    if is_other or any((u.quantity, u.per) != (unit.quantity, unit.per) for u in stems):
+        over = f" over {unit.per}" if unit.per else ""
+        raise NotSaid(f"{source}: {name}: its unit is of {unit.quantity}{over}: which is it?")
 
 
 def refuse_unknown(source: str, name: str, unit: Unit | None) -> None:

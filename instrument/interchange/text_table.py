@@ -58,6 +58,11 @@ def find_table(path: Path, text: str, columns: Sequence[str] | None = None) -> T
     rows = fields[first:]
     above = [(n, line) for n, line in lines if n < rows[0][0]]
     if columns is not None:
+        n, row = rows[0]
+        if len(columns) not in {len(row), _filled(rows)}:
+            raise BadInput(
+                f"{path}: line {n}: {len(row)} columns, expected {len(columns)} as --columns has names"
+            )
         return _even(path, TextTable(list(columns), rows, separator, []))
     return _even(path, _named(path, above, rows, separator))
 

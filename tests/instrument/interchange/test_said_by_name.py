@@ -17,6 +17,7 @@ from instrument.interchange.said_by_name import (
     bracketed,
     part_in,
     radians,
+    refuse_contradiction,
     refuse_unknown,
     stem_of,
     unit_in,
@@ -210,3 +211,59 @@ def test_thousands_that_are_parted_are_no_decimals(tmp_path, row):
 
 def test_a_column_is_no_axis_for_its_first_letter():
     assert of(PARTS | {"fan speed": F, "tip": F, "f [Hz]": F}).said[1:] == ["passed over: a: fan speed, tip"]
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [
+        ("Acceleration [m/s]", "velocity"),
+        ("Velocity [g]", "acceleration"),
+        ("Displacement 2 [mm/s]", "velocity"),
+        ("Force [g]", "acceleration"),
+        ("Mobility real [g/N]", "acceleration over force"),
+    ],
+)
+def test_a_name_and_a_unit_of_different_quantities_are_asked_about(name, unit):
+    with pytest.raises(BadInput, match=f"its unit is of {unit}: which is it"):
+        refuse_contradiction("a", name, unit_in(name))
+
+
+@pytest.mark.parametrize(
+    "name", ["Velocity from acceleration [m/s]", "mobility_re", "Accel FRF [g/N]", "Tip [mm/s]"]
+)
+def test_a_name_that_does_not_contradict_its_unit_is_taken(name):
+    refuse_contradiction("a", name, unit_in(name))
+
+
+def test_the_base_of_an_rms_value_says_what_it_is_itself():
+    rms = {"Velocity [m/s rms]": np.abs(V)}
+    with pytest.raises(BadInput, match=r"Base .g.: rms, peak or peak to peak beside Velocity .m/s rms.\?"):
+        of(rms | {"Base [g]": F})
+    with pytest.raises(BadInput, match=r"Velocity real .m/s.: rms, peak or peak to peak beside Base rms .g."):
+        of(PARTS | {"Base rms [g]": F})
+    assert "with Base [g pk]" in of(rms | {"Base [g pk]": F}).said[0]
+
+
+@pytest.mark.parametrize("size", ["Velocity [m/s]", "Tip magnitude [m/s]"])
+def test_a_phase_alone_is_that_of_the_only_response(size):
+    degrees = {"Phase [deg]": np.angle(V, deg=True)}
+    for beside in ({}, {"Base real [g]": F, "Base imag [g]": 0 * F}):
+        (columns,) = of({size: np.abs(V), **degrees, **beside}).sweeps
+        np.testing.assert_allclose(columns["velocity_re_m_s"] + 1j * columns["velocity_im_m_s"], V)
+    ((_, frf, _),) = of({"FRF [(m/s)/N]": np.abs(V), **degrees}).frfs
+    np.testing.assert_allclose(frf.H, V)
+
+
+def test_a_phase_of_nobody_knows_what_is_said_to_be_left_out():
+    found = of({**PARTS, "Phase [deg]": F})
+    assert found.said[1:] == ["passed over: a: Phase [deg]"]
+
+
+def test_phases_that_may_be_unwrapped_rad_are_asked_about():
+    with pytest.raises(BadInput, match="are these rad"):
+        radians("a", "Phase", np.array([-1.0, -4.0, -8.0, -12.0]))
+
+
+def test_a_size_below_zero_beside_a_phase_is_asked_about():
+    with pytest.raises(BadInput, match=r"FRF magnitude .g/N.: -3 as a size beside a phase: is it in dB"):
+        of({"FRF magnitude [g/N]": F - 18.0, "FRF phase [deg]": F})

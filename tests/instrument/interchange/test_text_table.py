@@ -153,3 +153,42 @@ def test_a_number_is_one_number():
 def test_the_separator_is_that_of_the_rows():
     table = find_table(Path("a"), "a; b\n1,5 2,5\n2,5 3,5\n".replace("; ", " "), None)
     assert (table.separator, table.names, table.rows[0]) == ("", ["a", "b"], (2, ["1,5", "2,5"]))
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (
+            "Frequency [Hz];v [mm/s]\n999;1\n1.000;2\n1.001;3\n",
+            "line 3: Frequency .Hz. = '1.000' beside whole",
+        ),
+        (
+            'Frequency [Hz],v [mm/s]\n"20,5","1,25"\n"21,5","2,25"\n',
+            "line 2: '20,5' where commas are between",
+        ),
+    ],
+    ids=["a mark between thousands", "decimal commas between commas"],
+)
+def test_a_mark_that_may_not_be_a_decimal_one_is_asked_about(tmp_path, text, said):
+    (tmp_path / "a.csv").write_text(text, encoding="utf-8")
+    with pytest.raises(BadInput, match=said):
+        read_csv(tmp_path / "a.csv")
+
+
+def test_whole_numbers_beside_fractions_are_no_thousands(tmp_path):
+    (tmp_path / "a.csv").write_text("Frequency [Hz];v [mm/s]\n100;1\n100,125;2\n100,25;0,125\n")
+    (columns,) = read_csv(tmp_path / "a.csv").sweeps
+    assert columns["frequency_hz"].tolist() == [100.0, 100.125, 100.25]
+
+
+def test_a_typeset_minus_is_one(tmp_path):
+    text = "Frequency [Hz],v re [m/s],v im [m/s]\n20,1,\N{MINUS SIGN}2\n21,2,\N{MINUS SIGN}3\n"
+    (tmp_path / "a.csv").write_text(text, encoding="utf-8")
+    (columns,) = read_csv(tmp_path / "a.csv").sweeps
+    assert columns["velocity_im_m_s"].tolist() == [-2.0, -3.0]
+
+
+def test_names_given_for_another_number_of_columns_are_refused(tmp_path):
+    (tmp_path / "a.csv").write_text("20,1,2\n21,2,3\n")
+    with pytest.raises(BadInput, match="line 1: 3 columns, expected 2 as --columns has names"):
+        read_csv(tmp_path / "a.csv", ["Frequency [Hz]", "v [m/s]"])
