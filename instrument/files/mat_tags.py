@@ -76,8 +76,8 @@ def _check_chain(path: Path, file: BinaryIO, order: str, end: int) -> None:
         is_short = tag.length < shortest or (shortest and tag.is_small)
         if tag.kind not in kinds or is_short or is_long:
             raise BadInput(
-                f"{path}: damaged: byte {tag.at}: {tag.length} bytes of type {tag.kind}, which is not there in "
-                "a MATLAB file"
+                f"{path}: damaged: byte {tag.at}: {tag.length} bytes of type {tag.kind}, expected as MATLAB "
+                "writes them"
             )
         if tag.kind == _MATRIX:
             # An empty one has nothing of its own: what follows is the next beside it.

@@ -31,6 +31,7 @@ from instrument.files.point_columns import stored
 from instrument.files.text import refuse_endless
 from instrument.files.toml import one_line
 from instrument.session.configuration import Configuration
+from instrument.session.heaps import check_heaps
 from instrument.stream.derived import CalibrationFound, PointMeasured
 from instrument.stream.event import Event, from_line, to_line
 from instrument.stream.raw import BlockAcquired
@@ -253,6 +254,8 @@ def _array(group: Any, name: str, dimensions: int) -> Any:
     claimed, held = found.size * found.dtype.itemsize, found.id.get_storage_size()
     if claimed > _MOST_PACKED * held + _OVERHEAD_BYTES:
         raise ValueError(f"{name}: claims {claimed} bytes, holds {held}")
+    if found.dtype.kind == "O":
+        check_heaps(found)
     return found[()]
 
 
