@@ -30,7 +30,8 @@ from instrument.session.storage import SessionFile
 NOT_DIAGNOSED = "not diagnosed"
 NOT_STATED = "not stated"
 
-Positive = Annotated[float, Field(gt=0, le=LARGEST, allow_inf_nan=False)]
+Positive = Annotated[float, Field(ge=1 / LARGEST, le=LARGEST, allow_inf_nan=False)]
+"""Less than that is divided by as badly as nothing."""
 Finite = Annotated[float, Field(ge=-LARGEST, le=LARGEST, allow_inf_nan=False)]
 
 

@@ -128,8 +128,15 @@ _NO_LAW = {"verdict": "effect", "after": facts(TABLE_4) | {"law": []}}
         {"temperature_c": float("inf")},
         {"law": facts(TABLE_4)["law"] + _SOFTER},
         {"diagnose": _NO_LAW},
+        {"law": [row | {"storage_modulus_pa": 1e-308} for row in facts(TABLE_4)["law"]]},
     ],
-    ids=["below absolute zero", "no temperature", "two moduli at each frequency", "a diagnosis cut off"],
+    ids=[
+        "below absolute zero",
+        "no temperature",
+        "two moduli at each frequency",
+        "a diagnosis cut off",
+        "no modulus",
+    ],
 )
 def test_a_law_that_contradicts_itself_is_refused(tmp_path, changed):
     path = tmp_path / "a.json"
