@@ -110,7 +110,7 @@ def test_its_effect_is_accepted_on_a_word_and_known_to_the_catalogue(viscorig, f
     assert effect["parameters"]["leak"]["unit"] == "mm/s per m/s^2"
     refused = viscorig(*common, "--accept", "nothing")
     assert refused.returncode == 2
-    assert "core_thickness, crosstalk, fixture_resonance" in refused.stderr
+    assert "core_thickness, crosstalk, exponential_window" in refused.stderr
 
 
 def test_an_experiment_with_its_vibrometer_is_checked(viscorig, experiment):
