@@ -27,7 +27,7 @@ class ExponentialWindowEffect(Effect):
     structures = PLATE_AND_BEAM
     needs = FORCE
     parameters = (
-        EffectParameter("tau", "s", 0.02, 10.0, 0.3, logarithmic=True, neutral=float("inf")),
+        EffectParameter("tau", "s", 0.02, 5.0, 0.3, logarithmic=True, neutral=float("inf")),
         EffectParameter("integrations", "1", 0.0, 2.0, 0.0, neutral=None, fixed=True),
     )
     chance = 0.04
