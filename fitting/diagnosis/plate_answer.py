@@ -40,8 +40,8 @@ class Asked:
     def matrices(self) -> Matrices:
         """As changed."""
         plate, change = self.plate, self.change
-        C_1 = (plate.U * (plate.d * change.damping)) @ plate.U.T
-        return stacked(plate.K_0 + change.K, plate.K_1 + change.K_1, plate.M + change.M, C_1 + change.C)
+        C_1 = plate.viscous(change.damping) + change.C
+        return stacked(plate.K_0 + change.K, plate.K_1 + change.K_1, plate.M + change.M, C_1)
 
     def alike(self, other: "Asked") -> bool:
         """Whether another asks for the same matrix at the same nodes, but for what drives and reads it."""

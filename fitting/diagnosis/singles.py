@@ -82,10 +82,11 @@ class Singles:
         work = self._work
         asked = [one for name in names for one in work.unfollowed(name, every=True)]
         found = [(form, f) for (form, *_), f in zip(asked, self._followed(asked), strict=True)]
+        best = list[tuple[Form, Refitted]]()
         for name in names:
             mine = [*work.elsewhere(name), *(one for one in found if one[0][0] == name)]
-            best = sorted(mine, key=lambda one: one[1].chi2)[: SEARCH.finished]
-            self._to_the_end([(form, f, np.inf) for form, f in best], report)
+            best += sorted(mine, key=lambda one: one[1].chi2)[: SEARCH.finished]
+        self._to_the_end([(form, f, np.inf) for form, f in best], report)
 
     def _look_far(self, names: Sequence[str]) -> None:
         """Rough fits of some effects in wide valleys."""

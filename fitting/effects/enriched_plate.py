@@ -221,9 +221,7 @@ class EnrichedReducedPlate:
             (getattr(self, a) + getattr(change, b))[square]
             for a, b in (("K_0", "K"), ("K_1", "K_1"), ("M", "M"))
         )
-        C_1 = (self.U[own] * (self.d * change.damping)) @ self.U[own].T
-        if isinstance(change.C, np.ndarray):
-            C_1 = C_1 + change.C[square]
+        C_1 = (self.viscous(change.damping) + change.C)[square]
         A = dynamic_stiffness(stacked(K_0, K_1, M, C_1), omega, G)
         given = [self.load + change.load, self.observe + change.observe, self.pitch, *further]
         sides = np.stack([side[own] for side in given if np.any(side)], axis=1).astype(complex)
@@ -276,6 +274,10 @@ class EnrichedReducedPlate:
     @cached_property
     def _place(self) -> dict[str, int]:
         return {str(n): k for k, n in enumerate(self.names)}
+
+    def viscous(self, factor: Array | float = 1.0) -> Array:
+        """C_1, its modes' damping times a factor: one, or one of each. Shape (k, k)."""
+        return np.asarray((self.U * (self.d * factor)) @ self.U.T)
 
     def matrix(self, name: str) -> Array:
         """A span's matrix. Shape (k, k)."""

@@ -38,8 +38,7 @@ class ExponentialWindowEffect(Effect):
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         per_s = 1 / u[0]
-        C_1 = (plate.U * plate.d) @ plate.U.T
-        return Change(K=per_s**2 * plate.M + per_s * C_1, C=2 * per_s * plate.M)
+        return Change(K=per_s**2 * plate.M + per_s * plate.viscous(), C=2 * per_s * plate.M)
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:
         slope = (G(1 + _H) - G(1 - _H)) / (2 * _H)

@@ -44,8 +44,8 @@ class ModalMatrices:
     @classmethod
     def of(cls, system: EnrichedReducedPlate, change: Change) -> "ModalMatrices":
         """A structure with something changed."""
-        C_1 = (system.U * (system.d * change.damping)) @ system.U.T
-        return cls(system.K_0 + change.K, system.K_1 + change.K_1, system.M + change.M, C_1 + change.C)
+        C_1 = system.viscous(change.damping) + change.C
+        return cls(system.K_0 + change.K, system.K_1 + change.K_1, system.M + change.M, C_1)
 
     def on(self, V: Array) -> "ModalMatrices":
         """On the combinations V of the columns. Shape (k, few)."""

@@ -12,8 +12,9 @@ from instrument.errors import BadInput
 from instrument.files.table import Rows, rate_stated_in
 from instrument.interchange.decoded import decoded
 from instrument.interchange.found import CARRIED, Found
-from instrument.interchange.read_table import Named, read_table
+from instrument.interchange.read_table import read_table
 from instrument.interchange.said_by_name import NotSaid, part_in, unit_in
+from instrument.interchange.signals import Named
 from instrument.interchange.text_table import TextTable, find_table, is_number, number_of
 
 _PARTED = re.compile(r"[-+]?[1-9]\d{0,2}(?:[.,]\d{3})+")

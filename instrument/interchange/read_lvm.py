@@ -7,7 +7,8 @@ import numpy as np
 from instrument.errors import BadInput
 from instrument.files.lvm import read_lvm
 from instrument.interchange.found import Found
-from instrument.interchange.read_table import Named, read_table
+from instrument.interchange.read_table import read_table
+from instrument.interchange.signals import Named
 
 
 def read_lvm_hits(path: Path) -> Found:

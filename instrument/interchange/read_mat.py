@@ -14,7 +14,8 @@ from instrument.files.rates import rate_of_step
 from instrument.files.uff58 import HERTZ, SECONDS
 from instrument.files.units import DERIVATIVE, KNOWN, Unit, unit_of
 from instrument.interchange.found import Found, Ratio, motion_of
-from instrument.interchange.read_table import Named, read_table
+from instrument.interchange.read_table import read_table
+from instrument.interchange.signals import Named
 
 _DEPTH = 4
 _OUR_OWN = ("units", "about")

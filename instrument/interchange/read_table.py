@@ -1,6 +1,5 @@
 """Named arrays side by side, of a CSV or a MATLAB struct, to what they are by their names."""
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,55 +11,24 @@ from instrument.errors import BadInput
 from instrument.files.point_columns import understood
 from instrument.files.rates import CONTRADICTION
 from instrument.files.table import rate_of_times
-from instrument.files.units import DERIVATIVE, KNOWN, Quantity, Unit
+from instrument.files.units import DERIVATIVE, KNOWN, Quantity
 from instrument.interchange.found import CARRIED, Columns, Found, Ratio
 from instrument.interchange.said_by_name import (
     BASE,
     NotSaid,
-    Part,
-    amplitude_factor,
     axis_of,
     bracketed,
-    of_decibels,
-    part_in,
-    radians,
-    reference_of_db,
-    refuse_contradiction,
-    refuse_unknown,
     stated_factor,
-    stem_of,
     unit_in,
 )
+from instrument.interchange.signals import Named, Signal, signals_of
 
-Named = dict[str, NDArray[Any]]
-"""Arrays of one length; matrices (samples, hits) for hits side by side; single numbers as arrays of one."""
 _RATES = ("sample_rate_hz", "sampling_rate_hz", "fs", "fs_hz", "sample_rate", "sampling_frequency")
 _FREQUENCIES = ("frequency", "freq", "f", "frequenz", "frequence")
 _TIMES = ("time", "t", "zeit", "temps")
 _LONGEST = 200
-_SAME = 0.02
-"""Magnitude and phase beside real and imaginary part are written with few digits."""
 _AXIS_HZ = {"Hz": 1.0, "kHz": 1e3, "rad/s": 1 / (2 * np.pi), "": 1.0}
 _AXIS_S = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "": 1.0}
-
-
-@dataclass(frozen=True)
-class _Signal:
-    """A quantity, its parts put together."""
-
-    name: str
-    unit: Unit
-    is_base: bool
-    values: NDArray[Any]
-    peak: float = 1.0
-    """What an amplitude was made with, of an rms value or one from peak to peak."""
-    names: tuple[str, ...] = ()
-    """Of its parts."""
-
-    @property
-    def words(self) -> str:
-        """What is known of it, for people."""
-        return self.name if self.peak == 1.0 else f"{self.name} times {self.peak:.4g}"
 
 
 def read_table(source: str, table: Named, found: Found) -> bool:
@@ -68,7 +36,7 @@ def read_table(source: str, table: Named, found: Found) -> bool:
 
     `source` names it in messages.
     """
-    signals = _signals(source, table)
+    signals = signals_of(source, table, _others())
     frequency = _axis(source, table, _FREQUENCIES, _AXIS_HZ)
     if frequency is not None:
         used = _on_lines(source, table, frequency, signals, found)
@@ -80,7 +48,7 @@ def read_table(source: str, table: Named, found: Found) -> bool:
     return bool(signals)
 
 
-def _say_left(source: str, table: Named, used: list[_Signal], found: Found) -> None:
+def _say_left(source: str, table: Named, used: list[Signal], found: Found) -> None:
     """Of what was not taken, its names: nobody else would miss them."""
     taken = {name for signal in used for name in signal.names}
     words = (*_RATES, "coherence", "accepted", "hit", *_others(), *CARRIED)
@@ -127,119 +95,16 @@ def _rate_hz(source: str, table: Named) -> float:
     return said[0]
 
 
-# Signals
-
-
 def _others() -> list[str]:
     """Columns of the sweep CSV that pass as they are; phasors may come in other units and other parts."""
     names = [column for column in understood() if column.given == "if known"]
     return [column.name for column in names if not any(f"_{part}_" in column.name for part in ("re", "im"))]
 
 
-def _signals(source: str, table: Named) -> list[_Signal]:
-    """Real and imaginary parts, or magnitude and phase, put together."""
-    others = _others()
-    parts: dict[tuple[str, ...], dict[Part, str]] = {}
-    for name in table:
-        if name in others:
-            continue
-        unit = unit_in(name)
-        if (unit is None or unit.per is None) and part_in(name) != "phase":
-            refuse_unknown(source, name, unit)
-        if unit is None and part_in(name) != "phase":
-            continue
-        if unit is not None:
-            refuse_contradiction(source, name, unit)
-        parts.setdefault(stem_of(name), {})[part_in(name)] = name
-    _lend_phase(table, parts)
-    return [s for stem, by_part in parts.items() if (s := _signal(source, table, stem, by_part)) is not None]
-
-
-def _lend_phase(table: Named, parts: dict[tuple[str, ...], dict[Part, str]]) -> None:
-    """A phase that does not say of what is that of the only size, beside which there may be a base's."""
-    lent = parts.get(())
-    if lent is None or set(lent) != {"phase"}:
-        return
-    sizes = [
-        (stem, names)
-        for stem, names in parts.items()
-        if not BASE & set(stem)
-        and set(names) in ({"whole"}, {"magnitude"})
-        and not any(np.iscomplexobj(table[name]) for name in names.values())
-    ]
-    readings = [stem for stem in parts if stem and not BASE & set(stem)]
-    if len(sizes) == len(readings) == 1:
-        sizes[0][1]["phase"] = lent["phase"]
-        del parts[()]
-
-
-def _signal(source: str, table: Named, stem: tuple[str, ...], names: dict[Part, str]) -> _Signal | None:
-    label = next(iter(names.values()))
-    units = [u for part, n in names.items() if part != "phase" and (u := unit_in(n))]
-    if not units:
-        return None
-    unit = units[0]
-    if any(u != unit for u in units):
-        raise BadInput(f"{source}: {' and '.join(names.values())}: expected both in one unit")
-    if ("re" in names) != ("im" in names):
-        raise BadInput(f"{source}: {label}: its other part is missing, expected re and im")
-    size = names.get("magnitude") or names.get("whole")
-    if "re" in names:
-        values: NDArray[Any] = _from_parts(source, table, names["re"], names["im"])
-        if size is not None:
-            _check_agree(source, table, names, size, values)
-    elif size is None:
-        return None
-    elif "phase" in names:
-        values = _size(table, size)
-        if not np.iscomplexobj(values) and np.any(values < 0):
-            raise NotSaid(f"{source}: {size}: {np.nanmin(values):g} as a size beside a phase: is it in dB?")
-        values = values * np.exp(1j * radians(source, names["phase"], table[names["phase"]]))
-    else:
-        values = _size(table, size)
-    # Of a ratio both are stated alike.
-    peak = (
-        1.0 if unit.per is not None else max(map(amplitude_factor, names.values()), key=lambda x: abs(x - 1))
-    )
-    return _Signal(
-        label, unit, bool(BASE & set(stem)), values * (unit.factor * peak), peak, tuple(names.values())
-    )
-
-
-def _from_parts(source: str, table: Named, re: str, im: str) -> NDArray[Any]:
-    for name in (re, im):
-        if reference_of_db(name) is not None:
-            raise NotSaid(f"{source}: {name}: dB of a part of a phasor, expected dB of its magnitude")
-    return np.asarray(table[re] + 1j * table[im])
-
-
-def _size(table: Named, name: str) -> NDArray[Any]:
-    """As it stands, of dB what it is a level of."""
-    reference = reference_of_db(name)
-    return table[name] if reference is None else of_decibels(table[name], reference)
-
-
-def _check_agree(source: str, table: Named, names: dict[Part, str], size: str, values: NDArray[Any]) -> None:
-    """Raise `BadInput` where a magnitude, or magnitude and phase, are not those of the parts beside them."""
-    other = _size(table, size)
-    if np.iscomplexobj(other) or other.shape != values.shape:
-        return
-    own = np.abs(values)
-    if "phase" in names:
-        other = other * np.exp(1j * radians(source, names["phase"], table[names["phase"]]))
-        own = values
-    most = float(np.nanmax(np.abs(values), initial=0.0))
-    if not np.allclose(own, other, atol=_SAME * most, rtol=_SAME, equal_nan=True):
-        raise BadInput(
-            f"{source}: {', '.join(names.values())}: magnitude and phase are not those of real and imaginary "
-            "part, expected one of both"
-        )
-
-
 # What they make together
 
 
-def _on_lines(source: str, table: Named, f: Array, signals: list[_Signal], found: Found) -> list[_Signal]:
+def _on_lines(source: str, table: Named, f: Array, signals: list[Signal], found: Found) -> list[Signal]:
     """Those taken: ratios, or a velocity beside its base acceleration or its force."""
     for s in (s for s in signals if s.values.shape != f.shape):
         found.said.append(f"passed over: {source}: {s.name}: {s.values.shape} beside {len(f)} frequencies")
@@ -264,7 +129,7 @@ def _on_lines(source: str, table: Named, f: Array, signals: list[_Signal], found
     return [*ratios, *readings, *drives]
 
 
-def _ratio(source: str, s: _Signal, f: Array) -> Ratio:
+def _ratio(source: str, s: Signal, f: Array) -> Ratio:
     if not np.iscomplexobj(s.values):
         raise BadInput(
             f"{source}: {s.name}: no phase, expected real and imaginary part, or magnitude and phase"
@@ -274,7 +139,7 @@ def _ratio(source: str, s: _Signal, f: Array) -> Ratio:
 
 
 def _sweep(
-    source: str, table: Named, f: Array, reading: _Signal, drive: _Signal | None, found: Found
+    source: str, table: Named, f: Array, reading: Signal, drive: Signal | None, found: Found
 ) -> Columns:
     columns: Columns = {"frequency_hz": f}
     v = _as(source, reading, "velocity", f)
@@ -307,7 +172,7 @@ def _beside(source: str, table: Named, f: Array, found: Found) -> Columns:
     return columns
 
 
-def _check_sizes(source: str, reading: _Signal, drive: _Signal | None) -> None:
+def _check_sizes(source: str, reading: Signal, drive: Signal | None) -> None:
     """Raise `NotSaid` where one of the two is rms or peak to peak and nothing is said of the other."""
     if drive is None:
         return
@@ -318,7 +183,7 @@ def _check_sizes(source: str, reading: _Signal, drive: _Signal | None) -> None:
             )
 
 
-def _check_rows(source: str, reading: _Signal, f: Array) -> None:
+def _check_rows(source: str, reading: Signal, f: Array) -> None:
     """Raise `BadInput` for a row of a sweep that is none."""
     for what, bad in (("no number", ~np.isfinite(reading.values)), ("a frequency not above 0", ~(f > 0))):
         if bad.any():
@@ -326,7 +191,7 @@ def _check_rows(source: str, reading: _Signal, f: Array) -> None:
             raise BadInput(f"{source}: {reading.name}: {what} in row {row} of {len(f)}, expected none such")
 
 
-def _as(source: str, signal: _Signal, wanted: Quantity, f: Array) -> NDArray[Any]:
+def _as(source: str, signal: Signal, wanted: Quantity, f: Array) -> NDArray[Any]:
     """Another motion: each derivative is i omega, of an amplitude omega."""
     turns = DERIVATIVE[wanted] - DERIVATIVE[signal.unit.quantity]
     if turns < 0 and np.any(f <= 0):
@@ -349,8 +214,8 @@ def _coherence(table: Named, ratio: str, *, alone: bool) -> Array | None:
 
 
 def _records(
-    source: str, rate_hz: float, signals: list[_Signal], accepted: NDArray[Any] | None, found: Found
-) -> list[_Signal]:
+    source: str, rate_hz: float, signals: list[Signal], accepted: NDArray[Any] | None, found: Found
+) -> list[Signal]:
     """Those taken: a force and its responses; matrices are hits side by side, those not accepted left out."""
     forces = [s for s in signals if s.unit.quantity == "force" and s.unit.per is None]
     motions = [s for s in signals if s.unit.quantity in DERIVATIVE and s.unit.per is None]

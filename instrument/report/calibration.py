@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from instrument.report.blocks import Block, FigureBlock, ReportSection, Sentence, TableBlock
-from instrument.results.drawing import DATA, MODEL, SECOND, label, legend, panels
+from instrument.results.drawing import DATA, MODEL, SECOND, label, legend_above, panels
 from instrument.results.numbers import with_error
 from instrument.session.contents import Contents
 from instrument.stream.derived import PointMeasured
@@ -44,7 +44,7 @@ def _figure(contents: Contents) -> Figure:
     for ax, y in ((gain, "Amplitude / %"), (phase, "Phase / degree")):
         ax.axhline(0, color="#888888", linewidth=0.8)
         label(ax, x="Frequency / Hz", y=y)
-    legend(gain)
+    legend_above(figure, gain)
     return figure
 
 

@@ -12,12 +12,7 @@ from instrument.campaign.plates import kept
 from instrument.campaign.plates.blows import Blows
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden.base import Hidden
-from instrument.campaign.plates.hidden.struck import (
-    PLACES,
-    HiddenExponentialWindow,
-    HiddenOfBlows,
-    Place,
-)
+from instrument.campaign.plates.hidden.struck import PLACES, HiddenOfBlows, Place
 from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.reduced import MODULI_PA, ReducedSolid, reduced
 from instrument.campaign.plates.response import BaseMotion, remaining_damping
@@ -71,9 +66,8 @@ def mobilities(
     rows = [solid.reading(a.x_m, a.y_m) for a in hung]
     C_1 = remaining_damping(solid, np.array(ratios)) if len(ratios) else 0.0
     K_0 = solid.K_0 + 1j * solid.rubbing
-    windows = [h for h in hidden if isinstance(h, HiddenExponentialWindow)]
-    per_s = sum(1 / h.tau_s for h in windows)
-    integrations = sum(h.integrations for h in windows)
+    windows = [h.weighted() for h in hidden if isinstance(h, HiddenOfBlows)]
+    per_s, integrations = sum(w for w, _ in windows), sum(n for _, n in windows)
     found = np.empty((len(spots_m), len(hits_m), len(frequency_hz)), complex)
     for k, w in enumerate(omega):
         s = 1j * w + per_s
@@ -81,9 +75,8 @@ def mobilities(
         Z = K_0 + G * solid.whole_core + s**2 * solid.M + s * C_1
         for a, row in zip(hung, rows, strict=True):
             Z = Z + a.stiffness_n_m[k] * np.outer(row, row)
-        found[:, :, k] = (
-            s * (s / (1j * w)) ** integrations * (read @ np.linalg.solve(Z, push.T.astype(complex)))
-        )
+        read_of = s * (s / (1j * w)) ** integrations
+        found[:, :, k] = read_of * (read @ np.linalg.solve(Z, push.T.astype(complex)))
     return found
 
 

@@ -1,11 +1,13 @@
 """Complex modes of small matrices beside numpy's, the whole of them and sought among real ones."""
 
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.mode_tables.modes import ModalMatrices, modes_of
@@ -53,6 +55,7 @@ def test_a_rigid_mode_is_not_counted():
 def test_a_change_is_added_and_damping_multiplied():
     one = np.eye(2)
     system = SimpleNamespace(K_0=one, K_1=one, M=one, U=one[:, :1], d=np.array([3.0]))
-    A = ModalMatrices.of(system, Change(K=1j * one, M=0.5 * one, damping=2.0))
-    np.testing.assert_array_equal(A.stiffness(2.0, 10.0), np.diag([3 + 61j, 3 + 1j]))
+    system.viscous = partial(EnrichedReducedPlate.viscous, system)
+    A = ModalMatrices.of(system, Change(K=1j * one, M=0.5 * one, C=0.1 * one, damping=2.0))
+    np.testing.assert_array_equal(A.stiffness(2.0, 10.0), np.diag([3 + 62j, 3 + 2j]))
     np.testing.assert_array_equal(A.M, 1.5 * one)

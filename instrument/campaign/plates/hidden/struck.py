@@ -55,6 +55,10 @@ class HiddenOfBlows(Hidden):
         """How it is really struck."""
         return blows
 
+    def weighted(self) -> tuple[float, int]:
+        """By how much every decay is quickened, 1/s; how often what is read is integrated to a velocity."""
+        return 0.0, 0
+
 
 def _aside(rng: np.random.Generator) -> Place:
     size, angle = float(rng.uniform(4e-3, 7e-3)), float(rng.uniform(-np.pi, np.pi))
@@ -153,6 +157,9 @@ class HiddenExponentialWindow(HiddenOfBlows):
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenExponentialWindow":
         # Of records of a second or two, weighted down to 0.1 to 5 % at their ends.
         return cls(float(rng.uniform(0.8, 2.0)) / -np.log(log_uniform(rng, 1e-3, 5e-2)), int(rng.integers(2)))
+
+    def weighted(self) -> tuple[float, int]:
+        return 1 / self.tau_s, self.integrations
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,151 @@
+"""Columns by their names to the quantities that they are parts of: re and im, or magnitude and phase."""
+
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from instrument.errors import BadInput
+from instrument.files.units import Unit
+from instrument.interchange.said_by_name import (
+    BASE,
+    NotSaid,
+    Part,
+    amplitude_factor,
+    of_decibels,
+    part_in,
+    radians,
+    reference_of_db,
+    refuse_contradiction,
+    refuse_unknown,
+    stem_of,
+    unit_in,
+)
+
+Named = dict[str, NDArray[Any]]
+"""Arrays of one length; matrices (samples, hits) for hits side by side; single numbers as arrays of one."""
+_SAME = 0.02
+"""Magnitude and phase beside real and imaginary part are written with few digits."""
+
+
+@dataclass(frozen=True)
+class Signal:
+    """A quantity, its parts put together."""
+
+    name: str
+    unit: Unit
+    is_base: bool
+    values: NDArray[Any]
+    peak: float = 1.0
+    """What an amplitude was made with, of an rms value or one from peak to peak."""
+    names: tuple[str, ...] = ()
+    """Of its parts."""
+
+    @property
+    def words(self) -> str:
+        """What is known of it, for people."""
+        return self.name if self.peak == 1.0 else f"{self.name} times {self.peak:.4g}"
+
+
+def signals_of(source: str, table: Named, others: Collection[str]) -> list[Signal]:
+    """Of all columns but `others`; `source` names the table in messages.
+
+    Raises `BadInput` where they contradict each other, `NotSaid` where they say too little.
+    """
+    parts: dict[tuple[str, ...], dict[Part, str]] = {}
+    for name in table:
+        if name in others:
+            continue
+        unit = unit_in(name)
+        if (unit is None or unit.per is None) and part_in(name) != "phase":
+            refuse_unknown(source, name, unit)
+        if unit is None and part_in(name) != "phase":
+            continue
+        if unit is not None:
+            refuse_contradiction(source, name, unit)
+        parts.setdefault(stem_of(name), {})[part_in(name)] = name
+    _lend_phase(table, parts)
+    return [s for stem, by_part in parts.items() if (s := _signal(source, table, stem, by_part)) is not None]
+
+
+def _lend_phase(table: Named, parts: dict[tuple[str, ...], dict[Part, str]]) -> None:
+    """A phase that does not say of what is that of the only size, beside which there may be a base's."""
+    lent = parts.get(())
+    if lent is None or set(lent) != {"phase"}:
+        return
+    sizes = [
+        (stem, names)
+        for stem, names in parts.items()
+        if not BASE & set(stem)
+        and set(names) in ({"whole"}, {"magnitude"})
+        and not any(np.iscomplexobj(table[name]) for name in names.values())
+    ]
+    readings = [stem for stem in parts if stem and not BASE & set(stem)]
+    if len(sizes) == len(readings) == 1:
+        sizes[0][1]["phase"] = lent["phase"]
+        del parts[()]
+
+
+def _signal(source: str, table: Named, stem: tuple[str, ...], names: dict[Part, str]) -> Signal | None:
+    label = next(iter(names.values()))
+    units = [u for part, n in names.items() if part != "phase" and (u := unit_in(n))]
+    if not units:
+        return None
+    unit = units[0]
+    if any(u != unit for u in units):
+        raise BadInput(f"{source}: {' and '.join(names.values())}: expected both in one unit")
+    if ("re" in names) != ("im" in names):
+        raise BadInput(f"{source}: {label}: its other part is missing, expected re and im")
+    size = names.get("magnitude") or names.get("whole")
+    if "re" in names:
+        values: NDArray[Any] = _from_parts(source, table, names["re"], names["im"])
+        if size is not None:
+            _check_agree(source, table, names, size, values)
+    elif size is None:
+        return None
+    elif "phase" in names:
+        values = _size(table, size)
+        if not np.iscomplexobj(values) and np.any(values < 0):
+            raise NotSaid(f"{source}: {size}: {np.nanmin(values):g} as a size beside a phase: is it in dB?")
+        values = values * np.exp(1j * radians(source, names["phase"], table[names["phase"]]))
+    else:
+        values = _size(table, size)
+    # Of a ratio both are stated alike.
+    peak = (
+        1.0 if unit.per is not None else max(map(amplitude_factor, names.values()), key=lambda x: abs(x - 1))
+    )
+    return Signal(
+        label, unit, bool(BASE & set(stem)), values * (unit.factor * peak), peak, tuple(names.values())
+    )
+
+
+def _from_parts(source: str, table: Named, re: str, im: str) -> NDArray[Any]:
+    for name in (re, im):
+        if reference_of_db(name) is not None:
+            raise NotSaid(f"{source}: {name}: dB of a part of a phasor, expected dB of its magnitude")
+    return np.asarray(table[re] + 1j * table[im])
+
+
+def _size(table: Named, name: str) -> NDArray[Any]:
+    """As it stands, of dB what it is a level of."""
+    reference = reference_of_db(name)
+    return table[name] if reference is None else of_decibels(table[name], reference)
+
+
+def _check_agree(source: str, table: Named, names: dict[Part, str], size: str, values: NDArray[Any]) -> None:
+    """Raise `BadInput` where a magnitude, or magnitude and phase, are not those of the parts beside them."""
+    other = _size(table, size)
+    if np.iscomplexobj(other) or other.shape != values.shape:
+        return
+    own = np.abs(values)
+    if "phase" in names:
+        other = other * np.exp(1j * radians(source, names["phase"], table[names["phase"]]))
+        own = values
+    most = float(np.nanmax(np.abs(values), initial=0.0))
+    if not np.allclose(own, other, atol=_SAME * most, rtol=_SAME, equal_nan=True):
+        raise BadInput(
+            f"{source}: {', '.join(names.values())}: magnitude and phase are not those of real and imaginary "
+            "part, expected one of both"
+        )

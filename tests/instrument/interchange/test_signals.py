@@ -1,0 +1,30 @@
+"""Columns put together to the quantities that they are parts of."""
+
+import numpy as np
+import pytest
+
+from instrument.errors import BadInput
+from instrument.interchange.signals import signals_of
+
+SIZE, TURN = np.array([1e-3, 2e-3]), np.array([-90.0, 45.0])
+
+
+def test_parts_of_one_quantity_are_one_signal_and_others_are_left():
+    table = {
+        "Velocity re [mm/s]": np.array([1.0, 2.0]),
+        "Velocity im [mm/s]": np.array([-1.0, 0.5]),
+        "temperature_c": np.array([20.0, 21.0]),
+    }
+    (velocity,) = signals_of("table", table, ["temperature_c"])
+    np.testing.assert_allclose(velocity.values, [1e-3 - 1e-3j, 2e-3 + 0.5e-3j])
+    assert velocity.names == ("Velocity re [mm/s]", "Velocity im [mm/s]")
+
+
+def test_a_phase_of_nothing_said_is_that_of_the_only_size():
+    (velocity,) = signals_of("table", {"Velocity [m/s]": SIZE, "Phase [deg]": TURN}, [])
+    np.testing.assert_allclose(velocity.values, SIZE * np.exp(1j * np.radians(TURN)))
+
+
+def test_one_part_alone_is_refused():
+    with pytest.raises(BadInput, match="its other part is missing"):
+        signals_of("table", {"Velocity re [m/s]": SIZE}, [])
