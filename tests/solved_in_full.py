@@ -79,8 +79,12 @@ class Full:
             found.append(x - travel / w**2)
         return np.array(found)
 
-    def reduced(self, effect, u):
+    def taken(self, effect):
         plate = self.spanned.take(effect.spans)
+        return plate.with_part if effect.sharp else plate
+
+    def reduced(self, effect, u):
+        plate = self.taken(effect)
         change = effect.change(plate, np.array(u, dtype=float))
         return answer(plate, OMEGA, G, change, [], with_pitch=False).heave
 
@@ -89,7 +93,7 @@ class Full:
 
     def slope(self, effect, u, n):
         """Derivative to unknown n by the adjoint, and by differences."""
-        plate, u = self.spanned.take(effect.spans), np.array(u, dtype=float)
+        plate, u = self.taken(effect), np.array(u, dtype=float)
         h = 1e-4 * (abs(u[n]) if effect.parameters[n].logarithmic else effect.parameters[n].typical)
         step = h * np.eye(len(u))[n]
         up, down = (effect.change(plate, u + s * step) for s in (1, -1))

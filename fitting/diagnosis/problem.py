@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.diagnosis.every_point import EveryPoint
 from fitting.diagnosis.nodes import HZ_A_NODE, Nodes
 from fitting.diagnosis.plate_poles import PlatePoles, cuts_between
 from fitting.diagnosis.pole_following import KnownPoles
@@ -201,6 +202,13 @@ class DiagnosisProblem:
         Itself where they are few, or more than numbers of one plate.
         """
         return replace(self, nuisances=replace(self.nuisances, each=())) if self.nuisances.each else self
+
+    @cached_property
+    def each(self) -> NodeGrid:
+        """Every point a node: for what has poles of its own between them."""
+        if isinstance(self.fine.nodes, EveryPoint):
+            return self.fine
+        return NodeGrid(EveryPoint.at(self.sweep.omega), self.rational)
 
     def around(self, law: CoreLaw, poles: PlatePoles | None = None) -> "DiagnosisProblem":
         """The same, its grids made for the poles that the plate has under a law.

@@ -60,6 +60,9 @@ class SweepResponse:
         self.plate: EnrichedReducedPlate = plate or problem.plate.take(spans)
         if grid is problem.coarse and grid is not problem.fine:
             self.plate = self.plate.roughly
+        sharp = any(e.sharp for e in self.effects)
+        if sharp:
+            self.plate = self.plate.with_part
         self._changes = PlateChanges(problem, self._unknowns, self.plate)
         self._modulus = PointModulus(problem, self._unknowns, self._changes, spans, reference or Reference())
         self._pitching = [k for k, e in enumerate(self.effects) if type(e).pitch is not Effect.pitch]
@@ -71,7 +74,7 @@ class SweepResponse:
         if self._modulus.effects and self._moves:
             # The modulus is another one in every pass.
             grid = problem.passes
-        self.grid = grid
+        self._smooth, self.grid = grid, problem.each if sharp else grid
         self._last: tuple[bytes, _OfPlate] | None = None
         self._latest: tuple[CoreLaw, Array, _At] | None = None
         self._ready: tuple[Array, Asked, Motions] | None = None
@@ -106,16 +109,24 @@ class SweepResponse:
 
         It changes the plate alone; `known` are the unknowns of the others.
         """
-        others = SweepResponse(self.problem, self.effects[:-1], self.grid)
+        others = SweepResponse(self.problem, self.effects[:-1], self._smooth)
         at = others._at(law, known)
-        nodes, last = self.grid.nodes, self.effects[-1]
+        grid, last = others.grid, self.effects[-1]
         found = [others._changes.of(k, known, self.plate) for k in others._changes.effects]
         G, _ = others._bearing(law, others._modulus.of_law(law), at.plate.G)
-        asked = self._asked(G, reduce(Change.and_then, [*found, *self._changes.stated(known)], Change()))
-        by_start = [(self._changes.moving(last.change(self.plate, u)), Change(), 1.0) for u in starts]
+        change = reduce(Change.and_then, [*found, *self._changes.stated(known)], Change())
+        asked = self._asked(G, change, grid)
+        each = [self._changes.moving(last.coming_in(self.plate, u)) for u in starts]
+        # What is sharp starts at many frequencies in one place: one change serves them all.
+        of = [np.asarray(c.M).tobytes() if last.sharp else k for k, c in enumerate(each)]
+        number = {key: n for n, key in enumerate(dict.fromkeys(of))}
+        by_start = [(each[of.index(key)], Change(), 1.0) for key in number]
         solved = PlateAnswer(asked, motions([asked])[0], by_start)
-        by_u = nodes.spread(np.stack([solved.heave_by_u, solved.pitch_by_u]), solved.poles, solved.poles)
+        by_u = grid.nodes.spread(np.stack([solved.heave_by_u, solved.pitch_by_u]), solved.poles, solved.poles)
         raw = at.per_x * (by_u[0] + at.pitch * by_u[1])
+        if last.sharp:
+            factors = [last.sharply(self.problem.points.omega, u) for u in starts]
+            raw = raw[[number[key] for key in of]] * np.array(factors)
         return others._channels.along(at.raw, at.v, raw, known)
 
     # The parts of the response.
@@ -224,11 +235,12 @@ class SweepResponse:
         own = [u[self._unknowns.stated], *(self._unknowns.of(k, u) for k in moving)]
         return b"".join(part.tobytes() for part in (G_law, *own))
 
-    def _asked(self, G: Complex, change: Change) -> Asked:
-        known, own = self.grid.known_poles(G), self.plate.group == PLAIN
+    def _asked(self, G: Complex, change: Change, grid: NodeGrid | None = None) -> Asked:
+        grid = grid or self.grid
+        known, own = grid.known_poles(G), self.plate.group == PLAIN
         if known is not None:
             known = known.on(own)
-        return Asked(self.plate, self.grid.nodes.omega, G, change, known, bool(self._pitching))
+        return Asked(self.plate, grid.nodes.omega, G, change, known, bool(self._pitching))
 
     def asked(self, law: CoreLaw, u: Array) -> Asked | None:
         """What has to be solved there; None: nothing. `u` of shape (unknowns,)."""

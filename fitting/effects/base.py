@@ -176,6 +176,12 @@ class Effect:
     between_files: ClassVar[bool] = False
     """Whether it says how one file differs from the others: one alone cannot show it."""
 
+    sharp: ClassVar[bool] = False
+    """Whether it gives the plate a pole more: what it changes is asked at every point, not between nodes.
+
+    Its plate has a motion more too (`EnrichedReducedPlate.with_part`).
+    """
+
     of_a_segment: ClassVar[bool] = False
     """Whether it is in one segment of a sweep alone: the others cannot foretell it."""
 
@@ -259,6 +265,14 @@ class Effect:
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change | None:
         """What it changes of the reduced plate; None: nothing. `u` of shape (parameters,)."""
+        return None
+
+    def coming_in(self, plate: EnrichedReducedPlate, u: Array) -> Change | None:
+        """The same to first order as it comes in, but for `sharply`. `u` of shape (parameters,)."""
+        return self.change(plate, u)
+
+    def sharply(self, omega: Array, u: Array) -> Complex | None:
+        """Factor on what `coming_in` makes of the reading; None: one. Shape of `omega`, in rad/s."""
         return None
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex | None:

@@ -8,6 +8,7 @@ the plate's own columns and those of its effects alone.
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,11 +41,13 @@ _LEADING = 0.7
 are too few to tell what the rest does. A choice."""
 _MIXED = "mixed"
 """Group of columns that are of several spans, in no order."""
+_PART = "part"
+"""Group of the motion of a part on the plate."""
 _MOST_TAKEN = 12
 """Plates with some spans' columns that are kept. A bound on memory: one takes up to 6 MB."""
 _MOST_ROWS = 32
 """Rows that are kept: those of one evaluation. A choice."""
-_MADE_ANEW = ("_taken", "_stacks", "_rows", "roughly")
+_MADE_ANEW = ("_taken", "_stacks", "_rows", "roughly", "with_part")
 """By another process."""
 
 
@@ -135,6 +138,41 @@ class EnrichedReducedPlate:
             beside = np.flatnonzero(self.group == name)
             kept[beside[int(np.ceil(_LEADING * len(beside))) :]] = False
         return replace(self._keeping(np.flatnonzero(kept)), shares=np.empty(0))
+
+    @cached_property
+    def with_part(self) -> "EnrichedReducedPlate":
+        """The same with one motion more, that of a part on it: vector `part` is that motion.
+
+        Nothing moves it and it moves nothing, until an effect couples it; it is held by a unit spring.
+        """
+        k = len(self.load)
+        part = np.eye(k + 1)[k]
+
+        def square(A: Any) -> Any:
+            return np.pad(A, [*((0, 0),) * (A.ndim - 2), (0, 1), (0, 1)])
+
+        def along(v: Array) -> Array:
+            return np.asarray(np.pad(v, [*((0, 0),) * (v.ndim - 1), (0, 1)]))
+
+        held = np.outer(part, part)
+        return replace(
+            self,
+            group=np.append(self.group, _PART),
+            M=square(self.M),
+            K_0=square(self.K_0) + held,
+            K_1=square(self.K_1),
+            gram=square(self.gram) + held,
+            matrices=square(self.matrices),
+            parts=square(self.parts),
+            load_part=along(self.load_part),
+            U=along(self.U.T).T,
+            load=along(self.load),
+            pitch=along(self.pitch),
+            observe=along(self.observe),
+            vector_names=np.append(self.vector_names, "part"),
+            vectors=np.vstack([along(self.vectors), part]),
+            deflection=along(self.deflection),
+        )
 
     def _keeping(self, columns: NDArray[np.intp]) -> "EnrichedReducedPlate":
         """On some of its columns."""

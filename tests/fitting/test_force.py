@@ -340,6 +340,30 @@ def test_long_edges_that_are_not_alike(coarse, force_m):
     np.testing.assert_allclose(v, 1j * OMEGA * driven.full(MASS[0], MASS[1:]), rtol=5e-4)
 
 
+@pytest.mark.parametrize("force_m", [None, FORCE_M])
+def test_a_loose_part_is_solved_at_every_point(coarse, force_m):
+    driven = Driven(replace(coarse, force_m=force_m))
+    response, bare = driven.response([CATALOGUE["loose_part"]]), driven.response([])
+    u = np.array([2e-3, float(np.median(F_HZ)), 0.05, *MASS[1:]])
+    v, without = response.velocity(driven.law, u), bare.velocity(driven.law, np.empty(0))
+    k = (2 * np.pi * u[1]) ** 2 * (1 + 1j * u[2])
+    felt = u[0] * k / (k - OMEGA**2)
+    full = [driven.full(m, MASS[1:])[n] for n, m in enumerate(felt)]
+    # At its own frequency it weighs twenty times as much as the masses that are spanned do.
+    np.testing.assert_allclose(v, 1j * OMEGA * full, rtol=5e-3)
+    assert np.abs(v / without - 1).max() > 0.05
+    # To first order in its mass, all from one adjoint.
+    few = u * [1e-3, 1, 1, 1, 1]
+    (signature,) = response.signatures(driven.law, np.empty(0), [few])
+    moved = response.velocity(driven.law, few) - without
+    np.testing.assert_allclose(signature, moved, atol=5e-3 * np.abs(moved).max())
+    _, by = response.with_derivatives(driven.law, u)
+    for n in range(1, 5):
+        h = 1e-5 * u[n] * np.eye(5)[n]
+        slope = (response.velocity(driven.law, u + h) - response.velocity(driven.law, u - h)) / (2 * h[n])
+        np.testing.assert_allclose(by[len(by) - 5 + n], slope, atol=1e-4 * np.abs(slope).max())
+
+
 def test_effects_stand_where_there_is_what_they_need(coarse):
     struck = replace(coarse, force_m=FORCE_M)
     free = replace(struck, boundary="free")

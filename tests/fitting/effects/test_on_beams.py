@@ -154,7 +154,7 @@ def test_what_needs_a_base_a_clamp_or_one_piece_stands_where_they_are():
         *("clamp_compliance", "clamp_friction", "clamp_line", "treatment_not_gripped"),
     }
     halves = names(replace(SANDWICH, boundary="centre-driven"))
-    assert shaken - halves == {"added_mass", "tether"}
+    assert shaken - halves == {"added_mass", "loose_part", "tether"}
     oberst = names(replace(SANDWICH, constraining=None))
     assert shaken - oberst == {
         *("constraining_stiffness", "constraining_thickness", "treatment_not_gripped"),

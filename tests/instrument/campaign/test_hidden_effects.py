@@ -31,7 +31,12 @@ from instrument.campaign.plates.hidden.layers import (
     HiddenOrthotropicSubstrate,
     HiddenSubstrateStiffness,
 )
-from instrument.campaign.plates.hidden.strange import HiddenCrackedSubstrate, HiddenWrinkledConstraining
+from instrument.campaign.plates.hidden.strange import (
+    HiddenChippedCorner,
+    HiddenCrackedSubstrate,
+    HiddenStiffener,
+    HiddenWrinkledConstraining,
+)
 from instrument.campaign.plates.response import BaseMotion
 from instrument.campaign.plates.solid import Build
 
@@ -225,3 +230,32 @@ def test_a_wrinkle_stretches_most_in_its_middle_and_the_hammer_feels_none(wrinkl
     assert far == pytest.approx(1.0)
     assert wrinkled.at_hammer(P2.bare, Build()) == (P2.bare, Build())
     assert not wrinkled.in_catalogue
+
+
+@given(st.builds(drawn(HiddenStiffener), st.integers(0, 9999)))
+def test_a_stiffener_is_stiff_and_heavy_where_it_is_stuck_on(stiffener):
+    build = stiffener.build(Build(), P2)
+    (x_0, y_0), (x_1, y_1) = stiffener.from_m, stiffener.to_m
+    assert 0 <= x_0 < x_1 <= L
+    assert 0 <= y_0 < y_1 <= B
+    factor = build.constraining_factor(np.array([(x_0 + x_1) / 2, x_0 - 1e-3]), np.full(2, (y_0 + y_1) / 2))
+    np.testing.assert_allclose(factor, [stiffener.factor, 1.0])
+    assert sum(p.mass_kg for p in build.patches) == pytest.approx(stiffener.mass_kg)
+    for p in build.patches:
+        half = p.side_m / 2 - 1e-9
+        assert x_0 <= p.x_m - half
+        assert p.x_m + half <= x_1
+        assert y_0 <= p.y_m - half
+        assert p.y_m + half <= y_1
+
+
+@given(st.builds(drawn(HiddenChippedCorner), st.integers(0, 9999)))
+def test_a_chipped_corner_weighs_and_holds_next_to_nothing(chipped):
+    build, side = chipped.build(Build(), P2), chipped.side_m
+    x, y = np.array([L - side / 2, L - 2 * side]), np.full(2, side / 2)
+    for factor in (build.substrate_factor, build.core_factor, build.constraining_factor):
+        np.testing.assert_allclose(factor(x, y), [chipped.left, 1.0])
+    layers = (P2.substrate, P2.core, P2.constraining)
+    there = side**2 * sum(k.thickness_m * k.density_kg_m3 for k in layers)
+    (gone,) = build.patches
+    assert 0 < there + gone.mass_kg < 0.02 * there

@@ -33,11 +33,13 @@ _CLASSES: tuple[type[Hidden], ...] = (
     channels.HiddenAcCoupling,
     channels.HiddenPhaseScale,
     channels.HiddenViscousDamping,
-    attached.HiddenTwoMasses,
-    attached.HiddenTunedAbsorber,
+    attached.HiddenAddedMasses,
+    attached.HiddenLoosePart,
     attached.HiddenTipMagnet,
     strange.HiddenCrackedSubstrate,
     strange.HiddenWrinkledConstraining,
+    strange.HiddenStiffener,
+    strange.HiddenChippedCorner,
 )
 HIDDEN: dict[str, type[Hidden]] = {h.name: h for h in _CLASSES}
 """Every effect by its name; those of the diagnosis's catalogue first."""

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Complex
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden.base import Attachment, Hidden, Setting, either_sign, log_uniform
 from instrument.campaign.plates.response import BaseMotion
@@ -53,13 +53,11 @@ class HiddenAddedMass(Hidden):
 
 
 @dataclass(frozen=True)
-class HiddenTwoMasses(Hidden):
+class HiddenAddedMasses(Hidden):
     """Two such masses apart from each other."""
 
-    name: ClassVar[str] = "two_masses"
+    name: ClassVar[str] = "added_masses"
     place: ClassVar[str] = "mass"
-    near: ClassVar[tuple[str, ...]] = ("added_mass",)
-    in_catalogue: ClassVar[bool] = False
     changes_solid: ClassVar[bool] = True
 
     first_kg: float
@@ -71,7 +69,7 @@ class HiddenTwoMasses(Hidden):
     side_m: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTwoMasses":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAddedMasses":
         while True:
             first, second = _patch(rng, at.plate, 0.4), _patch(rng, at.plate, 0.4)
             if np.hypot(first[1] - second[1], first[2] - second[2]) > 0.3 * at.plate.length_m:
@@ -138,36 +136,40 @@ class HiddenTether(Hidden):
 
 
 @dataclass(frozen=True)
-class HiddenTunedAbsorber(Hidden):
-    """A small mass on a spring of its own: a loose screw, a liquid that sloshes."""
+class HiddenLoosePart(Hidden):
+    """A small mass on a spring of its own, its loss a power of frequency: a clip, a liquid that sloshes."""
 
-    name: ClassVar[str] = "tuned_absorber"
-    place: ClassVar[str] = "strange"
-    in_catalogue: ClassVar[bool] = False
+    name: ClassVar[str] = "loose_part"
+    place: ClassVar[str] = "part"
     changes_solid: ClassVar[bool] = True
 
     mass_kg: float
     frequency_hz: float
     loss_factor: float
+    """At that frequency."""
     x_m: float
     y_m: float
+    power: float
+    """0: structural, 1: viscous."""
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTunedAbsorber":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenLoosePart":
         true = at.plate
         x, y = true.length_m * rng.uniform(0.5, 0.95), true.width_m * rng.uniform(0.1, 0.9)
         near = at.resonances_hz[int(rng.integers(3))] * (1 + either_sign(rng, 0.0, 0.08))
         mass = plate_mass_kg(true) * log_uniform(rng, 0.003, 0.012)
-        return cls(mass, near, log_uniform(rng, 0.02, 0.1), float(x), float(y))
+        loss = log_uniform(rng, 0.02, 0.1)
+        return cls(mass, near, loss, float(x), float(y), float(rng.uniform(-0.3, 1.0)))
 
     def points(self) -> tuple[tuple[float, float], ...]:
         return ((self.x_m, self.y_m),)
 
     def attached(self, omega: Array, motion: BaseMotion, width_m: float) -> tuple[Attachment, ...]:
-        k = (2 * np.pi * self.frequency_hz) ** 2 * (1 + 1j * self.loss_factor)
+        own = 2 * np.pi * self.frequency_hz
+        k: Complex = np.asarray(own**2 * (1 + 1j * self.loss_factor * (omega / own) ** self.power))
         felt_kg = self.mass_kg * k / (k - omega**2)
         force = -felt_kg * motion.at(self.x_m, self.y_m, width_m)
-        return (Attachment(self.x_m, self.y_m, -(omega**2) * felt_kg, force),)
+        return (Attachment(self.x_m, self.y_m, np.asarray(-(omega**2) * felt_kg), np.asarray(force)),)
 
 
 @dataclass(frozen=True)

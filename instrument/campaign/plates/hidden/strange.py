@@ -10,7 +10,7 @@ import numpy as np
 from fitting.arrays import Array
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden.base import Hidden, Setting, times
-from instrument.campaign.plates.solid import Build
+from instrument.campaign.plates.solid import Build, Patch
 
 
 @dataclass(frozen=True)
@@ -88,3 +88,96 @@ class HiddenWrinkledConstraining(Hidden):
             return np.asarray(1 - self.lost * np.exp(-away / 2))
 
         return replace(build, constraining_factor=times(build.constraining_factor, factor))
+
+
+@dataclass(frozen=True)
+class HiddenStiffener(Hidden):
+    """A strip that somebody stuck on: a label, a strain gauge's carrier. Stiff where it is, and heavy."""
+
+    name: ClassVar[str] = "stiffener"
+    place: ClassVar[str] = "strange"
+    in_catalogue: ClassVar[bool] = False
+    changes_solid: ClassVar[bool] = True
+
+    from_m: tuple[float, float]
+    to_m: tuple[float, float]
+    """Its corners, x and y."""
+    factor: float
+    """On the constraining layer's stiffness under it."""
+    mass_kg: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenStiffener":
+        sides = np.array([at.plate.length_m, at.plate.width_m])
+        size = sides * rng.uniform([0.1, 0.2], [0.3, 0.6])
+        corner = rng.uniform([0.1, 0.0], [0.6, 0.4]) * sides
+        constraining = at.plate.constraining
+        assert constraining is not None
+        more = float(rng.uniform(0.5, 1.5))
+        under = float(np.prod(size)) * constraining.thickness_m * constraining.density_kg_m3
+        first, last = corner.tolist(), (corner + size).tolist()
+        return cls((first[0], first[1]), (last[0], last[1]), 1 + more, more * under)
+
+    def build(self, build: Build, true: TruePlate) -> Build:
+        (x_0, y_0), (x_1, y_1) = self.from_m, self.to_m
+
+        def factor(x: Array, y: Array) -> Array:
+            return np.where((x > x_0) & (x < x_1) & (y > y_0) & (y < y_1), self.factor, 1.0)
+
+        # Its mass in as many squares as it is longer than wide.
+        lengths = np.array([x_1 - x_0, y_1 - y_0])
+        count = max(1, round(lengths.max() / lengths.min()))
+        side = min(lengths.min(), lengths.max() / count)
+        along = np.where(lengths == lengths.max(), (np.arange(count)[:, None] + 0.5) / count, 0.5)
+        patches = tuple(
+            Patch(self.mass_kg / count, float(x_0 + x), float(y_0 + y), float(side))
+            for x, y in along * lengths
+        )
+        return replace(
+            build,
+            constraining_factor=times(build.constraining_factor, factor),
+            lines_x_m=(*build.lines_x_m, x_0, x_1),
+            lines_y_m=(*build.lines_y_m, y_0, y_1),
+            patches=(*build.patches, *patches),
+        )
+
+
+@dataclass(frozen=True)
+class HiddenChippedCorner(Hidden):
+    """A corner of the free end is gone, all layers of it."""
+
+    name: ClassVar[str] = "chipped_corner"
+    place: ClassVar[str] = "strange"
+    in_catalogue: ClassVar[bool] = False
+    changes_solid: ClassVar[bool] = True
+
+    side_m: float
+    """Of the square that is gone, at the free end and y = 0."""
+
+    left: ClassVar[float] = 1e-3
+    """Of the stiffness there."""
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenChippedCorner":
+        return cls(float(rng.uniform(0.08, 0.2)) * min(at.plate.length_m, at.plate.width_m))
+
+    def build(self, build: Build, true: TruePlate) -> Build:
+        start = true.length_m - self.side_m
+
+        def factor(x: Array, y: Array) -> Array:
+            return np.where((x > start) & (y < self.side_m), self.left, 1.0)
+
+        layers = (true.substrate, true.core, true.constraining)
+        gone = self.side_m**2 * sum(k.thickness_m * k.density_kg_m3 for k in layers if k is not None)
+        middle = self.side_m / 2
+        # What is left weighs a hundredth: nothing there may be without any mass.
+        patch = Patch(-0.99 * gone, true.length_m - middle, middle, self.side_m)
+        return replace(
+            build,
+            substrate_factor=times(build.substrate_factor, factor),
+            core_factor=times(build.core_factor, factor),
+            constraining_factor=times(build.constraining_factor, factor),
+            lines_x_m=(*build.lines_x_m, start),
+            lines_y_m=(*build.lines_y_m, self.side_m),
+            patches=(*build.patches, patch),
+        )

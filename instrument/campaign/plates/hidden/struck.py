@@ -216,8 +216,8 @@ OF_FREE = (HiddenPads.name,)
 """The same of free ones."""
 _OF_BOTH = (
     "added_mass",
-    "two_masses",
-    "tuned_absorber",
+    "added_masses",
+    "loose_part",
     "air_added_mass",
     "core_thickness",
     "constraining_stiffness",

@@ -1,0 +1,83 @@
+"""A part that swings on the plate: one motion more, beside a mass that depends on frequency."""
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+from solved_in_full import OMEGA
+
+from fitting.effects import CATALOGUE
+
+PART = CATALOGUE["loose_part"]
+PLACE = (0.27, 0.06)
+OFTEN = [(2e-3, 63.0, 0.08), (6e-3, 90.0, 0.02), (2e-6, 63.0, 0.08)]
+
+
+def felt_kg(m, f_0, loss):
+    k = (2 * np.pi * f_0) ** 2 * (1 + 1j * loss)
+    return m * k / (k - OMEGA**2)
+
+
+@pytest.mark.parametrize("part", OFTEN)
+def test_it_is_felt_as_the_mass_that_frequency_makes_of_it(full, part):
+    w = full.loose.observe(*PLACE)
+    W = sp.csc_array(np.outer(w, w))
+    expected = [full.direct(M=m * W, load=-m * w)[k] for k, m in enumerate(felt_kg(*part))]
+    found = full.reduced(PART, (*part, *PLACE))
+    # At 90 Hz and a loss of 0.02 it weighs thirty times as much as the mass whose motions are spanned.
+    np.testing.assert_allclose(found, expected, rtol=2e-2 if part[2] == 0.02 else 1e-3)
+    if part[0] > 1e-3:
+        assert np.abs(full.direct() / expected - 1).max() > 0.3
+
+
+@pytest.mark.parametrize("n", range(5))
+def test_its_derivatives(full, n):
+    by, difference = full.slope(PART, (*OFTEN[0], *PLACE), n)
+    np.testing.assert_allclose(by, difference, rtol=1e-4, atol=1e-4 * np.abs(by).max())
+
+
+def test_far_below_its_frequency_it_is_a_mass(full):
+    found = full.reduced(PART, (3e-3, 4e3, 0.01, *PLACE))
+    np.testing.assert_allclose(found, full.reduced(CATALOGUE["added_mass"], (3e-3, *PLACE)), rtol=3e-3)
+
+
+def test_a_plate_with_a_part_that_nothing_couples_is_the_same(full):
+    plate = full.spanned.take(PART.spans)
+    more = plate.with_part
+    assert len(more.load) == len(plate.load) + 1
+    part = more.vector("part")
+    for matrix, bare in ((more.M, plate.M), (more.K_1, plate.K_1), (more.viscous(), plate.viscous())):
+        np.testing.assert_array_equal(matrix @ part, 0)
+        np.testing.assert_array_equal(matrix[:-1, :-1], bare)
+    np.testing.assert_array_equal(more.K_0 @ part, part)
+    assert more.load @ part == more.observe @ part == more.row(*PLACE) @ part == 0
+    assert plate.with_part is more
+
+
+def test_starts_are_within_what_is_read_and_within_its_limits(full):
+    class Points:
+        omega = 2 * np.pi * np.concatenate([np.linspace(18, 22, 40), np.linspace(100, 130, 40)])
+
+    starts = PART.starts(full.spanned, Points)
+    lower, upper = PART.limits(full.spanned)
+    assert all((lower <= u).all() and (u <= upper).all() for u in starts)
+    f = np.array([u[1] for u in starts])
+    assert not np.any((f > 23) & (f < 95))
+    each = np.unique(f)
+    assert np.diff(np.log(each)).min() > 0.029
+    assert len(starts) == 9 * len(each)
+
+
+def test_it_shows_where_three_readings_lie_in_its_peak():
+    class Points:
+        omega = 2 * np.pi * np.linspace(100, 130, 31)
+
+    u = np.array([1e-3, 115.0, 0.04, *PLACE])
+    assert PART.shows(Points, None, u)
+    assert not PART.shows(Points, None, u * [1, 1, 0.3, 1, 1])
+    assert not PART.shows(Points, None, u * [1, 2, 1, 1, 1])
+
+
+def test_it_stands_on_a_beam_without_a_place_across():
+    on_beam = PART.on("beam")
+    assert [q.key for q in on_beam.parameters] == ["mass", "frequency", "loss_factor", "x"]
+    assert PART.on("shear-pair") is None
