@@ -51,6 +51,8 @@ class Build:
     """On the stiffness, brick by brick (mean over the brick); likewise below."""
     core_factor: Field | None = None
     constraining_factor: Field | None = None
+    whole_factor: Field | None = None
+    """On stiffness and mass of all layers."""
     root: RootSprings | None = None
     """None: the root does not move."""
     free: bool = False
@@ -112,7 +114,7 @@ class Solid:
         return sp.coo_array((local.ravel(), (rows, columns)), shape=(self.size, self.size)).tocsr()
 
     def _bricks(self, layer: int, C: Array, factor: Field | None) -> Array:
-        shares = self.mean(factor) * (self.treated if layer else 1.0)
+        shares = self.mean(factor) * self.mean(self.build.whole_factor) * (self.treated if layer else 1.0)
         local = brick.stiffness(self.grid.x, self.grid.y, self.plate.heights_m[layer], C)
         return np.asarray(local * shares[:, :, None, None])
 
@@ -175,7 +177,8 @@ class Solid:
             if layer is None:
                 continue
             local = brick.mass(self.grid.x, self.grid.y, layer.thickness_m, layer.density_kg_m3)
-            out = out + self._assembled(local * (self.treated if k else np.ones(1))[..., None, None], k)
+            there = self.mean(self.build.whole_factor) * (self.treated if k else 1.0)
+            out = out + self._assembled(local * there[..., None, None], k)
         for patch in self.build.patches:
             out = out + self._patch(patch)
         return out.tocsr()

@@ -22,6 +22,7 @@ from instrument.campaign.plates.hidden.attached import (
 )
 from instrument.campaign.plates.hidden.base import Setting
 from instrument.campaign.plates.hidden.core import HiddenAmplitudeSoftening
+from instrument.campaign.plates.hidden.strange import HiddenChippedCorner
 from instrument.campaign.plates.materials import KINDS as LAWS
 from instrument.campaign.plates.materials import LOSS, STORAGE_PA, PlateMaterialLaw, draw_law
 from instrument.campaign.plates.reduced import reduced
@@ -111,6 +112,20 @@ def test_a_loose_part_far_below_its_resonance_is_a_mass():
     mass = HiddenAddedMass(0.004, 0.25, 0.05, 1e-4)
     hung, laid = (clean_reading((h,), schedule, channel) for h in (part, mass))
     assert np.abs(hung / laid - 1).max() < 2e-3
+
+
+def test_a_corner_that_is_gone_takes_its_mass_and_leaves_the_plate_its_modes():
+    side = 0.03
+    layers = (P2.substrate, P2.core, P2.constraining)
+    gone = side**2 * sum(k.thickness_m * k.density_kg_m3 for k in layers)
+    chipped = HiddenChippedCorner(side)
+    solids = [Solid(P2, b, COARSE) for b in (Build(), chipped.build(Build(), P2))]
+    whole, rest = (float(s.rigid[:, 0] @ s.M @ s.rigid[:, 0]) for s in solids)
+    assert whole - rest == pytest.approx((1 - chipped.left) * gone, rel=1e-6)
+    before, after = (reduced(s, MODULI).modes(1e6, 3)[0] for s in solids)
+    # A cantilever's free end is mass alone: without a piece of it the first mode is faster.
+    assert 0 < after[0] / before[0] - 1 < 0.1
+    assert np.abs(after / before - 1).max() < 0.1
 
 
 def test_a_stiff_clamp_is_a_rigid_one():

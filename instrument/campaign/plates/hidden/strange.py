@@ -113,7 +113,7 @@ class HiddenStiffener(Hidden):
         corner = rng.uniform([0.1, 0.0], [0.6, 0.4]) * sides
         constraining = at.plate.constraining
         assert constraining is not None
-        more = float(rng.uniform(0.5, 1.5))
+        more = float(rng.uniform(1.0, 4.0))
         under = float(np.prod(size)) * constraining.thickness_m * constraining.density_kg_m3
         first, last = corner.tolist(), (corner + size).tolist()
         return cls((first[0], first[1]), (last[0], last[1]), 1 + more, more * under)
@@ -154,8 +154,8 @@ class HiddenChippedCorner(Hidden):
     side_m: float
     """Of the square that is gone, at the free end and y = 0."""
 
-    left: ClassVar[float] = 1e-3
-    """Of the stiffness there."""
+    left: ClassVar[float] = 0.01
+    """Of stiffness and mass there: where nothing is left at all no motion is determined."""
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenChippedCorner":
@@ -167,17 +167,9 @@ class HiddenChippedCorner(Hidden):
         def factor(x: Array, y: Array) -> Array:
             return np.where((x > start) & (y < self.side_m), self.left, 1.0)
 
-        layers = (true.substrate, true.core, true.constraining)
-        gone = self.side_m**2 * sum(k.thickness_m * k.density_kg_m3 for k in layers if k is not None)
-        middle = self.side_m / 2
-        # What is left weighs a hundredth: nothing there may be without any mass.
-        patch = Patch(-0.99 * gone, true.length_m - middle, middle, self.side_m)
         return replace(
             build,
-            substrate_factor=times(build.substrate_factor, factor),
-            core_factor=times(build.core_factor, factor),
-            constraining_factor=times(build.constraining_factor, factor),
+            whole_factor=times(build.whole_factor, factor),
             lines_x_m=(*build.lines_x_m, start),
             lines_y_m=(*build.lines_y_m, self.side_m),
-            patches=(*build.patches, patch),
         )
