@@ -9,7 +9,9 @@ from fitting.diagnosis.stand_in import asks_for_more, stands_in
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Points
 
-PLATE = SimpleNamespace(length_m=0.3, width_m=0.2)
+SHEET = SimpleNamespace(thickness_m=2e-3, density_kg_m3=2700.0)
+LAYERS = SimpleNamespace(substrate=SHEET, core=None, constraining=None)
+PLATE = SimpleNamespace(length_m=0.3, width_m=0.2, specimen=LAYERS)
 OMEGA = 2 * np.pi * np.linspace(90.0, 110.0, 21)
 PROBLEM = SimpleNamespace(
     plate=PLATE,

@@ -22,7 +22,7 @@ from instrument.campaign.plates.hidden.attached import (
 )
 from instrument.campaign.plates.hidden.base import Setting
 from instrument.campaign.plates.hidden.core import HiddenAmplitudeSoftening
-from instrument.campaign.plates.hidden.strange import HiddenChippedCorner
+from instrument.campaign.plates.hidden.layers import HiddenMissingPiece
 from instrument.campaign.plates.materials import KINDS as LAWS
 from instrument.campaign.plates.materials import LOSS, STORAGE_PA, PlateMaterialLaw, draw_law
 from instrument.campaign.plates.reduced import reduced
@@ -118,7 +118,7 @@ def test_a_corner_that_is_gone_takes_its_mass_and_leaves_the_plate_its_modes():
     side = 0.03
     layers = (P2.substrate, P2.core, P2.constraining)
     gone = side**2 * sum(k.thickness_m * k.density_kg_m3 for k in layers)
-    chipped = HiddenChippedCorner(side)
+    chipped = HiddenMissingPiece(side)
     solids = [Solid(P2, b, COARSE) for b in (Build(), chipped.build(Build(), P2))]
     whole, rest = (float(s.rigid[:, 0] @ s.M @ s.rigid[:, 0]) for s in solids)
     assert whole - rest == pytest.approx((1 - chipped.left) * gone, rel=1e-6)

@@ -28,11 +28,11 @@ from instrument.campaign.plates.hidden.layers import (
     HiddenConstrainingStiffness,
     HiddenConstrainingThickness,
     HiddenCoreThickness,
+    HiddenMissingPiece,
     HiddenOrthotropicSubstrate,
     HiddenSubstrateStiffness,
 )
 from instrument.campaign.plates.hidden.strange import (
-    HiddenChippedCorner,
     HiddenCrackedSubstrate,
     HiddenStiffener,
     HiddenWrinkledConstraining,
@@ -249,7 +249,7 @@ def test_a_stiffener_is_stiff_and_heavy_where_it_is_stuck_on(stiffener):
         assert p.y_m + half <= y_1
 
 
-@given(st.builds(drawn(HiddenChippedCorner), st.integers(0, 9999)))
+@given(st.builds(drawn(HiddenMissingPiece), st.integers(0, 9999)))
 def test_next_to_nothing_is_left_of_a_chipped_corner(chipped):
     build, side = chipped.build(Build(), P2), chipped.side_m
     x, y = np.array([L - side / 2, L - 2 * side]), np.full(2, side / 2)

@@ -35,11 +35,11 @@ _CLASSES: tuple[type[Hidden], ...] = (
     channels.HiddenViscousDamping,
     attached.HiddenAddedMasses,
     attached.HiddenLoosePart,
+    layers.HiddenMissingPiece,
     attached.HiddenTipMagnet,
     strange.HiddenCrackedSubstrate,
     strange.HiddenWrinkledConstraining,
     strange.HiddenStiffener,
-    strange.HiddenChippedCorner,
 )
 HIDDEN: dict[str, type[Hidden]] = {h.name: h for h in _CLASSES}
 """Every effect by its name; those of the diagnosis's catalogue first."""

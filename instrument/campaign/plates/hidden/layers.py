@@ -7,8 +7,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from fitting.arrays import Array
 from instrument.campaign.plates.geometry import TruePlate
-from instrument.campaign.plates.hidden.base import Hidden, Setting, either_sign
+from instrument.campaign.plates.hidden.base import Hidden, Setting, either_sign, times
 from instrument.campaign.plates.solid import Build
 
 
@@ -114,3 +115,35 @@ class HiddenCoreThickness(Hidden):
         c = true.core
         assert c is not None
         return replace(true, core=replace(c, thickness_m=c.thickness_m * self.scale))
+
+
+@dataclass(frozen=True)
+class HiddenMissingPiece(Hidden):
+    """A corner of the free end is gone, all layers of it."""
+
+    name: ClassVar[str] = "missing_piece"
+    place: ClassVar[str] = "mass"
+    changes_solid: ClassVar[bool] = True
+
+    side_m: float
+    """Of the square that is gone, at the free end and y = 0."""
+
+    left: ClassVar[float] = 0.01
+    """Of stiffness and mass there: where nothing is left at all no motion is determined."""
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenMissingPiece":
+        return cls(float(rng.uniform(0.08, 0.2)) * min(at.plate.length_m, at.plate.width_m))
+
+    def build(self, build: Build, true: TruePlate) -> Build:
+        start = true.length_m - self.side_m
+
+        def factor(x: Array, y: Array) -> Array:
+            return np.where((x > start) & (y < self.side_m), self.left, 1.0)
+
+        return replace(
+            build,
+            whole_factor=times(build.whole_factor, factor),
+            lines_x_m=(*build.lines_x_m, start),
+            lines_y_m=(*build.lines_y_m, self.side_m),
+        )

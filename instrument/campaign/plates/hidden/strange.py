@@ -96,6 +96,7 @@ class HiddenStiffener(Hidden):
 
     name: ClassVar[str] = "stiffener"
     place: ClassVar[str] = "strange"
+    near: ClassVar[tuple[str, ...]] = ("added_mass",)
     in_catalogue: ClassVar[bool] = False
     changes_solid: ClassVar[bool] = True
 
@@ -139,37 +140,4 @@ class HiddenStiffener(Hidden):
             lines_x_m=(*build.lines_x_m, x_0, x_1),
             lines_y_m=(*build.lines_y_m, y_0, y_1),
             patches=(*build.patches, *patches),
-        )
-
-
-@dataclass(frozen=True)
-class HiddenChippedCorner(Hidden):
-    """A corner of the free end is gone, all layers of it."""
-
-    name: ClassVar[str] = "chipped_corner"
-    place: ClassVar[str] = "strange"
-    in_catalogue: ClassVar[bool] = False
-    changes_solid: ClassVar[bool] = True
-
-    side_m: float
-    """Of the square that is gone, at the free end and y = 0."""
-
-    left: ClassVar[float] = 0.01
-    """Of stiffness and mass there: where nothing is left at all no motion is determined."""
-
-    @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenChippedCorner":
-        return cls(float(rng.uniform(0.08, 0.2)) * min(at.plate.length_m, at.plate.width_m))
-
-    def build(self, build: Build, true: TruePlate) -> Build:
-        start = true.length_m - self.side_m
-
-        def factor(x: Array, y: Array) -> Array:
-            return np.where((x > start) & (y < self.side_m), self.left, 1.0)
-
-        return replace(
-            build,
-            whole_factor=times(build.whole_factor, factor),
-            lines_x_m=(*build.lines_x_m, start),
-            lines_y_m=(*build.lines_y_m, self.side_m),
         )

@@ -1,0 +1,73 @@
+"""A piece of the plate is gone: a corner that broke off, a hole. Its mass is missing.
+
+What it lacks in stiffness is not counted: near a free edge a plate hardly bends. Of a hole far from one it
+would matter too.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from fitting.arrays import Array
+from fitting.effects.added_mass import PointMass
+from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.span import Span
+
+_START_KG = 2e-3
+"""To begin with."""
+_MOST = 0.05
+"""Of the plate's mass."""
+_ALONG, _ACROSS = (0.3, 0.5, 0.7, 0.95), (0.05, 0.3, 0.5, 0.7, 0.95)
+"""Shares of length and width, to begin with: the corners of the free end, edges, holes in the middle."""
+_GAUSS = tuple(zip(*(axis.tolist() for axis in np.polynomial.legendre.leggauss(3)), strict=True))
+"""Places from -1 to 1 and weights, which sum to 2."""
+
+
+class MissingPieceEffect(Effect):
+    """Less m w^2, over a square near (x, y) that is so heavy; at an edge of the plate it ends there."""
+
+    name = "missing_piece"
+    enters = "mass"
+    source = "the plate's own kinetic energy over the piece"
+    parameters: tuple[EffectParameter, ...] = (
+        EffectParameter("mass", "kg", 0.0, 0.05, _START_KG, spread=3e-3),
+        EffectParameter("x", "m", 0.0, np.inf, 0.05, neutral=None),
+        EffectParameter("y", "m", 0.0, np.inf, 0.05, neutral=None),
+    )
+    spans: tuple[Span, ...] = (PointMass(),)
+    unexplained_share = 0.003
+    chance = 0.005
+    discriminating_test = "a look at the plate and a balance"
+
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
+        m = min(_START_KG, self.limits(plate)[1][0])
+        return [np.array([m, x * plate.length_m, y * plate.width_m]) for x in _ALONG for y in _ACROSS]
+
+    def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
+        lower, upper = super().limits(plate)
+        most = _MOST * _kg_m2(plate) * plate.length_m * plate.width_m
+        return lower, np.minimum(upper, [most, plate.length_m, plate.width_m])
+
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
+        half = np.sqrt(max(u[0], 0.0) / _kg_m2(plate)) / 2
+        # No more is gone than was there: at the plate's edge the square still lies within it.
+        sides = np.array([plate.length_m, plate.width_m])
+        x, y = half + (1 - 2 * half / sides) * u[1:]
+        weight = np.array([np.sqrt(a * b) / 2 for _, a in _GAUSS for _, b in _GAUSS])
+        rows = np.array([plate.row(x + s * half, y + t * half) for s, _ in _GAUSS for t, _ in _GAUSS])
+        weighted = weight[:, None] * rows
+        return Change(M=-u[0] * weighted.T @ weighted, load=u[0] * weight @ weighted)
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return (
+            f"{1e3 * u['mass']:.2g} g of the plate are gone near ({1e3 * u['x']:.0f}, {1e3 * u['y']:.0f}) mm"
+        )
+
+
+def _kg_m2(plate: EnrichedReducedPlate) -> float:
+    """All layers of it, as stated."""
+    s = plate.specimen
+    layers = (s.substrate, s.core, s.constraining)
+    return float(sum(k.thickness_m * k.density_kg_m3 for k in layers if k is not None))
