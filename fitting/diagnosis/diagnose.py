@@ -148,6 +148,7 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
         # What scatters from point to point need not be noise: a drift does, in a sweep that jumps about.
         search = search.with_evidence(search.evidence.scaled(float(np.sqrt(share))))
         singles = Singles(search, lambda x: report(0.5)).best()
+    singles = _bettered(singles, [one for best in singles[:1] for one in search.elsewhere(best)])
     leading = [t for t in singles if t.cost < singles[0].cost + SEARCH.near]
     # Two masses may have found a better place for one than it found alone, a pair for one of its effects.
     singles = _bettered(singles, search.simpler(leading))

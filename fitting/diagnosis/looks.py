@@ -87,8 +87,18 @@ def promising(
 def _apart(effect: Effect, starts: Sequence[Start]) -> list[Start]:
     """Starts, best first, as they are followed: by turns one that leads its neighbours and one that is led.
 
-    Of frequencies next to each other most go where the one goes that promises most, not all.
+    Of frequencies next to each other most go where the one goes that promises most, not all. What has a
+    place too begins in another one each time: its frequency shows, its place is what valleys are of.
     """
+    if effect.sharp:
+        where = [q.neutral is None and not q.logarithmic and not q.fixed for q in effect.parameters]
+        been: dict[tuple[float, ...], int] = {}
+        times = []
+        for _, u in starts:
+            there = tuple(u[where])
+            been[there] = been.get(there, 0) + 1
+            times.append(been[there])
+        return [starts[k] for k in np.argsort(times, kind="stable")]
     place = [q.neutral is None and q.logarithmic and not q.fixed for q in effect.parameters]
     if not any(place):
         return list(starts)

@@ -76,6 +76,7 @@ class OfFiles(Effect):
             source=inner.source,
             chance=inner.chance * (_ALONE if alone else 1.0),
             unexplained_share=inner.unexplained_share,
+            sharp=inner.sharp,
             discriminating_test=inner.discriminating_test,
             parameters=(*inner.parameters, *further, *where),
             spans=inner.spans,
@@ -131,6 +132,12 @@ class OfFiles(Effect):
             form = self.form(parts[0][0], self.file, self.spots, self.spot)
             found.append((form, np.concatenate([*(part for _, part in parts), self._where])))
         return tuple(found)
+
+    def elsewhere(self, plate: EnrichedReducedPlate, u: Array) -> list[Array]:
+        if self.copies > 1:
+            return []
+        own = self.inner.elsewhere(plate, u[: len(self.inner.parameters)])
+        return [np.append(one, u[len(one) :]) for one in own]
 
     @property
     def ties(self) -> tuple[Tie, ...]:

@@ -178,6 +178,15 @@ class Search:
         begun = [one for scored in scored_fits for one in self._contained(scored.fitted)]
         return [self.judged(f) for f in self.executor.each(self.work.fitted, begun)]
 
+    def elsewhere(self, scored: ScoredFit) -> list[ScoredFit]:
+        """A single effect fitted from other places of its own, its law as it was found."""
+        effect, *more = scored.fitted.effects
+        if more or effect.replaces_law:
+            return []
+        places = effect.elsewhere(self.problem.plate, scored.fitted.of(effect))
+        begun = [([effect], scored.fitted.law, np.concatenate([scored.fitted.z, u])) for u in places]
+        return [self.judged(f) for f in self.executor.each(self.work.fitted, begun)]
+
     def _contained(self, fitted: Refitted) -> list[tuple[list[Effect], CoreLaw, Array]]:
         """Effects, law and unknowns to begin from, for each that one of a fit contains."""
         if any(e.replaces_law for e in fitted.effects):

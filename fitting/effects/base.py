@@ -238,6 +238,10 @@ class Effect:
         """
         return ()
 
+    def elsewhere(self, plate: EnrichedReducedPlate, u: Array) -> list[Array]:
+        """The same in other places, each tried once where it explains most. Shape (parameters,) each."""
+        return []
+
     @property
     def ties(self) -> tuple[Tie, ...]:
         """Unknowns known beside others of its own: the prior of `other` is about `first`."""

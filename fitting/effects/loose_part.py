@@ -66,6 +66,11 @@ class LoosePartEffect(Effect):
             for y in _ACROSS
         ]
 
+    def elsewhere(self, plate: EnrichedReducedPlate, u: Array) -> list[Array]:
+        # Its frequency shows; of its place and its mass many go together.
+        places = [(x * plate.length_m, y * plate.width_m) for x in _ALONG for y in _ACROSS]
+        return [np.array([*u[:3], *place]) for place in places]
+
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         lower, upper = super().limits(plate)
         lower[0] = _LEAST_KG
@@ -117,6 +122,9 @@ class LoosePartOnBeamEffect(LoosePartEffect):
             for f in _between_readings(points)
             for x in _ALONG_A_BEAM
         ]
+
+    def elsewhere(self, plate: EnrichedReducedPlate, u: Array) -> list[Array]:
+        return [np.array([*u[:3], x * plate.length_m]) for x in _ALONG_A_BEAM]
 
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         lower, upper = Effect.limits(self, plate)

@@ -8,6 +8,7 @@ import pytest
 from fitting.diagnosis import looks
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.looks import look
+from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect, EffectParameter
 
 
@@ -111,3 +112,11 @@ def test_of_frequencies_next_to_each_other_not_all_are_followed_first(monkeypatc
     found = look(SimpleNamespace(coarse=None, points=None), evidence, before, Humming())
     assert [u[0] for _, u in found] == [10.0, 10.3, 30.0, 10.6, 10.9]
     assert found[2][0] < found[4][0]
+
+
+def test_what_has_a_frequency_and_a_place_begins_in_another_place_each_time():
+    u = [np.array([1e-3, f, 0.05, x, 0.1]) for f in (10.0, 10.3) for x in (0.1, 0.2)]
+    # The first place promises most at both of its frequencies.
+    starts = list(zip((9.0, 5.0, 8.0, 4.0), u, strict=True))
+    order = looks._apart(CATALOGUE["loose_part"], sorted(starts, key=lambda one: -one[0]))
+    assert [promise for promise, _ in order] == [9.0, 5.0, 8.0, 4.0]

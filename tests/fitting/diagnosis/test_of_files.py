@@ -1,5 +1,7 @@
 """An effect among files and spots: in all alike, in one, in each of its own size."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -126,3 +128,14 @@ def test_what_a_channel_shows_by_itself_is_said_of_its_spot_or_file():
     of_spot, of_both = OfFiles(lost, 1, spots=(0, 1)), OfFiles(lost, 2, spots=(0, 1))
     assert of_spot.story({**seen, "pickup": 1.0}).startswith("at pickup 1 one reading")
     assert of_both.story({**seen, "file": 2.0, "pickup": 0.0}).startswith("in file 2 at pickup 0 one reading")
+
+
+def test_another_place_is_one_in_every_file():
+    part, plate = CATALOGUE["loose_part"], SimpleNamespace(length_m=0.3, width_m=0.2)
+    u = np.array([1e-3, 90.0, 0.05, 0.1, 0.1])
+    form = OfFiles(part, 3)
+    assert form.sharp
+    found = form.elsewhere(plate, np.append(u, 0.0))
+    assert len(found) == len(part.elsewhere(plate, u)) > 5
+    assert all(one[-1] == 0.0 and (one[:3] == u[:3]).all() for one in found)
+    assert not OfFiles(CATALOGUE["gain_error"], 2).elsewhere(plate, np.array([1.0, 0.0]))

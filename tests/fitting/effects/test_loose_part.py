@@ -81,3 +81,12 @@ def test_it_stands_on_a_beam_without_a_place_across():
     on_beam = PART.on("beam")
     assert [q.key for q in on_beam.parameters] == ["mass", "frequency", "loss_factor", "x"]
     assert PART.on("shear-pair") is None
+
+
+def test_elsewhere_it_swings_as_it_does(full):
+    u = np.array([*OFTEN[0], *PLACE])
+    found = np.array(PART.elsewhere(full.spanned, u))
+    lower, upper = PART.limits(full.spanned)
+    np.testing.assert_array_equal(found[:, :3], np.tile(u[:3], (len(found), 1)))
+    assert ((lower <= found) & (found <= upper)).all()
+    assert len(np.unique(found[:, 3:], axis=0)) == len(found) == 9
