@@ -82,10 +82,13 @@ def _best_of_each(scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
 
 
 def visible(problem: ModalProblem, effect: Effect) -> bool:
-    """Whether an effect changes what a table of modes holds."""
+    """Whether an effect changes what a table of modes holds, and has as many modes."""
     member = problem.members[0]
     if effect.replaces_law:
         return True
+    if effect.sharp:
+        # It brings a mode of its own, and no table says whether it has that one.
+        return False
     if type(effect).change is Effect.change or effect.objection(problem.points, member.wide) is not None:
         return False
     system = member.system([effect])

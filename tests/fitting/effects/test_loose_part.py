@@ -6,8 +6,9 @@ import scipy.sparse as sp
 from solved_in_full import OMEGA
 
 from fitting.effects import CATALOGUE
+from fitting.effects.loose_part import LoosePartEffect
 
-PART = CATALOGUE["loose_part"]
+PART = LoosePartEffect()
 PLACE = (0.27, 0.06)
 OFTEN = [(2e-3, 63.0, 0.08), (6e-3, 90.0, 0.02), (2e-6, 63.0, 0.08)]
 

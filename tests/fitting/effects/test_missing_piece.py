@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from fitting.effects import CATALOGUE
+from fitting.effects.missing_piece import MissingPieceEffect
 
-PIECE = CATALOGUE["missing_piece"]
+PIECE = MissingPieceEffect()
 
 
 def kg_m2(full):
