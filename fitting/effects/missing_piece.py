@@ -32,7 +32,7 @@ class MissingPieceEffect(Effect):
     enters = "mass"
     source = "the plate's own kinetic energy over the piece"
     parameters: tuple[EffectParameter, ...] = (
-        EffectParameter("mass", "kg", 0.0, 0.05, _START_KG, spread=3e-3),
+        EffectParameter("mass", "kg", 0.0, 1.0, _START_KG, spread=3e-3),
         EffectParameter("x", "m", 0.0, np.inf, 0.05, neutral=None),
         EffectParameter("y", "m", 0.0, np.inf, 0.05, neutral=None),
     )
