@@ -1,5 +1,6 @@
 """A first look at an effect beside a fit: what one linear step promises, from each of its starts."""
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -90,19 +91,21 @@ def _apart(effect: Effect, starts: Sequence[Start]) -> list[Start]:
     Of frequencies next to each other most go where the one goes that promises most, not all. What has a
     place too begins in another one each time: its frequency shows, its place is what valleys are of.
     """
-    if effect.sharp:
-        where = [q.neutral is None and not q.logarithmic and not q.fixed for q in effect.parameters]
-        been: dict[tuple[float, ...], int] = {}
-        times = []
-        for _, u in starts:
-            there = tuple(u[where])
-            been[there] = been.get(there, 0) + 1
-            times.append(been[there])
-        return [starts[k] for k in np.argsort(times, kind="stable")]
-    place = [q.neutral is None and q.logarithmic and not q.fixed for q in effect.parameters]
-    if not any(place):
+    found = [q.neutral is None and not q.fixed for q in effect.parameters]
+    frequency, place = (
+        [to_be and q.logarithmic == log for to_be, q in zip(found, effect.parameters, strict=True)]
+        for log in (True, False)
+    )
+    if not any(frequency):
         return list(starts)
-    ln = np.log([u[place.index(True)] for _, u in starts])
+    if any(place):
+        been = Counter[tuple[float, ...]]()
+        turn = np.empty(len(starts))
+        for k, (_, u) in enumerate(starts):
+            turn[k] = been[tuple(u[place])]
+            been[tuple(u[place])] += 1
+        return [starts[k] for k in np.argsort(turn, kind="stable")]
+    ln = np.log([u[frequency.index(True)] for _, u in starts])
     led = np.array([np.any(np.abs(ln[:k] - x) < _NEXT_TO) for k, x in enumerate(ln)], bool)
     # The first, the second, ... of its kind.
     turn = np.where(led, np.cumsum(led), np.cumsum(~led))

@@ -75,6 +75,7 @@ class SweepResponse:
             # The modulus is another one in every pass.
             grid = problem.passes
         self._smooth, self.grid = grid, problem.each if sharp else grid
+        """The grid of what is smooth between nodes, and the one that all of these effects need."""
         self._last: tuple[bytes, _OfPlate] | None = None
         self._latest: tuple[CoreLaw, Array, _At] | None = None
         self._ready: tuple[Array, Asked, Motions] | None = None

@@ -34,6 +34,18 @@ class PointMass(Span):
         return at.omega**2 * _TYPICAL_KG * rows * size
 
 
+PLACE = (
+    EffectParameter("x", "m", 0.0, np.inf, 0.05, neutral=None),
+    EffectParameter("y", "m", 0.0, np.inf, 0.05, neutral=None),
+)
+"""Where on a plate something is."""
+
+
+def near(u: Mapping[str, float], ending: str = "") -> str:
+    """Such a place in words; `ending` of its keys."""
+    return f"near ({1e3 * u['x' + ending]:.0f}, {1e3 * u['y' + ending]:.0f}) mm"
+
+
 class AddedMassEffect(Effect):
     """m w^2 at (x, y)."""
 
@@ -42,8 +54,7 @@ class AddedMassEffect(Effect):
     source = "mass loading, Ewins, Modal Testing (2000), section 3.5"
     parameters: tuple[EffectParameter, ...] = (
         EffectParameter("mass", "kg", 0.0, 0.05, 3e-3, spread=5e-3),
-        EffectParameter("x", "m", 0.0, np.inf, 0.05, neutral=None),
-        EffectParameter("y", "m", 0.0, np.inf, 0.05, neutral=None),
+        *PLACE,
     )
     spans: tuple[Span, ...] = (PointMass(),)
     unexplained_share = 0.003
@@ -67,7 +78,7 @@ class AddedMassEffect(Effect):
         return Change(M=u[0] * np.outer(w, w), load=-u[0] * w)
 
     def story(self, u: Mapping[str, float]) -> str:
-        return f"a mass of {1e3 * u['mass']:.2g} g sits near ({1e3 * u['x']:.0f}, {1e3 * u['y']:.0f}) mm"
+        return f"a mass of {1e3 * u['mass']:.2g} g sits {near(u)}"
 
 
 class MassOnBeamEffect(AddedMassEffect):

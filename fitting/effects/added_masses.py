@@ -6,7 +6,7 @@ from itertools import combinations
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.effects.added_mass import AddedMassEffect
+from fitting.effects.added_mass import AddedMassEffect, near
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -55,8 +55,5 @@ class AddedMassesEffect(Effect):
         return one.and_then(other)
 
     def story(self, u: Mapping[str, float]) -> str:
-        both = (
-            f"{1e3 * u[f'mass_{n}']:.2g} g near ({1e3 * u[f'x_{n}']:.0f}, {1e3 * u[f'y_{n}']:.0f}) mm"
-            for n in (1, 2)
-        )
+        both = (f"{1e3 * u[f'mass_{n}']:.2g} g {near(u, f'_{n}')}" for n in (1, 2))
         return f"two masses sit on the plate, {' and '.join(both)}"

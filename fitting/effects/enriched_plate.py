@@ -8,7 +8,6 @@ the plate's own columns and those of its effects alone.
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -147,31 +146,14 @@ class EnrichedReducedPlate:
         """
         k = len(self.load)
         part = np.eye(k + 1)[k]
-
-        def square(A: Any) -> Any:
-            return np.pad(A, [*((0, 0),) * (A.ndim - 2), (0, 1), (0, 1)])
-
-        def along(v: Array) -> Array:
-            return np.asarray(np.pad(v, [*((0, 0),) * (v.ndim - 1), (0, 1)]))
-
         held = np.outer(part, part)
+        beside = self._on(np.eye(k, k + 1), np.append(self.group, _PART))
         return replace(
-            self,
-            group=np.append(self.group, _PART),
-            M=square(self.M),
-            K_0=square(self.K_0) + held,
-            K_1=square(self.K_1),
-            gram=square(self.gram) + held,
-            matrices=square(self.matrices),
-            parts=square(self.parts),
-            load_part=along(self.load_part),
-            U=along(self.U.T).T,
-            load=along(self.load),
-            pitch=along(self.pitch),
-            observe=along(self.observe),
+            beside,
+            K_0=beside.K_0 + held,
+            gram=beside.gram + held,
             vector_names=np.append(self.vector_names, "part"),
-            vectors=np.vstack([along(self.vectors), part]),
-            deflection=along(self.deflection),
+            vectors=np.vstack([beside.vectors, part]),
         )
 
     def _keeping(self, columns: NDArray[np.intp]) -> "EnrichedReducedPlate":

@@ -14,7 +14,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.added_mass import PointMass
+from fitting.effects.added_mass import PLACE, PointMass, near
 from fitting.effects.base import ONE_PIECE, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -46,8 +46,7 @@ class LoosePartEffect(Effect):
         EffectParameter("mass", "kg", 0.0, 0.05, _START_KG, spread=2e-3),
         EffectParameter("frequency", "Hz", 1.0, 5000.0, 100.0, logarithmic=True, neutral=None),
         EffectParameter("loss_factor", "1", 2e-3, 1.0, _START_LOSS, logarithmic=True, neutral=None),
-        EffectParameter("x", "m", 0.0, np.inf, 0.05, neutral=None),
-        EffectParameter("y", "m", 0.0, np.inf, 0.05, neutral=None),
+        *PLACE,
     )
     spans: tuple[Span, ...] = (PointMass(),)
     sharp = True
@@ -103,8 +102,8 @@ class LoosePartEffect(Effect):
 
     def story(self, u: Mapping[str, float]) -> str:
         return (
-            f"a part of {1e3 * u['mass']:.2g} g near ({1e3 * u['x']:.0f}, {1e3 * u['y']:.0f}) mm swings by "
-            f"itself at {u['frequency']:.4g} Hz (loss factor {u['loss_factor']:.2g})"
+            f"a part of {1e3 * u['mass']:.2g} g {near(u)} swings by itself at "
+            f" {u['frequency']:.4g} Hz (loss factor {u['loss_factor']:.2g})"
         )
 
 

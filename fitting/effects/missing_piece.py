@@ -9,7 +9,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.effects.added_mass import PointMass
+from fitting.effects.added_mass import PLACE, PointMass, near
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -21,8 +21,8 @@ _MOST = 0.05
 """Of the plate's mass."""
 _ALONG, _ACROSS = (0.3, 0.5, 0.7, 0.95), (0.05, 0.3, 0.5, 0.7, 0.95)
 """Shares of length and width, to begin with: the corners of the free end, edges, holes in the middle."""
-_GAUSS = tuple(zip(*(axis.tolist() for axis in np.polynomial.legendre.leggauss(3)), strict=True))
-"""Places from -1 to 1 and weights, which sum to 2."""
+_AT, _WEIGHT = np.polynomial.legendre.leggauss(3)
+"""Gauss's places from -1 to 1, and their weights, which sum to 2."""
 
 
 class MissingPieceEffect(Effect):
@@ -33,8 +33,7 @@ class MissingPieceEffect(Effect):
     source = "the plate's own kinetic energy over the piece"
     parameters: tuple[EffectParameter, ...] = (
         EffectParameter("mass", "kg", 0.0, 1.0, _START_KG, spread=3e-3),
-        EffectParameter("x", "m", 0.0, np.inf, 0.05, neutral=None),
-        EffectParameter("y", "m", 0.0, np.inf, 0.05, neutral=None),
+        *PLACE,
     )
     spans: tuple[Span, ...] = (PointMass(),)
     unexplained_share = 0.003
@@ -55,15 +54,12 @@ class MissingPieceEffect(Effect):
         # No more is gone than was there: at the plate's edge the square still lies within it.
         sides = np.array([plate.length_m, plate.width_m])
         x, y = half + (1 - 2 * half / sides) * u[1:]
-        weight = np.array([np.sqrt(a * b) / 2 for _, a in _GAUSS for _, b in _GAUSS])
-        rows = np.array([plate.row(x + s * half, y + t * half) for s, _ in _GAUSS for t, _ in _GAUSS])
-        weighted = weight[:, None] * rows
-        return Change(M=-u[0] * weighted.T @ weighted, load=u[0] * weight @ weighted)
+        rows = np.array([plate.row(x + s * half, y + t * half) for s in _AT for t in _AT])
+        share = np.outer(_WEIGHT, _WEIGHT).ravel() / 4
+        return Change(M=-u[0] * (rows.T * share) @ rows, load=u[0] * share @ rows)
 
     def story(self, u: Mapping[str, float]) -> str:
-        return (
-            f"{1e3 * u['mass']:.2g} g of the plate are gone near ({1e3 * u['x']:.0f}, {1e3 * u['y']:.0f}) mm"
-        )
+        return f"{1e3 * u['mass']:.2g} g of the plate are gone {near(u)}"
 
 
 def _kg_m2(plate: EnrichedReducedPlate) -> float:

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.effects.added_mass import PointMass
+from fitting.effects.added_mass import PLACE, PointMass, near
 from fitting.effects.base import ONE_PIECE, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -33,8 +33,7 @@ class TetherEffect(Effect):
     parameters: tuple[EffectParameter, ...] = (
         EffectParameter("k", "N/m", 0.0, 2e3, _START_N_M, spread=100.0),
         EffectParameter("loss_factor", "1", 0.0, 2.0, _LOSS, neutral=None),
-        EffectParameter("x", "m", 0.0, np.inf, 0.05, neutral=None),
-        EffectParameter("y", "m", 0.0, np.inf, 0.05, neutral=None),
+        *PLACE,
     )
     spans: tuple[Span, ...] = (PointMass(),)
     unexplained_share = 0.003
@@ -61,10 +60,7 @@ class TetherEffect(Effect):
         return Change(K=k * np.outer(w, w), travel_load=-k * w)
 
     def story(self, u: Mapping[str, float]) -> str:
-        return (
-            f"a cable pulls at the plate near ({1e3 * u['x']:.0f}, {1e3 * u['y']:.0f}) mm "
-            f"({u['k']:.2g} N/m, loss factor {u['loss_factor']:.2g})"
-        )
+        return f"a cable pulls at the plate {near(u)} ({u['k']:.2g} N/m, loss factor {u['loss_factor']:.2g})"
 
 
 class TetherOfBeamEffect(TetherEffect):

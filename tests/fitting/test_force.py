@@ -6,9 +6,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-import scipy.sparse as sp
+from driven_plate import F_HZ, OMEGA, Driven
 
-from fitting.damping import viscous_damping
 from fitting.diagnosis.candidates import CandidateFit
 from fitting.diagnosis.of_files import Place
 from fitting.diagnosis.one_plate import plates_of
@@ -17,65 +16,19 @@ from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.several import SeveralProblem, SeveralResponse
 from fitting.diagnosis.strains import Reference, Strains
-from fitting.direct import displacement_direct, solve_direct
-from fitting.domain import domain_of
+from fitting.direct import displacement_direct
 from fitting.effects import CATALOGUE
-from fitting.effects.added_mass import PointMass
-from fitting.effects.amplitude_softening import CoreStrain
 from fitting.effects.change import Change
-from fitting.effects.enriching import enriched
-from fitting.effects.full_plate import FullPlate
 from fitting.errors import OutsideModel
 from fitting.identification.model import SweepModel
 from fitting.plate import Plate
 from fitting.rational import rational_sweep, rational_sweeps
-from fitting.reduced import reduce_plate
 from fitting.sweep import Sweep
 from fitting.tolerances import tolerance
 
-F_HZ = np.array([31.0, 58.0, 104.0, 161.0, 247.0])
-OMEGA = 2 * np.pi * F_HZ
 FORCE_M, OTHER_FORCE_M = (0.27, 0.03), (0.271, 0.0305)
 FURTHER_FORCE_M, FURTHER_SPOT_M = (0.04, 0.16), (0.22, 0.17)
 MASS = np.array([5e-3, 0.12, 0.16])
-
-
-class Driven:
-    """A plate reduced and widened for a mass."""
-
-    def __init__(self, specimen):
-        self.specimen, self.plate = specimen, Plate(specimen)
-        self.damping = viscous_damping(self.plate)
-        self.reduced = reduce_plate(self.plate, self.damping, domain_of(specimen, F_HZ))
-        full = FullPlate(self.plate, self.damping)
-        self.widened = enriched(full, self.plate.carried @ self.reduced.V, [PointMass(), CoreStrain()])
-        self.law = specimen.core.law
-        self.G = self.law.modulus(OMEGA)
-
-    def full(self, mass_kg=0.0, at=(0.1, 0.1)):
-        row = self.plate.observe(*at)
-        load = self.plate.load - (mass_kg * row if self.specimen.drive == "base" else 0.0)
-        added = sp.csc_array(mass_kg * np.outer(row, row))
-        return np.array(
-            [
-                self.plate.pickup
-                @ solve_direct(
-                    sp.csc_array(self.plate.dynamic_stiffness(w, g) - w**2 * added),
-                    w,
-                    self.damping,
-                    load[:, None],
-                )[:, 0]
-                for w, g in zip(OMEGA, self.G, strict=True)
-            ]
-        )
-
-    def response(self, effects, force_n=None):
-        ones = np.ones(len(OMEGA))
-        sweep = Sweep(F_HZ, ones + 0j, ones, np.arange(len(OMEGA)), np.ones(len(OMEGA), int), force_n)
-        problem = DiagnosisProblem.of(
-            sweep, self.specimen, self.widened, lambda omega: rational_sweep(self.reduced, omega)
-        )
-        return SweepResponse(problem.around(self.law), effects)
 
 
 @pytest.fixture(scope="module")
@@ -338,30 +291,6 @@ def test_long_edges_that_are_not_alike(coarse, force_m):
     mass = CATALOGUE["added_mass"]
     v = driven.response([mass]).velocity(driven.law, MASS)
     np.testing.assert_allclose(v, 1j * OMEGA * driven.full(MASS[0], MASS[1:]), rtol=5e-4)
-
-
-@pytest.mark.parametrize("force_m", [None, FORCE_M])
-def test_a_loose_part_is_solved_at_every_point(coarse, force_m):
-    driven = Driven(replace(coarse, force_m=force_m))
-    response, bare = driven.response([CATALOGUE["loose_part"]]), driven.response([])
-    u = np.array([2e-3, float(np.median(F_HZ)), 0.05, *MASS[1:]])
-    v, without = response.velocity(driven.law, u), bare.velocity(driven.law, np.empty(0))
-    k = (2 * np.pi * u[1]) ** 2 * (1 + 1j * u[2])
-    felt = u[0] * k / (k - OMEGA**2)
-    full = [driven.full(m, MASS[1:])[n] for n, m in enumerate(felt)]
-    # At its own frequency it weighs twenty times as much as the masses that are spanned do.
-    np.testing.assert_allclose(v, 1j * OMEGA * full, rtol=5e-3)
-    assert np.abs(v / without - 1).max() > 0.05
-    # To first order in its mass, all from one adjoint.
-    few = u * [1e-3, 1, 1, 1, 1]
-    (signature,) = response.signatures(driven.law, np.empty(0), [few])
-    moved = response.velocity(driven.law, few) - without
-    np.testing.assert_allclose(signature, moved, atol=5e-3 * np.abs(moved).max())
-    _, by = response.with_derivatives(driven.law, u)
-    for n in range(1, 5):
-        h = 1e-5 * u[n] * np.eye(5)[n]
-        slope = (response.velocity(driven.law, u + h) - response.velocity(driven.law, u - h)) / (2 * h[n])
-        np.testing.assert_allclose(by[len(by) - 5 + n], slope, atol=1e-4 * np.abs(slope).max())
 
 
 def test_effects_stand_where_there_is_what_they_need(coarse):

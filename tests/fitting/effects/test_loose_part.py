@@ -1,8 +1,12 @@
 """A part that swings on the plate: one motion more, beside a mass that depends on frequency."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.sparse as sp
+from driven_plate import OMEGA as DRIVEN_AT
+from driven_plate import Driven
 from solved_in_full import OMEGA
 
 from fitting.effects import CATALOGUE
@@ -34,6 +38,30 @@ def test_it_is_felt_as_the_mass_that_frequency_makes_of_it(full, part):
 def test_its_derivatives(full, n):
     by, difference = full.slope(PART, (*OFTEN[0], *PLACE), n)
     np.testing.assert_allclose(by, difference, rtol=1e-4, atol=1e-4 * np.abs(by).max())
+
+
+@pytest.mark.parametrize("force_m", [None, (0.27, 0.03)])
+def test_a_loose_part_is_solved_at_every_point(zn1, force_m):
+    driven = Driven(replace(zn1, elements=(8, 6), force_m=force_m))
+    response, bare = driven.response([PART]), driven.response([])
+    u = np.array([2e-3, 104.0, 0.05, 0.12, 0.16])
+    v, without = response.velocity(driven.law, u), bare.velocity(driven.law, np.empty(0))
+    k = (2 * np.pi * u[1]) ** 2 * (1 + 1j * u[2])
+    felt = u[0] * k / (k - DRIVEN_AT**2)
+    full = [driven.full(m, u[3:])[n] for n, m in enumerate(felt)]
+    # At its own frequency it weighs twenty times as much as the masses that are spanned do.
+    np.testing.assert_allclose(v, 1j * DRIVEN_AT * full, rtol=5e-3)
+    assert np.abs(v / without - 1).max() > 0.05
+    # To first order in its mass, all from one adjoint.
+    few = u * [1e-3, 1, 1, 1, 1]
+    (signature,) = response.signatures(driven.law, np.empty(0), [few])
+    moved = response.velocity(driven.law, few) - without
+    np.testing.assert_allclose(signature, moved, atol=5e-3 * np.abs(moved).max())
+    _, by = response.with_derivatives(driven.law, u)
+    for n in range(1, 5):
+        h = 1e-5 * u[n] * np.eye(5)[n]
+        slope = (response.velocity(driven.law, u + h) - response.velocity(driven.law, u - h)) / (2 * h[n])
+        np.testing.assert_allclose(by[len(by) - 5 + n], slope, atol=1e-4 * np.abs(slope).max())
 
 
 def test_far_below_its_frequency_it_is_a_mass(full):

@@ -96,7 +96,6 @@ class HiddenStiffener(Hidden):
 
     name: ClassVar[str] = "stiffener"
     place: ClassVar[str] = "strange"
-    near: ClassVar[tuple[str, ...]] = ("added_mass",)
     in_catalogue: ClassVar[bool] = False
     changes_solid: ClassVar[bool] = True
 
