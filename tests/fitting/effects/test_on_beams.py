@@ -27,6 +27,7 @@ PER_LENGTH, RIGIDITY = 2700 * B * 2e-3, 70e9 * B * 2e-3**3 / 12
 def frequencies(beam, name, u, count=3, law=None):
     effect = CATALOGUE[name].standing_on(beam)
     plate = widened_system_of(beam, beam.parts()).take(effect.spans)
+    plate = plate.with_part if effect.sharp else plate
     change = effect.change(plate, np.array(u))
     changed = replace(plate, K_0=plate.K_0 + change.K, K_1=plate.K_1 + change.K_1, M=plate.M + change.M)
     return [m.frequency_hz for m in elastic_modes(changed, law, count)]
@@ -46,6 +47,20 @@ def test_a_mass_at_the_tip_lowers_every_mode_as_it_must():
         return 1 + np.cos(x) * np.cosh(x) + x * mu * (np.cos(x) * np.sinh(x) - np.sin(x) * np.cosh(x))
 
     assert frequencies(BARE, "added_mass", [3e-3, L]) == pytest.approx(roots(free_with_mass, 3), rel=1e-3)
+
+
+def test_a_loose_part_at_the_tip_adds_a_mode_and_moves_the_others_as_it_must():
+    mass, f_0 = 3e-3, 60.0
+
+    def free_with_part(x):
+        r = x**2 / L**2 * np.sqrt(RIGIDITY / PER_LENGTH) / (2 * np.pi * f_0)
+        bends = np.cos(x) * np.sinh(x) - np.sin(x) * np.cosh(x)
+        # Felt as m / (1 - r^2): times that, it is smooth.
+        return (1 - r**2) * (1 + np.cos(x) * np.cosh(x)) + x * mass / (PER_LENGTH * L) * bends
+
+    found = frequencies(BARE, "loose_part", [mass, f_0, 0.0, L], 4)
+    assert found == pytest.approx(roots(free_with_part, 4), rel=1e-3)
+    assert found[0] < frequencies(BARE, "added_mass", [0.0, L])[0] < f_0 < found[1]
 
 
 def test_a_cable_at_the_tip_stiffens_it_as_a_spring_does():
