@@ -161,7 +161,10 @@ class CandidateFits:
         for candidate, from_there in zip(self.candidates[name], there, strict=True):
             able = from_there.is_open or from_there.promise > SEARCH.able * (bare.chi2 - best.chi2)
             near = [*candidate.briefly(), *(from_there.near if able else [])]
-            if astray and is_over_decades(candidate.effect):
+            placed = has_place(candidate.effect) and candidate.promise > SEARCH.able * (
+                self.none.chi2 - best.chi2
+            )
+            if astray and (placed or is_over_decades(candidate.effect)):
                 near += candidate.quick
             candidate.learn(Known(near=sorted(near, key=lambda f: f.chi2)))
         return FirstLook(name, [f for c in self.candidates[name] for f in c.near], self.state(name))

@@ -239,22 +239,37 @@ class CandidateFit:
 
     @cached_property
     def quick(self) -> list[Refitted]:
-        """One rough fit, begun in a wide valley from the better of the first and the most promising start."""
-        starts = [self._first_start, *self._promising_elsewhere]
-        wide = min((self._in_wide_valley(self._law, u) for u in starts), key=_chi2)
+        """One rough fit, begun in a wide valley from the better of the first and the most promising start.
+
+        Of an effect with a place, from the best of the most promising ones.
+        """
+        if has_place(self.effect):
+            wide = min(self._wide_places(self.starts[: SEARCH.followed_places]), key=_chi2)
+        else:
+            starts = [self._first_start, *self._promising_elsewhere]
+            wide = min((self._in_wide_valley(self._law, u) for u in starts), key=_chi2)
         u = with_stated(self.problem, wide)
         return [refit(self._response, self.evidence, wide.law, u, tolerance=ROUGH)]
 
     @property
     def far(self) -> list[Refitted]:
-        """Those of `plain`, and from the start that promises most.
+        """Those of `plain`, and from the starts that promise most.
 
-        A linear step from a wrong law may lead astray.
+        A linear step from a wrong law may lead astray: of places it says only which few to try.
         """
         if self._known.far is None:
-            begun = [f for u in self._promising_elsewhere for f in self._wide(u)]
+            if has_place(self.effect):
+                begun = self._wide_places(self.starts[: SEARCH.followed_places])
+            else:
+                begun = [f for u in self._promising_elsewhere for f in self._wide(u)]
             self._known.far = sorted([*self.plain, *begun], key=_chi2)
         return self._known.far
+
+    def _wide_places(self, starts: Sequence[Start]) -> list[Refitted]:
+        """In wide valleys, what has come furthest of some starts after a few steps."""
+        brief = (self._in_wide_valley(law, u, brief=True) for law in self._laws for _, u in starts)
+        going = sorted(brief, key=_chi2)[: SEARCH.followed]
+        return [in_wide_valley(self.problem, f.effects, self.evidence, f.law, of_effects(f)) for f in going]
 
     @property
     def _first_start(self) -> Array:
@@ -266,13 +281,18 @@ class CandidateFit:
         return [u for _, u in self.starts[:1] if not np.array_equal(u, self._first_start)]
 
     def _wide(self, u: Array) -> list[Refitted]:
-        laws = (self._law, bent_as(self.before.law, self.problem.stated_law))
-        return sorted((self._in_wide_valley(law, u) for law in laws), key=_chi2)
+        return sorted((self._in_wide_valley(law, u) for law in self._laws), key=_chi2)
 
-    def _in_wide_valley(self, law: CoreLaw, u: Array) -> Refitted:
+    @property
+    def _laws(self) -> tuple[CoreLaw, CoreLaw]:
+        """What fits in wide valleys begin from: the law so far, and the stated one."""
+        return self._law, bent_as(self.before.law, self.problem.stated_law)
+
+    def _in_wide_valley(self, law: CoreLaw, u: Array, *, brief: bool = False) -> Refitted:
         # Without the effect the stated numbers may have been moved to do its work.
         begun = np.concatenate([of_effects(self.before), u])
-        return in_wide_valley(self.problem, [*self.before.effects, self.effect], self.evidence, law, begun)
+        effects = [*self.before.effects, self.effect]
+        return in_wide_valley(self.problem, effects, self.evidence, law, begun, brief=brief)
 
     def finished(self, rough: Refitted, goal: float = np.inf) -> Refitted:
         """A rough fit followed to the end, or to where a chi-square of `goal` is out of reach."""

@@ -2,10 +2,11 @@
 
 Its resonances lie a little elsewhere and are damped a little otherwise, each by itself: another one about
 every octave. What its width does is one number for all of them. It is read, and driven, on one of two faces
-that move apart, nobody says which.
+that move apart, nobody says which, and in the middle of a width that bends.
 """
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
@@ -41,15 +42,15 @@ def theory_rows(
     rows = [error.frequency * share * dv for share in shares]
     rows += [shift * dv for shift in error.together]
     rows += [error.loss * share * by_loss for share in shares]
-    return rows + [per_x * displacement(side, omega, G) for side in _other_sides(system, own)]
+    return rows + [per_x * displacement(side, omega, G) for side in _read_otherwise(system, own)]
 
 
-def _other_sides(system: SmallSystem, own: EnrichedReducedPlate) -> list[EnrichedReducedPlate]:
-    """Itself, read or driven by what a face moves apart, one standard deviation."""
+def _read_otherwise(system: SmallSystem, own: EnrichedReducedPlate) -> list[EnrichedReducedPlate]:
+    """Itself, read or driven by what a place may move beside what the theory has, one standard deviation."""
     found = []
-    for name in ("observe", "load"):
-        if f"apart.{name}" in system.vector_names:
-            row = system.vector(f"apart.{name}")[system.group == "plate"]
+    for why, name in product(("apart", "middle"), ("observe", "load")):
+        if f"{why}.{name}" in system.vector_names:
+            row = system.vector(f"{why}.{name}")[system.group == "plate"]
             found.append(replace(own, **{name: row}))
     return found
 

@@ -76,6 +76,19 @@ def followed(curvature: Array, reach: float, ends: str) -> Array:
     return np.asarray(np.linalg.solve(A, (V * WEIGHT) @ curvature.T).T @ V)
 
 
+def at_the_middle(curvature: Array, reach: float, ends: str, x: Array) -> tuple[Array, Array]:
+    """V of `curved_across` at its least where clamps hold it, and its slope, at some places.
+
+    Over the width the deflection is w - nu V (y^2/2 - b^2/24): in the middle nu V b^2/24 more than w, which
+    is its mean. Shapes: `curvature` (k, places), `x` (n,); returns (k, n) each.
+    """
+    V, slope = _field(ends, True)
+    A = square(V, WEIGHT) + reach**2 * square(slope, WEIGHT)
+    c = np.linalg.solve(A, (V * WEIGHT) @ curvature.T)
+    there, rising = _field_at(x, ends, held=True)
+    return np.asarray(c.T @ there), np.asarray(c.T @ rising)
+
+
 def flowing(strain: Array, reach: float, ends: str) -> Array:
     """Integral of strain times V, V - l^2 V'' = strain: zero at free ends, V' zero at clamped ones.
 
@@ -119,15 +132,20 @@ def _field(ends: str, held: bool, *, shut: bool = False) -> tuple[Array, Array]:
 
     Shape (order, places) each.
     """
-    t, each = 2 * PLACES - 1, np.eye(_ORDER)
+    return _field_at(PLACES, ends, held=held, shut=shut)
+
+
+def _field_at(x: Array, ends: str, *, held: bool, shut: bool = False) -> tuple[Array, Array]:
+    """The same at some places. Shape (n,) of `x`; returns (order, n) each."""
+    t, each = 2 * x - 1, np.eye(_ORDER)
     P = legendre.legval(t, each)
     slope = legendre.legval(t, legendre.legder(each, scl=2.0))
-    none = np.ones_like(PLACES), np.zeros_like(PLACES)
-    one, both = (PLACES, none[0]), (PLACES * (1 - PLACES), 1 - 2 * PLACES)
+    none = np.ones_like(x), np.zeros_like(x)
+    one, both = (x, none[0]), (x * (1 - x), 1 - 2 * x)
     factors = {}
     if held:
         factors = {"clamped-free": one, "clamped-clamped": both}
     if shut:
-        factors = {"clamped-free": (1 - PLACES, -none[0]), "free-free": both}
+        factors = {"clamped-free": (1 - x, -none[0]), "free-free": both}
     f, f_slope = factors.get(ends, none)
     return f * P, f * slope + f_slope * P

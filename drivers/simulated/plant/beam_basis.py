@@ -78,8 +78,12 @@ def on_basis(
     stirred = [root] if solid.build.springs is not None else []
     stirred += [solid.core_times(wave)[free][:, free] for wave in _waves(stated.span_m) if strips > 1]
     steady = np.column_stack([heave_pitch, *w])[free]
-    # A free beam's stiffness alone cannot be solved with.
-    held = K_0 + root + _SHIFT * M if stated.ends == "free-free" else K_0 + root
+    held = K_0 + root
+    if stated.ends == "free-free":
+        # Its stiffness alone cannot be solved with; and beside what a force moves it by as a whole, which
+        # modes have, nothing would be left of how it bends.
+        held, rigid, forces = held + _SHIFT * M, solid.rigid[free], w.T[free]
+        steady = forces - M @ rigid @ np.linalg.solve(rigid.T @ (M @ rigid), rigid.T @ forces)
     parts = []
     for k, G in enumerate(moduli_pa):
         parts.append(motions(held + G * core, M, steady, _MODES, stirred))

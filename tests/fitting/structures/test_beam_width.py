@@ -6,6 +6,7 @@ import pytest
 from fitting.structures.beam_width import (
     PLACES,
     WEIGHT,
+    at_the_middle,
     curved_across,
     followed,
     give_of_face,
@@ -26,6 +27,17 @@ def test_a_bend_that_varies_twists_it_and_an_even_one_does_not():
     x = (0.05 * 2 * np.pi) ** 2
     assert curved_across(WAVE, 0.05, FREE, held=False)[0, 0] == pytest.approx(0.5 * x / (1 + x), rel=1e-6)
     assert followed(WAVE, 0.05, FREE) == pytest.approx(WAVE / (1 + x), abs=1e-6)
+
+
+def test_the_middle_of_a_width_rises_as_it_curves_across():
+    x = (0.05 * 2 * np.pi) ** 2
+    there = np.array([0.1, 0.5, 0.83])
+    higher, rising = at_the_middle(WAVE, 0.05, FREE, there)
+    wave = np.cos(2 * np.pi * there)
+    assert higher[0] == pytest.approx(wave / (1 + x), abs=1e-6)
+    assert rising[0] == pytest.approx(-2 * np.pi * np.sin(2 * np.pi * there) / (1 + x), abs=1e-5)
+    held, _ = at_the_middle(LEVEL, 0.04, CLAMPED, np.array([0.0, 0.04, 1.0]))
+    assert held[0] == pytest.approx([0, 1 - np.exp(-1), 1], abs=1e-4)
 
 
 def test_a_clamp_that_holds_it_stiffens_a_stretch_as_long_as_its_reach():

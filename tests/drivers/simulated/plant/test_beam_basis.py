@@ -57,6 +57,18 @@ def test_the_basis_loses_what_the_whole_solid_loses(clamped):
     assert found == pytest.approx(whole, rel=2e-4)
 
 
+def test_a_force_bends_a_free_beam_as_it_bends_the_whole_solid(free):
+    """Between modes the highest ones count: beside the whole beam's motion nothing was left of them."""
+    solid = SolidBeam(FREE, 6)
+    row, force = solid.row(0.15, 0.0), solid.row(0.03, 0.0, below=True)
+    for hz in (900.0, 1500.0, 2200.0):
+        w = 2 * np.pi * hz
+        K = solid.stiffness(0) + solid.stiffness(2) + complex(LAW.modulus(w)) * solid.core - w**2 * solid.M
+        whole = spsolve(K[solid.free][:, solid.free].tocsc(), force[solid.free].astype(complex))
+        found = free.w[1] @ np.linalg.solve(stiffness(free, w), free.w[0].astype(complex))
+        assert found == pytest.approx(whole @ row[solid.free], rel=1e-3)
+
+
 def test_strips_add_up_and_air_weighs_what_slender_bodies_carry(clamped):
     """pi/4 rho b^2 a length: a strip that moves across itself, its ends too far away to matter."""
     _, beam = clamped
