@@ -13,7 +13,12 @@ from instrument.campaign.beams import simulate
 from instrument.campaign.beams.cases import KINDS, NONE, draw_case
 from instrument.campaign.beams.geometry import BEAMS, beam_named
 from instrument.campaign.beams.hidden import HIDDEN, Setting
-from instrument.campaign.beams.hidden.attached import HiddenAddedMass, HiddenSpotOffset, HiddenTether
+from instrument.campaign.beams.hidden.attached import (
+    HiddenAddedMass,
+    HiddenLoosePart,
+    HiddenSpotOffset,
+    HiddenTether,
+)
 from instrument.campaign.beams.hidden.base import HiddenInBeam, driven_by_base
 from instrument.campaign.beams.hidden.base_motion import HiddenBaseRocking, HiddenFixtureResonance
 from instrument.campaign.beams.hidden.clamp import (
@@ -119,6 +124,16 @@ def test_a_mass_that_hangs_there_is_one_that_the_beam_has():
     heavy = replace(heavy, load=heavy.load + 0.003 * np.outer(row, [1.0, 0.17]))
     f = at(20.0, 150.0)
     np.testing.assert_allclose(reading(hung, LAW, f), reading(BuiltBeam(STRIP, heavy), LAW, f), rtol=1e-9)
+
+
+def test_something_loose_rides_along_far_below_its_own_frequency_and_rests_far_above():
+    loose = HiddenLoosePart(0.003, 900.0, 0.05, 0.17, 0.5)
+    slow = at(15.0, 30.0)
+    stuck = reading(built(STRIP, (HiddenAddedMass(0.003, 0.17),)), LAW, slow)
+    np.testing.assert_allclose(reading(built(STRIP, (loose,)), LAW, slow), stuck, rtol=1e-3)
+    fast, soft = at(300.0, 470.0), replace(loose, frequency_hz=3.0)
+    alone = reading(built(STRIP), LAW, fast)
+    np.testing.assert_allclose(reading(built(STRIP, (soft,)), LAW, fast), alone, rtol=1e-2)
 
 
 def test_a_cable_to_the_floor_pulls_at_what_the_base_carries():

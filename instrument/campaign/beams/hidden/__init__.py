@@ -5,6 +5,7 @@ from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting
 
 _CLASSES: tuple[type[HiddenInBeam], ...] = (
     attached.HiddenAddedMass,
+    attached.HiddenLoosePart,
     attached.HiddenTether,
     attached.HiddenAirAddedMass,
     attached.HiddenSpotOffset,

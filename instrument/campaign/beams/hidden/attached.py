@@ -78,6 +78,41 @@ class HiddenTether(HiddenInBeam):
 
 
 @dataclass(frozen=True)
+class HiddenLoosePart(HiddenInBeam):
+    """A small mass on a spring of its own, its loss a power of frequency."""
+
+    name: ClassVar[str] = "loose_part"
+
+    mass_kg: float
+    frequency_hz: float
+    loss_factor: float
+    """At that frequency."""
+    x_m: float
+    power: float
+    """0: structural, 1: viscous."""
+
+    @classmethod
+    def able(cls, beam: TrueBeam) -> bool:
+        return beam.whole
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenLoosePart":
+        near = at.resonances_hz[int(rng.integers(len(at.resonances_hz)))] * (1 + either_sign(rng, 0.0, 0.08))
+        mass, loss = at.beam.mass_kg * log_uniform(rng, 0.003, 0.012), log_uniform(rng, 0.02, 0.1)
+        return cls(mass, near, loss, _place(rng, at.beam, 0.5), float(rng.uniform(-0.3, 1.0)))
+
+    def places_m(self) -> tuple[float, ...]:
+        return (self.x_m,)
+
+    def hung(self, omega: Array, pitch: Complex, force_driven: bool) -> tuple[Hung, ...]:
+        own = 2 * np.pi * self.frequency_hz
+        k: Complex = np.asarray(own**2 * (1 + 1j * self.loss_factor * (omega / own) ** self.power))
+        felt_kg = self.mass_kg * k / (k - omega**2)
+        force = -felt_kg * (1 + self.x_m * pitch)
+        return (Hung(self.x_m, np.asarray(-felt_kg * omega**2), force * (not force_driven)),)
+
+
+@dataclass(frozen=True)
 class HiddenAirAddedMass(HiddenInBeam):
     """Still air on both faces, by the simulated rig's own lattice of vortex rings."""
 
