@@ -59,13 +59,16 @@ class CandidateFits:
         self.problem, self.evidence, self.none = problem, evidence, none
         self.effects = {e.name: e for e in effects}
         self.candidates = {
-            e.name: [CandidateFit(problem, evidence, none, form) for form in e.variants()] for e in effects
+            e.name: [
+                CandidateFit(problem, evidence, none, form) for form in e.forms(problem.points, problem.plate)
+            ]
+            for e in effects
         }
 
     def form(self, form: Form) -> Effect:
         """The effect that a form stands for."""
         name, number = form
-        return self.effects[name].variants()[number]
+        return self.candidates[name][number].effect
 
     def has_places(self, name: str) -> bool:
         """Whether an effect has a form whose place is to be found."""

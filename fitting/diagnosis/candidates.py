@@ -244,7 +244,7 @@ class CandidateFit:
         Of an effect with a place, from the best of the most promising ones.
         """
         if has_place(self.effect):
-            wide = min(self._wide_places(self.starts[: SEARCH.followed_places]), key=_chi2)
+            wide = min(self._wide_places(self._promising_places), key=_chi2)
         else:
             starts = [self._first_start, *self._promising_elsewhere]
             wide = min((self._in_wide_valley(self._law, u) for u in starts), key=_chi2)
@@ -259,15 +259,20 @@ class CandidateFit:
         """
         if self._known.far is None:
             if has_place(self.effect):
-                begun = self._wide_places(self.starts[: SEARCH.followed_places])
+                places = [u for u in self._promising_places if not np.array_equal(u, self._first_start)]
+                begun = self._wide_places(places)
             else:
                 begun = [f for u in self._promising_elsewhere for f in self._wide(u)]
             self._known.far = sorted([*self.plain, *begun], key=_chi2)
         return self._known.far
 
-    def _wide_places(self, starts: Sequence[Start]) -> list[Refitted]:
-        """In wide valleys, what has come furthest of some starts after a few steps."""
-        brief = (self._in_wide_valley(law, u, brief=True) for law in self._laws for _, u in starts)
+    @property
+    def _promising_places(self) -> list[Array]:
+        return [u for _, u in self.starts[: SEARCH.followed_places]]
+
+    def _wide_places(self, starts: Sequence[Array]) -> list[Refitted]:
+        """In wide valleys, what has come furthest from some starts after a few steps; (parameters,) each."""
+        brief = (self._in_wide_valley(law, u, brief=True) for law in self._laws for u in starts)
         going = sorted(brief, key=_chi2)[: SEARCH.followed]
         return [in_wide_valley(self.problem, f.effects, self.evidence, f.law, of_effects(f)) for f in going]
 

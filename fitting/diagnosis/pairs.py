@@ -138,7 +138,7 @@ class Pairs:
             (e.name, number)
             for e in self._search.effects
             if e.name not in names and not e.replaces_law
-            for number in range(len(e.variants()))
+            for number in range(len(self._search.work.candidates[e.name]))
         ]
 
     def _every_second(

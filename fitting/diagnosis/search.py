@@ -232,9 +232,8 @@ class Search:
                 fits = self.work.other_laws(effect)
                 fitted = min(fits, key=lambda f: self.judged(f).cost)
                 continue
-            candidates = [
-                CandidateFit(self.problem, self.evidence, fitted, form) for form in effect.variants()
-            ]
+            forms = effect.forms(self.problem.points, self.problem.plate)
+            candidates = [CandidateFit(self.problem, self.evidence, fitted, form) for form in forms]
             fits = [c.finished(f) for c in candidates for f in [*c.near[:1], *c.far[:1]]]
             fitted = min(fits, key=lambda f: f.chi2)
         return self.judged(fitted)

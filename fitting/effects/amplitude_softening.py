@@ -25,6 +25,11 @@ _FULL = (0.25, 2.0)
 """Of what is off, the least and the most that a step takes: as far as a secant may be trusted. A choice."""
 
 
+_K = EffectParameter("k", "1", -0.5, 0.8, 0.1, spread=0.15)
+_SATURATION = EffectParameter("saturation", "1", 0.0, 4.0, 0.3, spread=0.5)
+"""Strain of the reference over that at which half of what can be lost is lost."""
+
+
 class CoreStrain(Span):
     """The core's shear strain: mean square over its volume."""
 
@@ -43,31 +48,47 @@ class CoreStrain(Span):
 
 
 class AmplitudeSofteningEffect(Effect):
-    """G times (1 - k strain / reference), the strain that of the softened plate."""
+    """G times (1 - k (1 + c) s/(1 + c s)), s = strain / reference, the strain that of the softened plate.
+
+    Without c, the saturation, it is first order in the strain: what little softening shows of.
+    """
 
     name = "amplitude_softening"
     enters = "level"
-    source = "Payne, J. Appl. Polym. Sci. 6 (1962), first order in the strain amplitude"
-    parameters = (EffectParameter("k", "1", -0.5, 0.8, 0.1, spread=0.15),)
+    source = (
+        "Payne, J. Appl. Polym. Sci. 6 (1962), first order in the strain amplitude; saturating: Kraus, "
+        "J. Appl. Polym. Sci., Appl. Polym. Symp. 39 (1984), his exponent a half"
+    )
+    parameters: tuple[EffectParameter, ...] = (_K,)
     spans = (CoreStrain(),)
     unexplained_share = 0.004
     chance = 0.03
     discriminating_test = "a second level"
 
+    def __init__(self, *, saturates: bool = False) -> None:
+        self.saturates = saturates
+        if saturates:
+            self.parameters = (_K, _SATURATION)
+
     def on(self, kind: str) -> Effect | None:
         own = {"shear-pair": PadSofteningEffect, "beam": BeamSofteningEffect}.get(kind)
         return own() if own else super().on(kind)
 
+    def variants(self) -> tuple[Effect, ...]:
+        return (self, type(self)(saturates=True))
+
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         if points.drive == "base":
-            return None
+            enough = points.levels > 1 or not self.saturates
+            return None if enough else "one level does not tell how softening saturates"
         if points.force_n is None:
             return "nothing says how large the force was"
         several = points.force_n.max() > _LEVELS * points.force_n.min()
         return None if several else "one size of the force does not tell softening from the law"
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:
-        return np.asarray(G() * (1 - _softened(float(u[0]), G.strain, len(points.omega))))
+        c = float(u[1]) if self.saturates else 0.0
+        return np.asarray(G() * (1 - _softened(float(u[0]), c, G.strain, len(points.omega))))
 
     def story(self, u: Mapping[str, float]) -> str:
         return (
@@ -96,14 +117,15 @@ class PadSofteningEffect(AmplitudeSofteningEffect):
 
 
 @lru_cache(maxsize=2)
-def _softened(k: float, strain: Strain, points: int) -> Array:
+def _softened(k: float, c: float, strain: Strain, points: int) -> Array:
     """Share by which the core softens at the strain that it then has. Shape (points,).
 
     Kept: a derivative to the law asks once for each of its parameters, the strain being the same.
     """
     softened, step, off = np.zeros(points), np.zeros(points), np.zeros(points)
     for _ in range(_ITERATIONS):
-        before, off = off, np.clip(k * strain(softened), -1.0, 1 - LEAST) - softened
+        s = strain(softened)
+        before, off = off, np.clip(k * (1 + c) * s / (1 + c * s), -1.0, 1 - LEAST) - softened
         # Half a step where nothing is known: where the strain falls with softening full ones may swing.
         fell = before - off
         known = (np.abs(fell) > _SMALL) & (step != 0)

@@ -222,6 +222,10 @@ class Effect:
         """Forms of it that are tried apart, the best one kept."""
         return (self,)
 
+    def forms(self, points: Points, plate: EnrichedReducedPlate) -> tuple[Effect, ...]:
+        """Those of its variants that nothing speaks against there."""
+        return tuple(form for form in self.variants() if form.objection(points, plate) is None)
+
     def laws(self, stated: CoreLaw, points: Points) -> list[CoreLaw]:
         """Laws to be tried in the place of the stated one."""
         return []

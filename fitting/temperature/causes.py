@@ -94,7 +94,8 @@ def _promising(
 ) -> list[tuple[Effect, Array]]:
     """With where to start: each temperature is explained by itself, so one law is near enough for a step."""
     lacking = fit.chi2 - fit.chi2_own
-    looks = [(form, task.joined.starts(form, fit.one)) for e in effects for form in e.variants()]
+    forms = [form for e in effects for form in e.forms(task.joined.points, task.joined.plate)]
+    looks = [(form, task.joined.starts(form, fit.one)) for form in forms]
     able = [(form, starts[0]) for form, starts in looks if starts]
     able = [one for one in able if one[1][0] == 0 or one[1][0] > _ENOUGH * lacking]
     able.sort(key=lambda one: -one[1][0])

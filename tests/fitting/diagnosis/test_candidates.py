@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from fitting.diagnosis import candidates
 from fitting.diagnosis.candidates import CandidateFit
 from fitting.effects.base import Effect, EffectParameter
 from fitting.laws.fractional_zener import FractionalZener
@@ -96,8 +97,31 @@ def test_of_springs_that_a_linear_step_makes_decades_stiffer_the_soft_ones_are_h
 def test_the_first_start_is_not_followed_again_where_it_is_the_most_promising_one(
     monkeypatch, promising, begun
 ):
-    one = CandidateFit(None, None, None, Placed(), [(9.0, np.array([promising, 0.5, 0.0]))])
+    one = CandidateFit(None, None, None, TwoForms(), [(9.0, np.array([promising, 0.0]))])
     one.problem = SimpleNamespace(plate=None, points=None)
-    monkeypatch.setattr(Placed, "starts", lambda *_: [np.array([0.1, 0.5, 0.0])])
+    monkeypatch.setattr(TwoForms, "starts", lambda *_: [np.array([0.1, 0.0])])
     monkeypatch.setattr(CandidateFit, "_wide", lambda _, u: [SimpleNamespace(chi2=u[0])])
     assert [f.chi2 for f in one.far] == begun
+
+
+def test_of_places_those_are_followed_in_wide_valleys_that_come_furthest_in_a_few_steps(monkeypatch):
+    """What promises most by a linear step from a wrong law need not be the place."""
+    promised = [(9.0 - k, np.array([0.1, x, 0.0])) for k, x in enumerate((0.5, 0.9, 0.1, 0.3, 0.7))]
+    one = CandidateFit(PROBLEM, None, None, Placed(), promised)
+    followed = []
+
+    def fitted(law, u, *, brief):
+        assert brief
+        return SimpleNamespace(chi2=abs(u[1] - 0.2), effects=(), law=law, u=u, stated=0)
+
+    monkeypatch.setattr(CandidateFit, "plain", [])
+    monkeypatch.setattr(CandidateFit, "_first_start", promised[0][1])
+    monkeypatch.setattr(CandidateFit, "_laws", (USUAL,))
+    monkeypatch.setattr(
+        CandidateFit, "_in_wide_valley", lambda _, law, u, *, brief: fitted(law, u, brief=brief)
+    )
+    monkeypatch.setattr(
+        candidates, "in_wide_valley", lambda *args: followed.append(args[-1][1]) or SimpleNamespace(chi2=0.0)
+    )
+    assert len(one.far) == 2
+    assert sorted(followed) == [0.1, 0.3]

@@ -30,6 +30,7 @@ class World:
         self.effects = [effect(n) for n in names]
         self.chi2 = {frozenset(two.split("_")): value for two, value in chi2.items()}
         self.work, self.kept, self.goals, self.laws = self, [], [], []
+        self.candidates = {n: [SimpleNamespace()] for n in names}
 
     def fit(self, *effects):
         chi2 = self.chi2.get(frozenset(e.name for e in effects), NOTHING)

@@ -58,6 +58,21 @@ def test_one_level_shows_softening_of_a_beam_and_none_of_a_pad():
     assert softening.on("shear-pair").objection(two_levels, sheared) is None
 
 
+def test_softening_that_saturates_takes_k_at_the_reference_and_less_beyond():
+    p = points([0.0, 1.0, 2.0])
+    first, saturating = AmplitudeSofteningEffect(), AmplitudeSofteningEffect(saturates=True)
+    for s, most in ((1.0, 0.2), (3.0, 0.2 * 1.5 * 3 / 2.5)):
+        G = ModulusAt(LAW, p, lambda softened, s=s: s + 0 * softened)
+        found = saturating.modulus(G, p, np.array([0.2, 0.5])) / LAW.modulus(OMEGA)
+        assert found == pytest.approx(1 - most)
+        assert saturating.modulus(G, p, np.array([0.2, 0.0])) == pytest.approx(
+            first.modulus(G, p, np.array([0.2]))
+        )
+    assert first.forms(p, None) == (first,)
+    levels = replace(p, acceleration_m_s2=np.array([9.81, 4.9, 2.45]))
+    assert [f.saturates for f in first.forms(levels, None)] == [False, True]
+
+
 def test_a_core_warms_from_what_the_law_says_to_shorter_times():
     at = points([0.0, 0.0, 0.0]), points([1e6, 1e6, 1e6])
     begun, ended = (

@@ -105,7 +105,7 @@ class HiddenTemperatureDrift(HiddenInBeam):
 class HiddenAmplitudeSoftening(HiddenInBeam):
     """Each strip of the core softens with its own strain, as filled rubber does (Kraus).
 
-    G (1 - d r / (1 + r)), r the strip's strain over that at which half of what can be lost is lost.
+    G (1 - d r / (1 + r)), r a power of the strip's strain over that at which half of what can go is lost.
     """
 
     name: ClassVar[str] = "amplitude_softening"
@@ -115,6 +115,8 @@ class HiddenAmplitudeSoftening(HiddenInBeam):
     """Lost at the core's largest rms strain of the first segment at full level."""
     most: float
     """What can be lost at all."""
+    power: float = 1.0
+    """Rubbers have 0.8 to 1.3."""
 
     @classmethod
     def able(cls, beam: TrueBeam) -> bool:
@@ -122,12 +124,12 @@ class HiddenAmplitudeSoftening(HiddenInBeam):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAmplitudeSoftening":
-        return cls(log_uniform(rng, 0.05, 0.2), 0.5)
+        return cls(log_uniform(rng, 0.05, 0.2), float(rng.uniform(0.4, 0.7)), float(rng.uniform(0.8, 1.3)))
 
     def factor(self, strain: Array, reference: float) -> Array:
         """On the modulus of strips of given strain; `reference` is that at which `k` is lost.
 
         Shape of `strain`.
         """
-        r = strain / reference * self.k / (self.most - self.k)
+        r = (strain / reference) ** self.power * self.k / (self.most - self.k)
         return np.asarray(1 - self.most * r / (1 + r))

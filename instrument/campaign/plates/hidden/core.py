@@ -122,7 +122,7 @@ class HiddenTemperatureDrift(Hidden):
 class HiddenAmplitudeSoftening(Hidden):
     """Each brick softens with its own strain, as filled rubber does (Kraus): G (1 - d r / (1 + r)).
 
-    r is the brick's strain amplitude over a strain at which half of what can be lost is lost.
+    r is a power of the brick's strain amplitude over a strain at which half of what can be lost is lost.
     """
 
     name: ClassVar[str] = "amplitude_softening"
@@ -134,10 +134,12 @@ class HiddenAmplitudeSoftening(Hidden):
     """Lost at the core's rms strain of the first resonance at 1 g."""
     most: float
     """What can be lost at all."""
+    power: float = 1.0
+    """Rubbers have 0.8 to 1.3."""
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAmplitudeSoftening":
-        return cls(log_uniform(rng, 0.05, 0.2), 0.5)
+        return cls(log_uniform(rng, 0.05, 0.2), float(rng.uniform(0.4, 0.7)), float(rng.uniform(0.8, 1.3)))
 
     def stirred(self, true: TruePlate) -> tuple[Field, ...]:
         # Strain of the first mode is largest near the clamp, of the others in several places.
@@ -148,5 +150,5 @@ class HiddenAmplitudeSoftening(Hidden):
 
         Shape of `strain`.
         """
-        r = strain / reference * self.k / (self.most - self.k)
+        r = (strain / reference) ** self.power * self.k / (self.most - self.k)
         return np.asarray(1 - self.most * r / (1 + r))
