@@ -12,6 +12,8 @@ from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
 from fitting.element import THETA_X, V_C, W
 
+_MOST_RAD_M = 10.0
+"""The edges of a plate 200 mm wide move as its base does: nobody has a rig like that. A bound on the search."""
 _ON_AXIS_M = 1e-4
 """A pickup so near to the axis hardly sees a roll."""
 
@@ -50,7 +52,7 @@ class BaseRollEffect(Effect):
     enters = "load"
     source = "rigid turn of the base about x, inertia load -M r_r"
     needs = BASE
-    parameters = (EffectParameter("roll", "rad/m", -2.0, 2.0, 0.05, spread=0.1),)
+    parameters = (EffectParameter("roll", "rad/m", -_MOST_RAD_M, _MOST_RAD_M, 0.05, spread=0.1),)
     spans = (Roll(),)
     chance = 0.015
     discriminating_test = (

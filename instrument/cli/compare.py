@@ -76,7 +76,8 @@ def compare(
     )
     for name, law in zip(names, laws, strict=True):
         if law.verdict == "unknown":
-            out.say(f"{name}: verdict unknown: this law may be biased beyond what is known of it")
+            beside = ", and is not in the spread" if spread is not None else ""
+            out.say(f"{name}: verdict unknown: this law may be biased beyond what is known of it{beside}")
         if doubt := kelvin_doubt(law.temperature_c):
             out.say(f"{name}: {doubt}")
     for (a, b), c in zip(pairs, found, strict=True):

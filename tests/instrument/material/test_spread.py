@@ -60,3 +60,16 @@ def test_the_command_says_the_spread(tmp_path, capsys):
     said = json.loads(out.read_text())["spread"]
     low, high = said["frequencies"][3]["storage_modulus_spread"]["interval_95_percent"]
     assert low < 4 < high
+
+
+def test_a_law_of_an_unknown_verdict_is_not_in_the_spread(tmp_path, capsys):
+    paths = specimens(tmp_path, 0.04, 2, 5)
+    biased = TABLE_4.with_values(TABLE_4.values * np.array([1.5, 1.5, 1.0, 1.0]))
+    paths[0].write_text(json.dumps({"verdict": "unknown", "after": facts(biased)}), encoding="utf-8")
+    assert run(["compare", "--spread", *map(str, paths)]) == 0
+    said = capsys.readouterr().out
+    assert "2-0.json: verdict unknown" in said
+    assert "is not in the spread" in said
+    assert "spread between 4 specimens" in said
+    with pytest.raises(BadInput, match="2 laws, 1 more of verdict unknown, expected 3"):
+        spread_of([read_law(p) for p in paths[:3]])
