@@ -13,7 +13,7 @@ from fitting.effects.span import Span
 from fitting.element import THETA_X, V_C, W
 
 _MOST_RAD_M = 10.0
-"""The edges of a plate 200 mm wide move as its base does: nobody has a rig like that. A bound on the search."""
+"""The edges of a plate 200 mm wide move as its base does: no rig is like that. A bound on the search."""
 _ON_AXIS_M = 1e-4
 """A pickup so near to the axis hardly sees a roll."""
 
