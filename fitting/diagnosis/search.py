@@ -10,7 +10,7 @@ from fitting.diagnosis.candidate_fits import CandidateFits
 from fitting.diagnosis.candidates import CandidateFit
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.executor import Call, Executor
-from fitting.diagnosis.looks import has_place
+from fitting.diagnosis.looks import has_place, look
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.predictive import checks, form_error, most_unrefused, passes, temper
 from fitting.diagnosis.problem import DiagnosisProblem
@@ -186,6 +186,20 @@ class Search:
         places = effect.elsewhere(self.problem.plate, scored.fitted.of(effect))
         begun = [([effect], scored.fitted.law, np.concatenate([scored.fitted.z, u])) for u in places]
         return [self.judged(f) for f in self.executor.each(self.work.fitted, begun)]
+
+    def twofold(self, scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
+        """Two of what single effects are one of, from where each was found and a look for the other one."""
+        begun = [one for scored in scored_fits for one in self._doubled(scored.fitted)]
+        return [self.judged(f) for f in self.executor.each(self.work.fitted, begun)]
+
+    def _doubled(self, fitted: Refitted) -> list[tuple[list[Effect], CoreLaw, Array]]:
+        one, *more = fitted.effects
+        wider = [] if more else [e for e in self.effects if e.twice and e.extends == one.name]
+        if not wider:
+            return []
+        others = look(self.problem, self.evidence, fitted, one)[: SEARCH.followed_places]
+        known = np.concatenate([fitted.z, fitted.of(one)])
+        return [([e], fitted.law, np.concatenate([known, u])) for e in wider for _, u in others]
 
     def _contained(self, fitted: Refitted) -> list[tuple[list[Effect], CoreLaw, Array]]:
         """Effects, law and unknowns to begin from, for each that one of a fit contains."""

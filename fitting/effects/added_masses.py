@@ -36,6 +36,7 @@ class AddedMassesEffect(Effect):
     spans = AddedMassEffect.spans
     unexplained_share = AddedMassEffect.unexplained_share
     extends = "added_mass"
+    twice = True
     chance = 0.005
     discriminating_test = AddedMassEffect.discriminating_test
 

@@ -194,6 +194,9 @@ class Effect:
     extends: ClassVar[str | None] = None
     """A simpler effect that this one contains."""
 
+    twice: ClassVar[bool] = False
+    """Whether it is two of what it extends, their unknowns one after the other."""
+
     def on(self, kind: str) -> Effect | None:
         """The form it has on a `plate`, `beam` or `shear-pair`; None where it has no meaning."""
         return self if kind in self.structures else None

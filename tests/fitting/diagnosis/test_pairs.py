@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from fitting.diagnosis import search as searching
 from fitting.diagnosis.executor import ALONE
 from fitting.diagnosis.pairs import Pairs
 from fitting.diagnosis.search import ScoredFit, Search
@@ -161,6 +162,33 @@ def test_what_an_effect_of_two_contains_is_fitted_in_its_place():
     both = SimpleNamespace(effects=(other, wide), law=None, z=np.array([0.5]), of=values.get)
     Search.simpler(search, [ScoredFit(both, 0.0)])
     assert begun == [(["other", "narrow"], [0.5, 3.0])]
+
+
+class Two(Effect):
+    name, extends, twice = "two", "narrow", True
+
+
+def test_two_of_a_thing_begin_where_one_was_found_and_a_look_sees_the_other(monkeypatch):
+    begun, one = [], Narrow()
+    monkeypatch.setattr(searching, "look", lambda *_: [(9.0, np.array([4.0])), (1.0, np.array([7.0]))])
+
+    def fitted(asked):
+        effects, _, u = asked
+        begun.append(([e.name for e in effects], u.tolist()))
+
+    search = SimpleNamespace(
+        effects=[effect("other"), one, Two()],
+        problem=None,
+        evidence=None,
+        executor=ALONE,
+        work=SimpleNamespace(fitted=fitted),
+        judged=lambda found: found,
+    )
+    search._doubled = partial(Search._doubled, search)
+    alone = SimpleNamespace(effects=(one,), law=None, z=np.array([0.5]), of=lambda _: np.array([3.0]))
+    other = SimpleNamespace(effects=(effect("other"),), law=None, z=np.array([0.5]), of=None)
+    Search.twofold(search, [ScoredFit(other, 0.0), ScoredFit(alone, 1.0)])
+    assert begun == [(["two"], [0.5, 3.0, 4.0]), (["two"], [0.5, 3.0, 7.0])]
 
 
 def test_beside_what_is_near_the_best_a_second_effect_is_tried_that_may_come_as_far():
