@@ -190,7 +190,8 @@ class Search:
     def twofold(self, scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
         """Two of what single effects are one of, from where each was found and a look for the other one."""
         begun = [one for scored in scored_fits for one in self._doubled(scored.fitted)]
-        return [self.judged(f) for f in self.executor.each(self.work.fitted, begun)]
+        found = self.executor.each(self.work.fitted, begun)
+        return [self.judged(f) for f in found if self.determined(f)]
 
     def _doubled(self, fitted: Refitted) -> list[tuple[list[Effect], CoreLaw, Array]]:
         one, *more = fitted.effects

@@ -183,6 +183,7 @@ def test_two_of_a_thing_begin_where_one_was_found_and_a_look_sees_the_other(monk
         executor=ALONE,
         work=SimpleNamespace(fitted=fitted),
         judged=lambda found: found,
+        determined=lambda found: True,
     )
     search._doubled = partial(Search._doubled, search)
     alone = SimpleNamespace(effects=(one,), law=None, z=np.array([0.5]), of=lambda _: np.array([3.0]))
