@@ -244,7 +244,7 @@ class CandidateFit:
         Of an effect with a place, from the best of the most promising ones.
         """
         if has_place(self.effect):
-            wide = min(self._wide_places(self._promising_places), key=_chi2)
+            wide = min(self._wide_places(self._promising_places or [self._first_start]), key=_chi2)
         else:
             starts = [self._first_start, *self._promising_elsewhere]
             wide = min((self._in_wide_valley(self._law, u) for u in starts), key=_chi2)
