@@ -63,7 +63,7 @@ class AmplitudeSofteningEffect(Effect):
     spans = (CoreStrain(),)
     unexplained_share = 0.004
     chance = 0.03
-    discriminating_test = "a second level"
+    discriminating_test = "another level"
 
     def __init__(self, *, saturates: bool = False) -> None:
         self.saturates = saturates
