@@ -21,7 +21,8 @@ from fitting.model_error import ModelError
 from fitting.specimen import METAL_PER_K, Core, Drive, Face, Reading, Specimen
 from fitting.structures.beam_apart import APART_WITHIN, open_by_poisson
 from fitting.structures.beam_error import HELD_WIDTH_WITHIN, free_layer_error, sandwich_error, shortened_m
-from fitting.structures.beam_parts import PARTS, BeamSection, parts_of
+from fitting.structures.beam_parts import PARTS, parts_of
+from fitting.structures.beam_section import BeamSection
 from fitting.structures.small import Parts
 from fitting.tolerances import OF_TEMPERATURE, STATED, STATED_PER_K
 

@@ -11,7 +11,7 @@ further columns stand beside them, in groups:
 Matrices go by the names that a plate's have (`fitting.effects`).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -20,26 +20,24 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array
 from fitting.structures.beam_apart import ODD, Squeezed, stretched
+from fitting.structures.beam_reading import ELEMENTS, deflection, read_otherwise, row_at
+from fitting.structures.beam_section import BeamSection
 from fitting.structures.beam_shapes import (
     ORDER,
     BeamMatrices,
-    Shapes,
     gauss,
     matrices_of,
-    shapes_of,
     slip_by_pieces,
     square,
 )
 from fitting.structures.beam_width import (
     PLACES,
     WEIGHT,
-    at_the_middle,
     curved_across,
     followed,
     give_of_face,
     give_of_layer,
     narrowed,
-    reach,
     sheared,
 )
 from fitting.structures.small import Parts
@@ -54,11 +52,6 @@ _APART = 1e-5
 """Of the faces' own stretching: what their modes have already."""
 _PARTED = 1e-5
 """Of how far faces part by themselves."""
-_MIDDLE_WITHIN = 0.15
-"""How well is known by what the middle of the width is higher: of solids, 10 mm and more from a free end, it
-is 0.9 to 1.15 times that (a free layer at kilohertz: 1.3)."""
-_ELEMENTS = 200
-"""Along the beam, w a cubic on each: of any column off by 1e-5, of ten modes by 1e-7."""
 
 
 PARTS = {"K_0": slice(0, 8), "K_1": slice(8, 22), "M": slice(22, 35)}
@@ -67,66 +60,9 @@ _SLIP = slice(8, 11)
 """Those of the core's shear."""
 
 
-@dataclass(frozen=True)
-class BeamSection:
-    """What of a beam its matrices are made of, one piece of it."""
-
-    ends: str
-    length_m: float
-    width_m: float
-    copies: int
-    """Two where it is driven in its centre, both halves moving alike."""
-    thickness_m: tuple[float, float, float]
-    """Of substrate, core and constraining layer; zero for none."""
-    both_sides: bool
-    coefficients: tuple[float, ...]
-    """Of K_0, K_1 and M, losses left out."""
-    rigidity: tuple[float, float]
-    """Of substrate and constraining layers in bending, by any common measure."""
-    poisson: tuple[float, float, float]
-    """Of substrate, core and constraining layer."""
-    share: float = 0.0
-    """Of the substrate in how far the faces move apart."""
-    is_slender: bool = False
-    """Whether nothing of its width, nor of its faces' own shear and how they move apart, is counted."""
-
-    @property
-    def is_sandwich(self) -> bool:
-        """Whether a core shears between two layers."""
-        return self.thickness_m[2] > 0
-
-    @property
-    def is_doubled(self) -> bool:
-        """Whether one is on both sides, so that the middle does not stretch."""
-        return self.both_sides and self.is_sandwich
-
-    @property
-    def shapes(self) -> Shapes:
-        """Its polynomials."""
-        return shapes_of(self.ends)
-
-    @property
-    def moves(self) -> NDArray[np.bool_]:
-        """Which unknowns it has. Shape (size,)."""
-        s = self.shapes
-        found = np.ones(s.size, bool)
-        if not self.is_sandwich:
-            found[s.place["c"]] = False
-        if self.is_doubled:
-            found[s.place["b"]] = False
-        if not self.is_sandwich or self.is_slender:
-            found[s.place["a"]] = found[s.place["m"]] = False
-        return found
-
-    @property
-    def of_core(self) -> NDArray[np.bool_]:
-        """Which are of how the core stretches across. Shape (size,)."""
-        place = self.shapes.place
-        return np.arange(self.shapes.size) >= min(place["a"].start, place["m"].start)
-
-    def summed(self, which: str) -> Array:
-        """K_0, K_1 or M over all unknowns, K_1 for a modulus of one. Shape (size, size)."""
-        return np.tensordot(self.coefficients[PARTS[which]], getattr(sectioned(self), which), axes=1)
+def _summed(section: BeamSection, which: str) -> Array:
+    """K_0, K_1 or M over all unknowns, K_1 for a modulus of one. Shape (size, size)."""
+    return np.tensordot(section.coefficients[PARTS[which]], getattr(sectioned(section), which), axes=1)
 
 
 @lru_cache(maxsize=64)
@@ -147,13 +83,13 @@ def sectioned(section: BeamSection) -> BeamMatrices:
 def _core_across(section: BeamSection) -> Array:
     """What a width adds to a core's shear, and what width and shear do to a free layer. As K_1."""
     s, L = section.shapes, section.length_m
-    (nu_b, nu_v, nu_c), h_v = section.poisson, section.thickness_m[1]
+    (nu_b, nu_v, _), h_v = section.poisson, section.thickness_m[1]
     bend, found = s.rows("w", PLACES, 2), np.zeros_like(matrices_of(section.ends).K_1)
     if section.is_sandwich:
         # Its faces narrow by what it lets them slip, and it shears across.
-        nu = np.average([nu_b, nu_c], weights=section.rigidity)
+        nu = section.faces_poisson
         apart = s.rows("c", PLACES, 1) - s.rows("b", PLACES, 1)
-        apart, bend = (followed(e, _reach(section, 0), section.ends) for e in (apart, bend))
+        apart, bend = (followed(e, section.reach(0), section.ends) for e in (apart, bend))
         crossed = (apart * WEIGHT) @ bend.T
         slip = np.array([square(apart, WEIGHT), crossed + crossed.T, square(bend, WEIGHT)])
         found[:3] = (nu * section.width_m / L) ** 2 / 12 * slip
@@ -164,7 +100,7 @@ def _core_across(section: BeamSection) -> Array:
         found[3] -= sheared(stretch, stretch, give, section.ends)
         found[4] += crossed + crossed.T
         found[5] -= sheared(bend, bend, give, section.ends)
-        across = curved_across(bend, _reach(section, 0), section.ends, held=False)
+        across = curved_across(bend, section.reach(0), section.ends, held=False)
         found[5] += nu_b**2 / (1 + nu_v) / (1 - nu_b) * across
     return found
 
@@ -173,8 +109,7 @@ def _core_stretched(section: BeamSection) -> Array:
     """Of one side's core: e_z = a/H - 8 m z/H^2, and e_x as its two faces have it. As K_1, times H/L."""
     s, L = section.shapes, section.length_m
     h_b, h_v, h_c = section.thickness_m
-    nu_f = float(np.average(section.poisson[::2], weights=section.rigidity))
-    core = Squeezed(h_v / L, section.width_m / L, section.poisson[1], nu_f, section.ends)
+    core = Squeezed(h_v / L, section.width_m / L, section.poisson[1], section.faces_poisson, section.ends)
     below = s.rows("b", PLACES, 1) - h_b / 2 / L * _bend(section, 0)
     above = s.rows("c", PLACES, 1) + h_c / 2 / L * _bend(section, 1)
     mean = stretched(s.rows("a", PLACES), h_v / L * (above + below) / 2, core)
@@ -193,11 +128,6 @@ def _faces(section: BeamSection) -> list[tuple[int, int, float]]:
     return [(n, 2 * n, section.poisson[2 * n]) for n in (0, 1) if section.rigidity[n] > 0]
 
 
-def _reach(section: BeamSection, layer: int) -> float:
-    L = section.length_m
-    return reach(section.width_m / L, section.thickness_m[layer] / L, section.poisson[layer])
-
-
 def _across(section: BeamSection, *, held: bool) -> Array:
     """What a width adds to stretching of u_b and u_c and to bending of both. Shape (4, size, size)."""
     s, found = section.shapes, np.zeros((4, section.shapes.size, section.shapes.size))
@@ -207,7 +137,7 @@ def _across(section: BeamSection, *, held: bool) -> Array:
         if section.is_sandwich:
             width = section.width_m / section.length_m
             found[n] = stiffer * narrowed(stretch, width, nu, section.ends, held=held)
-        bent = curved_across(_bend(section, n), _reach(section, k), section.ends, held=held)
+        bent = curved_across(_bend(section, n), section.reach(k), section.ends, held=held)
         found[2 + n] = stiffer * bent
     return found
 
@@ -227,70 +157,19 @@ def parts_of(section: BeamSection, pickup: float | None, force: float | None) ->
         K_0=K_0,
         K_1=K_1,
         M=M,
-        load=(lifted if force is None else _row(section, V, force))[None],
-        observe=_row(section, V, pickup) if pickup is not None else np.zeros(V.shape[1]),
+        load=(lifted if force is None else row_at(section, V, force))[None],
+        observe=row_at(section, V, pickup) if pickup is not None else np.zeros(V.shape[1]),
         matrices={name: V.T @ A @ V for name, A in _asked_for(section).items()},
-        deflection=_deflection(section, V),
-        size=(section.length_m, section.width_m, _ELEMENTS, 1),
+        deflection=deflection(section, V),
+        size=(section.length_m, section.width_m, ELEMENTS, 1),
         pickup_m=((pickup or 0.0) * section.length_m, 0.0),
         group=group,
         gram=scaled.T @ scaled,
-        pitch=-V.T @ section.summed("M") @ _turned(section) if s.held_ends else np.zeros(V.shape[1]),
+        pitch=-V.T @ _summed(section, "M") @ _turned(section) if s.held_ends else np.zeros(V.shape[1]),
         vectors={"air.load": _air_kg_m(section) * section.length_m * lifted}
-        | {f"{why}.observe": V.T @ row for why, row in _read_otherwise(section, pickup).items()}
-        | {f"{why}.load": V.T @ row for why, row in _read_otherwise(section, force).items()},
+        | {f"{why}.observe": V.T @ row for why, row in read_otherwise(section, pickup).items()}
+        | {f"{why}.load": V.T @ row for why, row in read_otherwise(section, force).items()},
     )
-
-
-def _read_otherwise(section: BeamSection, at: float | None) -> dict[str, Array]:
-    """What the deflection at a place may be more, one standard deviation, by why. Shape (size,) each.
-
-    A face there moves apart from w, nobody says which one; and the middle of the width is higher than w.
-    """
-    if at is None or section.is_slender:
-        return {}
-    x = np.array([min(at, 1.0)])
-    found = {"middle": _MIDDLE_WITHIN * _higher_in_the_middle(section, x)[0][:, 0]}
-    if section.is_sandwich:
-        size = np.hypot(section.share, 1 - section.share) / np.sqrt(2)
-        found["apart"] = size * section.shapes.rows("a", x)[:, 0]
-    return found
-
-
-def _row(section: BeamSection, V: Array, at: float) -> Array:
-    return np.asarray(V.T @ _in_the_middle(section, np.array([min(at, 1.0)]))[0][:, 0])
-
-
-def _in_the_middle(section: BeamSection, x: Array) -> tuple[Array, Array]:
-    """The deflection of the middle of the width, where a beam is read and struck, and its slope.
-
-    Shape (size, n) each, of `x` (n,).
-    """
-    w, slope = (section.shapes.rows("w", x, d) for d in (0, 1))
-    if section.is_slender:
-        return w, slope
-    higher, rising = _higher_in_the_middle(section, x)
-    return w + higher, slope + rising
-
-
-def _higher_in_the_middle(section: BeamSection, x: Array) -> tuple[Array, Array]:
-    """A beam that curves across is higher there than on the average: nu b^2/24 times that curvature.
-
-    With its slope. Shape (size, n) each, of `x` (n,).
-    """
-    nu = float(np.average(section.poisson[::2], weights=section.rigidity))
-    bend = section.shapes.rows("w", PLACES, 2)
-    share = nu * (section.width_m / section.length_m) ** 2 / 24
-    higher, rising = at_the_middle(bend, _reach(section, 0), section.ends, x)
-    return share * higher, share * rising
-
-
-def _deflection(section: BeamSection, V: Array) -> Array:
-    """w, dw/dy and -dw/dx at the nodes of a strip one element wide. Shape (nodes, 3, k)."""
-    x = np.linspace(0.0, 1.0, _ELEMENTS + 1)
-    w, slope = (each.T @ V for each in _in_the_middle(section, x))
-    along = np.stack([w, np.zeros_like(w), -slope / section.length_m], axis=1)
-    return np.repeat(along, 2, axis=0)
 
 
 def _turned(section: BeamSection) -> Array:
@@ -311,7 +190,7 @@ def _columns(section: BeamSection) -> tuple[NDArray[np.str_], Array, Array]:
     """Groups of the columns, the columns, and the size of each unknown. Shapes (k,), (size, k), (size,)."""
     s, moves = section.shapes, section.moves
     size = np.zeros(s.size)
-    size[moves] = 1 / np.sqrt(np.diag(section.summed("M"))[moves])
+    size[moves] = 1 / np.sqrt(np.diag(_summed(section, "M"))[moves])
     own = _own(section, size)
     let_go = np.flatnonzero(moves & ~s.is_held)
     above = let_go[np.isin(let_go, np.arange(s.size)[s.place["c"]])]
@@ -326,7 +205,7 @@ def _modes(section: BeamSection) -> Array:
     """Of a few moduli, and what rests, in units of each unknown's own size. Shape (moving, k)."""
     kept = np.flatnonzero(section.moves & section.shapes.is_held)
     square = np.ix_(kept, kept)
-    stiff, core, mass = (section.summed(name)[square] for name in ("K_0", "K_1", "M"))
+    stiff, core, mass = (_summed(section, name)[square] for name in ("K_0", "K_1", "M"))
     # Equal sizes of all polynomials: their squares differ by many orders.
     size = 1 / np.sqrt(np.diag(mass))
     found = []

@@ -10,7 +10,7 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden.base import HiddenInBeam, Hung, Setting
-from instrument.campaign.plates.hidden.base import either_sign, log_uniform
+from instrument.campaign.plates.hidden.base import either_sign, felt_kg, log_uniform
 
 
 def _place(rng: np.random.Generator, beam: TrueBeam, least: float) -> float:
@@ -19,8 +19,21 @@ def _place(rng: np.random.Generator, beam: TrueBeam, least: float) -> float:
     return beam.span_m * float(rng.uniform(low if beam.clamped else 0.02, high))
 
 
+class _OnTheBeam(HiddenInBeam):
+    """Something at one place of a beam of one piece."""
+
+    x_m: float
+
+    @classmethod
+    def able(cls, beam: TrueBeam) -> bool:
+        return beam.whole
+
+    def places_m(self) -> tuple[float, ...]:
+        return (self.x_m,)
+
+
 @dataclass(frozen=True)
-class HiddenAddedMass(HiddenInBeam):
+class HiddenAddedMass(_OnTheBeam):
     """A point mass on the upper face, its own height left out."""
 
     name: ClassVar[str] = "added_mass"
@@ -29,15 +42,8 @@ class HiddenAddedMass(HiddenInBeam):
     x_m: float
 
     @classmethod
-    def able(cls, beam: TrueBeam) -> bool:
-        return beam.whole
-
-    @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAddedMass":
         return cls(at.beam.mass_kg * log_uniform(rng, 0.006, 0.02), _place(rng, at.beam, 0.5))
-
-    def places_m(self) -> tuple[float, ...]:
-        return (self.x_m,)
 
     def hung(self, omega: Array, pitch: Complex, force_driven: bool) -> tuple[Hung, ...]:
         force = -self.mass_kg * (1 + self.x_m * pitch)
@@ -45,7 +51,7 @@ class HiddenAddedMass(HiddenInBeam):
 
 
 @dataclass(frozen=True)
-class HiddenTether(HiddenInBeam):
+class HiddenTether(_OnTheBeam):
     """A cable: spring and dashpot from a point of the beam to the floor, or to what moves with the base."""
 
     name: ClassVar[str] = "tether"
@@ -56,19 +62,12 @@ class HiddenTether(HiddenInBeam):
     to_floor: bool
 
     @classmethod
-    def able(cls, beam: TrueBeam) -> bool:
-        return beam.whole
-
-    @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTether":
         omega = 2 * np.pi * at.resonances_hz[0]
         # A cantilever's first mode moves its tip as a quarter of its mass on a spring would.
         stiffness = at.beam.mass_kg / 4 * omega**2 * log_uniform(rng, 0.01, 0.05)
         x = _place(rng, at.beam, 0.5)
         return cls(stiffness, stiffness * log_uniform(rng, 0.05, 0.4) / omega, x, bool(rng.random() < 0.5))
-
-    def places_m(self) -> tuple[float, ...]:
-        return (self.x_m,)
 
     def hung(self, omega: Array, pitch: Complex, force_driven: bool) -> tuple[Hung, ...]:
         k = np.asarray(self.stiffness_n_m + 1j * omega * self.damping_ns_m)
@@ -78,7 +77,7 @@ class HiddenTether(HiddenInBeam):
 
 
 @dataclass(frozen=True)
-class HiddenLoosePart(HiddenInBeam):
+class HiddenLoosePart(_OnTheBeam):
     """A small mass on a spring of its own, its loss a power of frequency."""
 
     name: ClassVar[str] = "loose_part"
@@ -92,24 +91,15 @@ class HiddenLoosePart(HiddenInBeam):
     """0: structural, 1: viscous."""
 
     @classmethod
-    def able(cls, beam: TrueBeam) -> bool:
-        return beam.whole
-
-    @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenLoosePart":
         near = at.resonances_hz[int(rng.integers(len(at.resonances_hz)))] * (1 + either_sign(rng, 0.0, 0.08))
         mass, loss = at.beam.mass_kg * log_uniform(rng, 0.003, 0.012), log_uniform(rng, 0.02, 0.1)
         return cls(mass, near, loss, _place(rng, at.beam, 0.5), float(rng.uniform(-0.3, 1.0)))
 
-    def places_m(self) -> tuple[float, ...]:
-        return (self.x_m,)
-
     def hung(self, omega: Array, pitch: Complex, force_driven: bool) -> tuple[Hung, ...]:
-        own = 2 * np.pi * self.frequency_hz
-        k: Complex = np.asarray(own**2 * (1 + 1j * self.loss_factor * (omega / own) ** self.power))
-        felt_kg = self.mass_kg * k / (k - omega**2)
-        force = -felt_kg * (1 + self.x_m * pitch)
-        return (Hung(self.x_m, np.asarray(-felt_kg * omega**2), force * (not force_driven)),)
+        felt = felt_kg(omega, self.mass_kg, self.frequency_hz, self.loss_factor, self.power)
+        force = -felt * (1 + self.x_m * pitch)
+        return (Hung(self.x_m, np.asarray(-felt * omega**2), force * (not force_driven)),)
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from drivers.simulated.plant.solid_beam import BeamBuild
 from fitting.arrays import Array
 from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting
-from instrument.campaign.plates.hidden.base import either_sign, log_uniform
+from instrument.campaign.plates.hidden.base import draw_softening, either_sign, left_by_strain
 from instrument.campaign.plates.hidden.core import GAS_J_MOL_K
 
 _ROOM_K = 296.0
@@ -124,12 +124,11 @@ class HiddenAmplitudeSoftening(HiddenInBeam):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAmplitudeSoftening":
-        return cls(log_uniform(rng, 0.05, 0.2), float(rng.uniform(0.4, 0.7)), float(rng.uniform(0.8, 1.3)))
+        return cls(*draw_softening(rng))
 
     def factor(self, strain: Array, reference: float) -> Array:
         """On the modulus of strips of given strain; `reference` is that at which `k` is lost.
 
         Shape of `strain`.
         """
-        r = (strain / reference) ** self.power * self.k / (self.most - self.k)
-        return np.asarray(1 - self.most * r / (1 + r))
+        return left_by_strain(strain / reference, self.k, self.most, self.power)

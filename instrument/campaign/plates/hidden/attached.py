@@ -7,9 +7,16 @@ from typing import ClassVar
 
 import numpy as np
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array
 from instrument.campaign.plates.geometry import TruePlate
-from instrument.campaign.plates.hidden.base import Attachment, Hidden, Setting, either_sign, log_uniform
+from instrument.campaign.plates.hidden.base import (
+    Attachment,
+    Hidden,
+    Setting,
+    either_sign,
+    felt_kg,
+    log_uniform,
+)
 from instrument.campaign.plates.response import BaseMotion
 from instrument.campaign.plates.solid import Build, Patch
 
@@ -165,11 +172,9 @@ class HiddenLoosePart(Hidden):
         return ((self.x_m, self.y_m),)
 
     def attached(self, omega: Array, motion: BaseMotion, width_m: float) -> tuple[Attachment, ...]:
-        own = 2 * np.pi * self.frequency_hz
-        k: Complex = np.asarray(own**2 * (1 + 1j * self.loss_factor * (omega / own) ** self.power))
-        felt_kg = self.mass_kg * k / (k - omega**2)
-        force = -felt_kg * motion.at(self.x_m, self.y_m, width_m)
-        return (Attachment(self.x_m, self.y_m, np.asarray(-(omega**2) * felt_kg), np.asarray(force)),)
+        felt = felt_kg(omega, self.mass_kg, self.frequency_hz, self.loss_factor, self.power)
+        force = -felt * motion.at(self.x_m, self.y_m, width_m)
+        return (Attachment(self.x_m, self.y_m, np.asarray(-(omega**2) * felt), np.asarray(force)),)
 
 
 @dataclass(frozen=True)

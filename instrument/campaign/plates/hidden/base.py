@@ -30,6 +30,30 @@ def log_uniform(rng: np.random.Generator, low: float, high: float) -> float:
     return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
 
+def felt_kg(omega: Array, mass_kg: float, own_hz: float, loss_factor: float, power: float) -> Complex:
+    """What a mass on a spring of its own is felt as. Its loss, told at its own frequency, goes with a power.
+
+    Shape of `omega`, in rad/s.
+    """
+    own = 2 * np.pi * own_hz
+    k = np.asarray(own**2 * (1 + 1j * loss_factor * (omega / own) ** power))
+    return np.asarray(mass_kg * k / (k - omega**2))
+
+
+def draw_softening(rng: np.random.Generator) -> tuple[float, float, float]:
+    """k, most and power of `left_by_strain`, as filled rubbers have them."""
+    return log_uniform(rng, 0.05, 0.2), float(rng.uniform(0.4, 0.7)), float(rng.uniform(0.8, 1.3))
+
+
+def left_by_strain(strain: Array, k: float, most: float, power: float) -> Array:
+    """Of the modulus, by Kraus: 1 - most r/(1 + r), r as a power of the strain, k lost at a strain of one.
+
+    Shape of `strain`.
+    """
+    r = strain**power * k / (most - k)
+    return np.asarray(1 - most * r / (1 + r))
+
+
 @dataclass(frozen=True)
 class Attachment:
     """Something hung on the plate at a point; stiffness and force are across the plate."""

@@ -9,7 +9,14 @@ import numpy as np
 
 from fitting.arrays import Array
 from instrument.campaign.plates.geometry import TruePlate
-from instrument.campaign.plates.hidden.base import Hidden, Setting, either_sign, log_uniform, times
+from instrument.campaign.plates.hidden.base import (
+    Hidden,
+    Setting,
+    draw_softening,
+    either_sign,
+    left_by_strain,
+    times,
+)
 from instrument.campaign.plates.solid import Build, Field
 
 GAS_J_MOL_K = 8.314
@@ -139,7 +146,7 @@ class HiddenAmplitudeSoftening(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAmplitudeSoftening":
-        return cls(log_uniform(rng, 0.05, 0.2), float(rng.uniform(0.4, 0.7)), float(rng.uniform(0.8, 1.3)))
+        return cls(*draw_softening(rng))
 
     def stirred(self, true: TruePlate) -> tuple[Field, ...]:
         # Strain of the first mode is largest near the clamp, of the others in several places.
@@ -150,5 +157,4 @@ class HiddenAmplitudeSoftening(Hidden):
 
         Shape of `strain`.
         """
-        r = (strain / reference) ** self.power * self.k / (self.most - self.k)
-        return np.asarray(1 - self.most * r / (1 + r))
+        return left_by_strain(strain / reference, self.k, self.most, self.power)

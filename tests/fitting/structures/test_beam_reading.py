@@ -1,5 +1,7 @@
 """Where a beam is read and struck: in the middle of its width, against solids of bricks."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.sparse.linalg import spsolve
@@ -8,6 +10,7 @@ from drivers.simulated.plant.solid_beam import BeamStated, Sheet, SolidBeam
 from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Core, Face
 from fitting.structures import Beam
+from fitting.structures.beam_reading import read_otherwise, row_at
 from fitting.structures.small import displacement, system_of
 
 G = 4e6 * (1 + 0.4j)
@@ -48,3 +51,16 @@ def test_a_free_beam_struck_near_an_end_moves_as_a_solid_does(solid):
     whole = np.array([struck(solid, hz) for hz in f])
     # Where it resonates a twentieth of a percent of the frequency turns the phase by 0.03.
     np.testing.assert_allclose(np.abs(found / whole), 1.0, atol=0.008)
+
+
+def test_the_middle_of_an_evenly_bent_beam_is_higher_by_poissons_share():
+    """w = x^2/2 bends by one everywhere: nu b^2/24 more, which a beam of no width has not."""
+    section = FREE.section
+    x = np.linspace(0, 1, 50)
+    V, *_ = np.linalg.lstsq(section.shapes.rows("w", x).T, x**2 / 2, rcond=None)
+    more = section.faces_poisson * (section.width_m / section.length_m) ** 2 / 24
+    assert row_at(section, V[:, None], 0.5)[0] == pytest.approx(0.125 + more, rel=1e-6)
+    slender = replace(FREE, slender=True).section
+    assert row_at(slender, V[:, None], 0.5)[0] == pytest.approx(0.125, rel=1e-6)
+    assert read_otherwise(section, 0.5)["middle"] @ V == pytest.approx(0.15 * more, rel=1e-5)
+    assert read_otherwise(slender, 0.5) == {}

@@ -1,0 +1,77 @@
+"""What of a beam its matrices are made of: sizes and coefficients of layers, and how its ends are held."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.structures.beam_shapes import Shapes, shapes_of
+from fitting.structures.beam_width import reach
+
+
+@dataclass(frozen=True)
+class BeamSection:
+    """What of a beam its matrices are made of, one piece of it."""
+
+    ends: str
+    length_m: float
+    width_m: float
+    copies: int
+    """Two where it is driven in its centre, both halves moving alike."""
+    thickness_m: tuple[float, float, float]
+    """Of substrate, core and constraining layer; zero for none."""
+    both_sides: bool
+    coefficients: tuple[float, ...]
+    """Of K_0, K_1 and M, losses left out."""
+    rigidity: tuple[float, float]
+    """Of substrate and constraining layers in bending, by any common measure."""
+    poisson: tuple[float, float, float]
+    """Of substrate, core and constraining layer."""
+    share: float = 0.0
+    """Of the substrate in how far the faces move apart."""
+    is_slender: bool = False
+    """Whether nothing of its width, nor of its faces' own shear and how they move apart, is counted."""
+
+    @property
+    def is_sandwich(self) -> bool:
+        """Whether a core shears between two layers."""
+        return self.thickness_m[2] > 0
+
+    @property
+    def is_doubled(self) -> bool:
+        """Whether one is on both sides, so that the middle does not stretch."""
+        return self.both_sides and self.is_sandwich
+
+    @property
+    def shapes(self) -> Shapes:
+        """Its polynomials."""
+        return shapes_of(self.ends)
+
+    @property
+    def moves(self) -> NDArray[np.bool_]:
+        """Which unknowns it has. Shape (size,)."""
+        s = self.shapes
+        found = np.ones(s.size, bool)
+        if not self.is_sandwich:
+            found[s.place["c"]] = False
+        if self.is_doubled:
+            found[s.place["b"]] = False
+        if not self.is_sandwich or self.is_slender:
+            found[s.place["a"]] = found[s.place["m"]] = False
+        return found
+
+    @property
+    def of_core(self) -> NDArray[np.bool_]:
+        """Which are of how the core stretches across. Shape (size,)."""
+        place = self.shapes.place
+        return np.arange(self.shapes.size) >= min(place["a"].start, place["m"].start)
+
+    @property
+    def faces_poisson(self) -> float:
+        """Poisson's ratio of both faces as they bend."""
+        return float(np.average(self.poisson[::2], weights=self.rigidity))
+
+    def reach(self, layer: int) -> float:
+        """How far from a clamp its hold of a layer's width goes, in shares of the length."""
+        L = self.length_m
+        return reach(self.width_m / L, self.thickness_m[layer] / L, self.poisson[layer])
