@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from instrument.errors import BadInput
 from instrument.files.table import Rows, rate_stated_in
+from instrument.interchange.celsius import is_temperature
 from instrument.interchange.decoded import decoded
 from instrument.interchange.found import CARRIED, Found
 from instrument.interchange.read_table import read_table
@@ -75,7 +76,7 @@ def _numbers(path: Path, stands: TextTable) -> Named:
     _check_thousands(path, names, rows)
 
     def is_numeric(k: int, name: str) -> bool:
-        if unit_in(name) is not None or part_in(name) == "phase" or name in CARRIED:
+        if unit_in(name) is not None or part_in(name) == "phase" or _may_lack(name):
             return any(is_number(row[k], comma=comma) for _, row in rows)
         return is_number(rows[0][1][k], comma=comma)
 
@@ -90,7 +91,11 @@ def _numbers(path: Path, stands: TextTable) -> Named:
 
 def _cell(name: str, text: str) -> str:
     """Nothing is "not known" where a column need not say something of every row."""
-    return text or ("nan" if name in CARRIED else "")
+    return text or ("nan" if _may_lack(name) else "")
+
+
+def _may_lack(name: str) -> bool:
+    return name in CARRIED or is_temperature(name)
 
 
 def _real(values: NDArray[np.complex128]) -> NDArray[Any]:

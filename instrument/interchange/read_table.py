@@ -12,6 +12,7 @@ from instrument.files.point_columns import understood
 from instrument.files.rates import CONTRADICTION
 from instrument.files.table import rate_of_times
 from instrument.files.units import DERIVATIVE, KNOWN, Quantity
+from instrument.interchange.celsius import with_celsius
 from instrument.interchange.found import CARRIED, Columns, Found, Ratio
 from instrument.interchange.said_by_name import (
     BASE,
@@ -36,6 +37,7 @@ def read_table(source: str, table: Named, found: Found) -> bool:
 
     `source` names it in messages.
     """
+    table = with_celsius(source, table, found)
     signals = signals_of(source, table, _others())
     frequency = _axis(source, table, _FREQUENCIES, _AXIS_HZ)
     if frequency is not None:

@@ -63,9 +63,16 @@ _PEAKS = (
 _ANGLES = {"deg": np.pi / 180, "degree": np.pi / 180, "degrees": np.pi / 180, "°": np.pi / 180, "rad": 1.0}
 _MOST_RAD = 8 * np.pi
 """Phases in rad, unwrapped over four turns: a resonance alone takes phases in degrees beyond that."""
+_MOST_SAID_RAD = 2 * _MOST_RAD
+"""The same where rad are said: 50 degrees, which a resonance takes too."""
+_UNWRAPPED = "unwrapped"
 _LAST_GROUP = re.compile(r"\(((?:[^()]|\([^()]*\))*)\)\s*$")
 _DECIBELS = re.compile(r"dB\b\s*(?:re[lf]?\b[.:]?)?\s*([\d.]+(?:e[-+]?\d+)?)?\s*(.*)", re.I)
 _HALF_DECADE_DB = 20.0
+_DENSITIES = frozenset(
+    ("psd", "asd", "lsd", "csd", "esd", "density", "power", "autopower", "crosspower", "autospectrum", "gxx")
+)
+"""Words of what is a power, or of a bandwidth that a sine does not have."""
 
 
 class NotSaid(BadInput):
@@ -139,7 +146,7 @@ def stem_of(name: str) -> tuple[str, ...]:
     if not bracket:
         tail = next((suffix for suffix, _ in _SUFFIXES if lower.endswith(suffix)), "")
         words = [w for w in re.split(r"[^a-z0-9]+", lower.removesuffix(tail)) if w]
-    return tuple(w for w in words if w not in _PARTS and w not in ("deg", "rad"))
+    return tuple(w for w in words if w not in _PARTS and w not in ("deg", "rad", _UNWRAPPED))
 
 
 def amplitude_factor(name: str) -> float:
@@ -169,12 +176,22 @@ def radians(source: str, name: str, values: NDArray[np.float64]) -> NDArray[np.f
     said = unit.strip().lower() or next((w for w in words if w in _ANGLES), "")
     if said and said not in _ANGLES:
         raise NotSaid(f"{source}: {name}: in {unit!r}, expected deg or rad")
-    if not said and np.any(values) and np.max(np.abs(values)) <= _MOST_RAD:
+    if not said and np.any(values) and _most(values) <= _MOST_RAD:
         raise NotSaid(
-            f"{source}: {name}: no more than {np.max(np.abs(values)):.3g} in size, are these rad? "
+            f"{source}: {name}: no more than {_most(values):.3g} in size, are these rad? "
             "expected deg or rad in its name"
         )
+    if said == "rad" and _UNWRAPPED not in words and _most(values) > _MOST_SAID_RAD:
+        raise NotSaid(
+            f"{source}: {name}: up to {_most(values):.4g}, are these degrees? expected 'unwrapped' in its "
+            "name where they are not"
+        )
     return np.asarray(values * _ANGLES[said or "deg"])
+
+
+def _most(values: Array) -> float:
+    """The largest size; 0 of none."""
+    return float(np.nanmax(np.abs(values), initial=0.0))
 
 
 def axis_of(
@@ -207,8 +224,14 @@ def _last_unit(words: list[str], units: dict[str, float]) -> str:
 
 
 def refuse_contradiction(source: str, name: str, unit: Unit) -> None:
-    """Raise `NotSaid` where a name's words and its unit are of different quantities."""
+    """Raise `NotSaid` where a name's words and its unit are of different quantities, or a power is meant."""
     _, words = bracketed(name)
+    density = _DENSITIES & set(words)
+    if density:
+        raise NotSaid(
+            f"{source}: {name}: {min(density)!r} is a power or a density, expected a sine's amplitude, "
+            "or a ratio"
+        )
     stems = [u for word in words if word in _STEMS and (u := unit_of(_STEMS[word])) is not None]
     said = {_QUANTITIES[w] for word in words if (w := word.rstrip("0123456789")) in _QUANTITIES}
     is_other = unit.per is None and bool(said) and unit.quantity not in said

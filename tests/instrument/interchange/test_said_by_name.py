@@ -267,3 +267,18 @@ def test_phases_that_may_be_unwrapped_rad_are_asked_about():
 def test_a_size_below_zero_beside_a_phase_is_asked_about():
     with pytest.raises(BadInput, match=r"FRF magnitude .g/N.: -3 as a size beside a phase: is it in dB"):
         of({"FRF magnitude [g/N]": F - 18.0, "FRF phase [deg]": F})
+
+
+@pytest.mark.parametrize("word", ["PSD", "ASD", "power", "spectral density", "Autopower"])
+def test_a_power_is_no_amplitude(word):
+    with pytest.raises(BadInput, match="is a power or a density"):
+        of({f"Velocity {word} [m/s]": np.abs(V)})
+
+
+def test_radians_of_many_turns_are_asked_about_unless_they_are_unwrapped():
+    size = {"Velocity magnitude [m/s]": np.abs(V)}
+    with pytest.raises(BadInput, match="are these degrees"):
+        of({**size, "Velocity phase [rad]": np.degrees(np.angle(V))})
+    turned = np.angle(V) - 20 * np.pi
+    found = of({**size, "Velocity phase unwrapped [rad]": turned})
+    np.testing.assert_allclose(found.sweeps[0]["velocity_re_m_s"], V.real, atol=1e-12)
