@@ -115,6 +115,15 @@ class BentLaw(CoreLaw):
         """Of the law that is bent."""
         return self.law.objections()
 
+    def breaches(self) -> Array:
+        """Of the law that is bent. Shape (rows,)."""
+        return self.law.breaches()
+
+    def breaches_by_logs(self) -> Array:
+        """The same of its derivatives: the bend does not enter. Shape (rows, names)."""
+        own = self.law.breaches_by_logs()
+        return np.hstack([own, np.zeros((len(own), len(self.bend)))])
+
     def modulus(self, omega: Array) -> Complex:
         """G* in Pa at `omega` in rad/s."""
         g, e = self._bent(np.asarray(omega, dtype=float))

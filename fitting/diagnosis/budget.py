@@ -57,7 +57,7 @@ def _by_source(begun: Begun, passed: Array) -> dict[str, Array]:
     """`passed` is what each row adds to a quantity. Shape (frequencies, rows)."""
     none = begun.none
     data, stated, bend = none.data, none.stated, none.law.bend_count
-    bare = len(none.residuals) - data - stated - bend
+    bare = len(none.residuals) - data - stated - bend - len(none.law.breaches())
     found = _of_readings(begun.evidence, passed[:, :data])
     start = data
     if bare:

@@ -96,7 +96,7 @@ class JointProblem:
         """Of `residuals`. Shape (residuals, unknowns)."""
         at = self._at(x)
         if self._with_slopes is None or self._with_slopes[0] is not at:
-            J = self._jacobian(at.u, *self.response.with_derivatives(at.law, at.u))
+            J = self._jacobian(at.law, at.u, *self.response.with_derivatives(at.law, at.u))
             self._with_slopes = at, J
         return self._with_slopes[1]
 
@@ -110,17 +110,17 @@ class JointProblem:
         both = None if self.response.apart else self.response.with_derivatives(law, u)
         v = both[0] if both else self.response.velocity(law, u)
         r = [self.evidence.residuals(v[self._part]), self._bare(u), u[: self._z]]
-        r += [np.log(law.values[self._n - law.bend_count :]), self._ties(u)]
+        r += [np.log(law.values[self._n - law.bend_count :]), law.breaches(), self._ties(u)]
         self._seen = _Seen(key, law, u, v, np.concatenate(r))
         if both:
-            self._with_slopes = self._seen, self._jacobian(u, *both)
+            self._with_slopes = self._seen, self._jacobian(law, u, *both)
         return self._seen
 
     @property
     def _part(self) -> slice | Mask:
         return slice(None) if self.points is None else self.points
 
-    def _jacobian(self, u: Array, v: Complex, dv: Complex) -> Array:
+    def _jacobian(self, law: CoreLaw, u: Array, v: Complex, dv: Complex) -> Array:
         dv[self._n :][self.logarithmic] *= u[self.logarithmic][:, None]
         dv = dv[np.concatenate([np.ones(self._n, bool), self.free])]
         part = self._part
@@ -129,7 +129,9 @@ class JointProblem:
         known = np.eye(self._n + int(self.free.sum()))
         stated = known[self._n : self._n + self._z]
         bend = known[self._n - self.law.bend_count : self._n]
-        return np.vstack([*rows, self._bare_by(u), stated, bend, self._ties_by()])
+        by_logs = law.breaches_by_logs()
+        breaches = np.hstack([by_logs, np.zeros((len(by_logs), len(known) - self._n))])
+        return np.vstack([*rows, self._bare_by(u), stated, bend, breaches, self._ties_by()])
 
     def _bare(self, u: Array) -> Array:
         """Of the bare plate's frequencies, if there are any."""

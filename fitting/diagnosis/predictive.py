@@ -74,6 +74,9 @@ def checks(
         found["the model's own error"] = float(chi2_above(along @ along / t, len(along)))
     if fitted.stated:
         found["tolerances"] = float(chi2_above(fitted.unexplained / t, fitted.stated))
+    breaches = fitted.law.breaches()
+    if len(breaches):
+        found["causality"] = float(chi2_above(breaches @ breaches / t, len(breaches)))
     parts = 2 if evidence.has_phase else 1
     runs, memory = along_frequency(sweep, whitened, parts, VERDICT.longest_trace, struck)
     excess = may_leave / dof

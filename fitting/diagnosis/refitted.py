@@ -25,7 +25,7 @@ class Refitted:
     """The stated numbers, in standard deviations, then the effects' unknowns. Shape (unknowns,)."""
     velocity_m_s: Complex
     residuals: Array
-    """Whitened; the bare plate's after the sweep's, then the stated numbers', the bend's, the ties'."""
+    """Whitened; the bare plate's after the sweep's, then the stated numbers', bend's, law's and ties'."""
     jacobian: Array
     """To the log parameters of the law, to the stated numbers and to the free unknowns as they are fitted."""
     data: int

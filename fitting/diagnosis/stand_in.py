@@ -20,12 +20,15 @@ def stands_in(problem: DiagnosisProblem, fitted: Refitted) -> str:
     if sum(e.causes for e in effects) > _CAUSES:
         return "so many things at once come near to anything"
     for effect in effects:
-        u = fitted.of(effect)
-        if asks_for_more(effect, u, problem.plate):
-            return f"{effect.name} would be larger than is plausible"
-        if not effect.shows(problem.points, problem.resonances, u):
+        if not effect.shows(problem.points, problem.resonances, fitted.of(effect)):
             return f"no measured points show a {effect.name} by themselves"
-    return ""
+    name = too_large(fitted, problem.plate)
+    return f"{name} would be larger than is plausible" if name else ""
+
+
+def too_large(fitted: Refitted, plate: EnrichedReducedPlate) -> str:
+    """Which of its effects asks for more than is plausible; empty where none does."""
+    return next((e.name for e in fitted.effects if asks_for_more(e, fitted.of(e), plate)), "")
 
 
 def asks_for_more(effect: Effect, u: Array, plate: EnrichedReducedPlate) -> bool:

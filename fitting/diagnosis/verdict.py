@@ -213,6 +213,9 @@ def _against(none: ScoredFit, best: ScoredFit, held_out: Callable[[ScoredFit], f
     worst = weakest(best.checks)
     if worst is not None and worst[1] < VERDICT.check_level:
         return f"would leave such data once in {1 / max(worst[1], 1e-99):.2g} times ({worst[0]})"
+    if best.too_large and len(best.names) > 1:
+        # One of two that goes as far as it may is what a third would be, that is in no catalogue.
+        return f"has more of {best.too_large} than is plausible"
     if _predicts_nothing(none, best, held_out):
         return "does not predict the segments it has not seen"
     return ""

@@ -99,6 +99,17 @@ class CoreLaw:
         """What is unphysical about the parameters together, in words."""
         return []
 
+    def breaches(self) -> Array:
+        """How far the parameters together break what every core keeps, in standard deviations.
+
+        Rows of a fit, as many wherever the parameters are; none by default. Shape (rows,).
+        """
+        return np.empty(0)
+
+    def breaches_by_logs(self) -> Array:
+        """Derivatives of `breaches` to the log parameters. Shape (rows, names)."""
+        return np.empty((0, len(self.names)))
+
     def outside(self, frequency_hz: Array) -> str:
         """Where the law is asked beyond what it was made for, in words; empty for nowhere. Shape (any,)."""
         return ""
