@@ -1,5 +1,7 @@
 """Fits that leave noise and fits that leave more, checked by what data they would have left."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -16,6 +18,7 @@ from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.effects.base import Effect
 from fitting.laws.constant import ConstantModulus
+from fitting.laws.smooth import Smooth
 from fitting.sweep import Sweep
 
 N = 118
@@ -92,6 +95,14 @@ def test_what_is_not_as_it_would_be_left_fails_by_name(what, left, z):
     found = checked(left(), z)
     assert not passes(found)
     assert found[what] < VERDICT.check_level
+
+
+@pytest.mark.parametrize(("loss_factor", "stands"), [(2.0, True), (0.9, True), (0.2, False)])
+def test_a_law_without_a_formula_must_be_that_of_a_core(loss_factor, stands):
+    rises = Smooth((10.0, 1000.0), (1e5, 1e7), (loss_factor, loss_factor))
+    one = replace(fitted(white(0)), law=rises)
+    found = checks(SWEEP, EVIDENCE, one, one)
+    assert (found["causality"] >= VERDICT.check_level) == stands
 
 
 def test_the_noise_itself_is_known_to_a_tenth_or_so():

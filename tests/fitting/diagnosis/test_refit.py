@@ -11,6 +11,7 @@ from fitting.diagnosis.of_files import EACH, OfFiles
 from fitting.diagnosis.refit import refit
 from fitting.effects import CATALOGUE
 from fitting.laws.constant import ConstantModulus
+from fitting.laws.smooth import Smooth
 
 LAW = ConstantModulus(0.5e6, 0.5)
 SOFTNESS = 5e13
@@ -33,6 +34,17 @@ class Reads:
         dv[0, 0] = dv[1, 1] = 1.0
         for k in range(self.files):
             dv[2 + k, 2 + k] = -gives[k] / u[k]
+        return v, dv
+
+
+class OfSmooth(Reads):
+    """The same of a law with four numbers."""
+
+    def with_derivatives(self, law, u):
+        v, dv = self.velocity(law, u), np.zeros((4 + len(u), 4 + self.files), complex)
+        dv[:4, :4] = np.eye(4)
+        for k in range(self.files):
+            dv[4 + k, 4 + k] = -SOFTNESS / u[k] ** 2
         return v, dv
 
 
@@ -104,3 +116,19 @@ def test_no_slope_is_worked_out_where_a_step_is_not_taken():
         problem.condensed(x)
         problem.jacobian(x)
         assert slopes.call_count == 1
+
+
+def test_a_law_that_no_core_can_have_pays_for_it_and_is_followed_to_one_that_can():
+    effect = OfFiles(CATALOGUE["clamp_compliance"], 2, EACH)
+    steep = Smooth((10.0, 1000.0), (1e5, 4e6), (0.4, 0.3))
+    measured = np.concatenate([np.log(steep.values), [2.0, 0.5]]).astype(complex)
+    sigma = np.array([1.0] * 4 + [0.01, 0.1])
+    evidence = Evidence(measured, sigma, sigma, np.zeros((12, 1)), True)
+    start = np.array([SOFTNESS, SOFTNESS, EACH])
+    problem = JointProblem(OfSmooth(effect, 2), evidence, steep, start, None)
+    x, h = problem.start + 0.01, 1e-6
+    each = [(problem.residuals(x + s) - problem.residuals(x - s)) / (2 * h) for s in h * np.eye(len(x))]
+    np.testing.assert_allclose(problem.jacobian(x), np.transpose(each), rtol=1e-4, atol=1e-4)
+    found = refit(OfSmooth(effect, 2), evidence, steep, start)
+    assert found.law.breaches().max() < 0.6 * steep.breaches().max()
+    assert found.chi2 < np.sum(steep.breaches() ** 2)

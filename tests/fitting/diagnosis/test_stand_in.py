@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fitting.diagnosis.stand_in import asks_for_more, stands_in
+from fitting.diagnosis.stand_in import asks_for_more, stands_in, too_large
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Points
 
@@ -41,6 +41,7 @@ def fitted(**effects):
 def test_an_explanation_says_why_it_may_stand_in(effects, why):
     said = stands_in(PROBLEM, fitted(**effects))
     assert said.startswith(why) or why in said
+    assert too_large(fitted(**effects), PLATE) == ("viscous_damping" if "larger" in why else "")
     assert bool(said) == bool(why)
 
 

@@ -20,10 +20,10 @@ EVEN = 2 * np.log(VERDICT.credible / (1 - VERDICT.credible))
 """In cost: so far below another, an explanation has just the probability that is asked for."""
 
 
-def scored(*names, cost, fails=False, stands_in=""):
+def scored(*names, cost, fails=False, stands_in="", too_large=""):
     fitted = SimpleNamespace(effects=tuple(CATALOGUE[name] for name in names))
     checks = {"size": 0.5, "signs": 0.1 * VERDICT.check_level if fails else 0.5}
-    return ScoredFit(fitted, cost, checks, stands_in)
+    return ScoredFit(fitted, cost, checks, stands_in, too_large)
 
 
 def judged(none, *scored_fits, hidden=(), off=None):
@@ -308,3 +308,16 @@ def test_beside_another_what_stands_in_is_never_certain(names):
     said = judged(POOR_NONE, pair, off={names: 1.0, (): 9.0})
     assert (said.verdict, said.accepted.names, said.confirmed) == ("ambiguous", names, True)
     assert judged(POOR_NONE, scored("added_masses", cost=0.0)).verdict == "effect"
+
+
+def test_of_two_effects_none_may_be_larger_than_is_plausible():
+    how = {"stands_in": "too large", "too_large": "added_mass"}
+    pair = scored("added_mass", "gain_error", cost=0.0, **how)
+    alone = judged(POOR_NONE, pair, off={pair.names: 1.0, (): 9.0})
+    assert (alone.verdict, alone.refused) == ("unknown", pair.names)
+    assert alone.why == "has more of added_mass than is plausible"
+    beside = judged(POOR_NONE, pair, scored("spot_offset", cost=1.0))
+    assert (beside.verdict, beside.accepted.names) == ("ambiguous", ("spot_offset",))
+    # A single one that is far larger than usual may be just that.
+    single = judged(POOR_NONE, scored("added_mass", cost=0.0, **how))
+    assert (single.verdict, single.accepted.names) == ("effect", ("added_mass",))

@@ -1,14 +1,16 @@
 import numpy as np
 import pytest
 from conftest import TABLE_4
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from fitting.bent_law import BentLaw
 from fitting.errors import OutsideModel
 from fitting.identification import direct
 from fitting.identification.model import SweepModel
 from fitting.identification.residuals import Residuals
 from fitting.laws.constant import ConstantModulus
+from fitting.laws.generalised_maxwell import GeneralisedMaxwell
 from fitting.laws.smooth import Smooth
 from fitting.noise import noise_of
 from instrument.campaign.bench import synthetic_sweep
@@ -123,3 +125,61 @@ def test_a_sweep_gives_the_curve_back_whatever_the_start(residuals, start):
     # Measured: within 0.2 % and 0.42 % in the regions.
     np.testing.assert_allclose(G, G_true, rtol=0.004)
     np.testing.assert_allclose(eta, eta_true, rtol=0.008)
+
+
+SERIES = st.lists(st.tuples(st.floats(-6, 1), st.floats(-3, 3)), min_size=1, max_size=6)
+"""Logarithms of relaxation times in s and of weights over the modulus at rest."""
+
+
+@given(SERIES)
+def test_what_relaxes_keeps_the_bounds(terms):
+    tau, weights = (10.0**x for x in np.array(terms).T)
+    f = np.geomspace(1, 1000, 4001)
+    s = 2j * np.pi * np.multiply.outer(f, tau)
+    G = 1 + (s / (1 + s)) @ weights
+    rise, loss = (np.gradient(np.log(part), np.log(f)) for part in (G.real, G.imag))
+    assert np.all(rise > -1e-6)
+    assert np.all(rise < G.imag / G.real + 1e-4)
+    assert np.all(np.abs(loss) < 1 + 1e-3)
+
+
+@given(SERIES)
+def test_a_smooth_law_through_what_relaxes_hardly_breaks_them(terms):
+    tau, weights = (10.0**x for x in np.array(terms).T)
+    law = GeneralisedMaxwell(1e5, tuple((1e5 * weights).tolist()), tuple(tau.tolist()))
+    eta = law.storage_and_loss(BAND)[1]
+    assume(eta.min() > 1e-3 and eta.max() < 5)
+    assert np.all(Smooth.through(law, np.geomspace(14, 300, 16)).breaches() < 0.5)
+
+
+def test_a_modulus_that_rises_faster_than_its_losses_allow_pays_for_it():
+    steep = Smooth((10.0, 1000.0), (1e5, 1e7), (0.4, 0.4))
+    np.testing.assert_allclose(steep.breaches(), [6.0] * 4 + [0.0] * 8, atol=1e-9)
+
+
+def test_so_does_one_that_falls_and_losses_that_grow_faster_than_a_dashpots():
+    falling = Smooth((10.0, 1000.0), (1e6, 5e5), (0.4, 0.4))
+    np.testing.assert_allclose(falling.breaches()[4:8], np.log(2) / np.log(100) / 0.1)
+    growing = Smooth((10.0, 1000.0), (1e6, 1e6), (0.01, 10.0))
+    np.testing.assert_allclose(growing.breaches()[8:], (np.log(1000) / np.log(100) - 1) / 0.1)
+
+
+def test_derivatives_of_what_it_pays_hold():
+    law = Smooth((14.0, 50.0, 120.0, 300.0), (3e4, 4e5, 3e5, 3e6), (0.05, 0.5, 2.0, 0.05))
+    logs, h = np.log(law.values), 1e-6
+    each = [
+        (law.with_logs(logs + s).breaches() - law.with_logs(logs - s).breaches()) / (2 * h)
+        for s in h * np.eye(len(logs))
+    ]
+    assert {part.any() for part in np.split(law.breaches(), 3)} == {True}
+    np.testing.assert_allclose(law.breaches_by_logs(), np.transpose(each), atol=1e-6)
+
+
+def test_bent_it_pays_what_it_pays_unbent():
+    steep = Smooth((10.0, 1000.0), (1e5, 1e7), (0.4, 0.4))
+    bent = BentLaw.over(steep, np.array([10.0, 1000.0]))
+    np.testing.assert_array_equal(bent.breaches(), steep.breaches())
+    own, whole = steep.breaches_by_logs(), bent.breaches_by_logs()
+    np.testing.assert_array_equal(whole[:, : own.shape[1]], own)
+    assert whole.shape == (len(own), len(bent.names))
+    assert not whole[:, own.shape[1] :].any()
