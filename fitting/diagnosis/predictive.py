@@ -17,6 +17,8 @@ from fitting.diagnosis.thresholds import VERDICT
 from fitting.effects.base import Effect
 from fitting.sweep import Sweep
 
+TOLERANCES = "tolerances"
+"""Name of the check of the stated numbers."""
 NONE_ALONE: Mapping[str, float] = MappingProxyType({})
 
 
@@ -73,7 +75,7 @@ def checks(
     if len(along):
         found["the model's own error"] = float(chi2_above(along @ along / t, len(along)))
     if fitted.stated:
-        found["tolerances"] = float(chi2_above(fitted.unexplained / t, fitted.stated))
+        found[TOLERANCES] = _of_stated_numbers(fitted, t)
     breaches = fitted.law.breaches()
     if len(breaches):
         found["causality"] = float(chi2_above(breaches @ breaches / t, len(breaches)))
@@ -90,6 +92,21 @@ def checks(
 def _scatter(dof: int) -> float:
     """Standard deviation of ln of a mean square: its own scatter, and the noise's."""
     return float(np.hypot(2 * VERDICT.noise_known_to, np.sqrt(2 / dof)))
+
+
+def _of_stated_numbers(fitted: Refitted, temper: float) -> float:
+    """Tail probability of where the data moved the stated numbers, over what they say anything of.
+
+    In their standard deviations the fit's z scatters about zero as I - C, C its covariance: what the data
+    narrow by nothing stays where it is. All of them counted alike would hide the few that are asked.
+    """
+    stated = len(fitted.law.names) + np.arange(fitted.stated)
+    took, V = np.linalg.eigh(np.eye(fitted.stated) - fitted.covariance[np.ix_(stated, stated)])
+    asked = took > VERDICT.narrowed
+    if not asked.any():
+        return 1.0
+    moved = (V.T @ fitted.z)[asked] ** 2 / took[asked]
+    return float(chi2_above(moved.sum() / temper, int(asked.sum())))
 
 
 def most_unrefused(none: Refitted, effects: Sequence[Effect]) -> float:

@@ -12,13 +12,13 @@ from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.executor import Call, Executor
 from fitting.diagnosis.looks import has_place, look
 from fitting.diagnosis.marginal import cost
-from fitting.diagnosis.predictive import checks, form_error, most_unrefused, passes, temper
+from fitting.diagnosis.predictive import TOLERANCES, checks, form_error, most_unrefused, passes, temper
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import refit
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.stand_in import stands_in, too_large
-from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.thresholds import SEARCH, VERDICT
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.identification.validation import Validation
@@ -52,6 +52,12 @@ class ScoredFit:
     def fails(self) -> bool:
         """Whether such data are not what it would leave."""
         return not passes(self.checks)
+
+    @property
+    def strains(self) -> float | None:
+        """How improbable it is that the stated numbers are where it has them; None where that is no doubt."""
+        p = self.checks.get(TOLERANCES, 1.0)
+        return p if p < VERDICT.doubted else None
 
 
 class Search:

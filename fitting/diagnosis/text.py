@@ -63,6 +63,11 @@ def explain(
         said.append(_moved(problem, scored.fitted))
     if scored.stands_in and not judgement.by_hand:
         said.append(f"It may stand in for what is not known: {scored.stands_in}.")
+    if scored.strains is not None and not judgement.by_hand:
+        said.append(
+            f"It has stated numbers as far off as they are once in {1 / scored.strains:.2g} times, and may "
+            "stand in for what is not known."
+        )
     for name, group in judgement.equivalent.items():
         others = [n for n in group if n not in (name, NONE)]
         if others:

@@ -26,7 +26,12 @@ class VerdictThresholds:
     worth_saying: float = 0.1
     """Probability of an effect that is not named from which it is spoken of: one in ten is no surprise."""
     check_level: float = 1e-4
-    """Tail probability below which an explanation fails; five checks refuse one true one in 2000 at most."""
+    """Tail probability below which an explanation fails; six checks refuse one true one in 1600 at most."""
+    narrowed: float = 0.3
+    """Of the variance of a stated number, or a sum of them, what the data must take for it to be asked in the
+    check of the tolerances: what they say nothing of stays as stated whatever the cause is."""
+    doubted: float = 0.01
+    """Tail probability in that check below which an explanation is not certain: one true one in a hundred."""
     poor: float = 3.0
     """Times the noise: a law that predicts held-out segments worse explains nothing ..."""
     hardly_better: float = 0.5

@@ -20,9 +20,9 @@ EVEN = 2 * np.log(VERDICT.credible / (1 - VERDICT.credible))
 """In cost: so far below another, an explanation has just the probability that is asked for."""
 
 
-def scored(*names, cost, fails=False, stands_in="", too_large=""):
+def scored(*names, cost, fails=False, stands_in="", too_large="", tolerances=0.5):
     fitted = SimpleNamespace(effects=tuple(CATALOGUE[name] for name in names))
-    checks = {"size": 0.5, "signs": 0.1 * VERDICT.check_level if fails else 0.5}
+    checks = {"size": 0.5, "tolerances": tolerances, "signs": 0.1 * VERDICT.check_level if fails else 0.5}
     return ScoredFit(fitted, cost, checks, stands_in, too_large)
 
 
@@ -321,3 +321,11 @@ def test_of_two_effects_none_may_be_larger_than_is_plausible():
     # A single one that is far larger than usual may be just that.
     single = judged(POOR_NONE, scored("added_mass", cost=0.0, **how))
     assert (single.verdict, single.accepted.names) == ("effect", ("added_mass",))
+
+
+@pytest.mark.parametrize(("p", "verdict"), [(0.02, "effect"), (0.005, "ambiguous"), (5e-5, "unknown")])
+def test_what_has_stated_numbers_further_off_than_they_are_is_not_certain(p, verdict):
+    said = judged(POOR_NONE, scored("spot_offset", cost=0.0, tolerances=p))
+    assert said.verdict == verdict
+    if verdict == "ambiguous":
+        assert said.equivalent == {"spot_offset": ("spot_offset",)}

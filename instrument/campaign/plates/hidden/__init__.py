@@ -40,6 +40,7 @@ _CLASSES: tuple[type[Hidden], ...] = (
     strange.HiddenCrackedSubstrate,
     strange.HiddenWrinkledConstraining,
     strange.HiddenStiffener,
+    strange.HiddenBlister,
 )
 HIDDEN: dict[str, type[Hidden]] = {h.name: h for h in _CLASSES}
 """Every effect by its name; those of the diagnosis's catalogue first."""

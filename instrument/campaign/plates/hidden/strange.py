@@ -91,6 +91,37 @@ class HiddenWrinkledConstraining(Hidden):
 
 
 @dataclass(frozen=True)
+class HiddenBlister(Hidden):
+    """Air under the treatment: the core holds to nothing in a round spot."""
+
+    name: ClassVar[str] = "blister"
+    place: ClassVar[str] = "core"
+    near: ClassVar[tuple[str, ...]] = ("partial_debond",)
+    in_catalogue: ClassVar[bool] = False
+    changes_solid: ClassVar[bool] = True
+
+    x_m: float
+    y_m: float
+    radius_m: float
+    edge_m: float
+    """Over which the bond recovers."""
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenBlister":
+        sides = np.array([at.plate.length_m, at.plate.width_m])
+        radius = float(rng.uniform(0.08, 0.2) * sides.min())
+        x, y = (rng.uniform(0.05, 0.95, 2) * sides).tolist()
+        return cls(x, y, radius, radius * float(rng.uniform(0.1, 0.3)))
+
+    def build(self, build: Build, true: TruePlate) -> Build:
+        def factor(x: Array, y: Array) -> Array:
+            away = np.hypot(x - self.x_m, y - self.y_m)
+            return np.asarray(1 - 0.985 * (1 - np.tanh((away - self.radius_m) / self.edge_m)) / 2)
+
+        return replace(build, core_factor=times(build.core_factor, factor))
+
+
+@dataclass(frozen=True)
 class HiddenStiffener(Hidden):
     """A strip that somebody stuck on: a label, a strain gauge's carrier. Stiff where it is, and heavy."""
 
