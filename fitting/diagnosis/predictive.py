@@ -75,7 +75,7 @@ def checks(
     if len(along):
         found["the model's own error"] = float(chi2_above(along @ along / t, len(along)))
     if fitted.stated:
-        found[TOLERANCES] = _of_stated_numbers(fitted, t)
+        found[TOLERANCES] = of_stated_numbers(fitted, t)
     breaches = fitted.law.breaches()
     if len(breaches):
         found["causality"] = float(chi2_above(breaches @ breaches / t, len(breaches)))
@@ -94,7 +94,7 @@ def _scatter(dof: int) -> float:
     return float(np.hypot(2 * VERDICT.noise_known_to, np.sqrt(2 / dof)))
 
 
-def _of_stated_numbers(fitted: Refitted, temper: float) -> float:
+def of_stated_numbers(fitted: Refitted, temper: float = 1.0) -> float:
     """Tail probability of where the data moved the stated numbers, over what they say anything of.
 
     In their standard deviations the fit's z scatters about zero as I - C, C its covariance: what the data

@@ -92,11 +92,6 @@ class Refitted:
         return is_within_reach(self.chi2, goal, self.pace)
 
     @property
-    def unexplained(self) -> float:
-        """What the stated numbers had to be moved: their sum of squares."""
-        return float(self.z @ self.z)
-
-    @property
     def covariance(self) -> Array:
         """Of the fitted parameters, scaled by the residual: only upwards where the noise is known.
 

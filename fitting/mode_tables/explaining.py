@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.chances import chi2_above, normal_above
+from fitting.chances import normal_above
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.looks import Start, promising
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.of_files import OfFiles
-from fitting.diagnosis.predictive import form_error
+from fitting.diagnosis.predictive import TOLERANCES, form_error, of_stated_numbers
 from fitting.diagnosis.refit import ROUGH, refit
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit
@@ -127,5 +127,5 @@ class Explaining:
         spread = np.hypot(2 * VERDICT.noise_known_to, np.sqrt(2 / dof))
         found = {"size": float(normal_above(np.log(max(left, 1e-12)) / spread))}
         if fitted.stated:
-            found["tolerances"] = float(chi2_above(fitted.unexplained, fitted.stated))
+            found[TOLERANCES] = of_stated_numbers(fitted)
         return found
