@@ -5,7 +5,7 @@ Two effects at once are looked for where there is one (`pairs`).
 """
 
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
 from fitting.mode_tables.explaining import Explaining
 from fitting.mode_tables.fit import BegunModal, begin_modal
+from fitting.mode_tables.misread import Misread, misread
 from fitting.mode_tables.pairs import best_pairs, called_for
 from fitting.mode_tables.problem import ModalProblem
 
@@ -35,6 +36,8 @@ class DiagnosedModes:
     scored: tuple[ScoredFit, ...]
     """Best first, the one without effects among them."""
     temper: float
+    odd: Misread | None = None
+    """The mode that does not go with the others, where that says more than any effect."""
 
 
 def diagnose_modes(
@@ -66,6 +69,10 @@ def diagnose_modes(
     judgement = judge(none, found, hidden=frozenset(), held_out=work.held_out)
     report(1.0)
     every = sorted([none, *found], key=_cost)
+    odd = misread(begun)
+    if odd is not None and odd.says_more_than(every[0], begun.problem.response().plate):
+        unknown = replace(judgement, verdict="unknown", accepted=None, equivalent={})
+        return DiagnosedModes(begun, unknown, tuple(every), t, odd)
     return DiagnosedModes(begun, _in_light_of_the_law(work, none, seen, judgement), tuple(every), t)
 
 

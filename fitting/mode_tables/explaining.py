@@ -15,6 +15,7 @@ from fitting.diagnosis.predictive import TOLERANCES, form_error, of_stated_numbe
 from fitting.diagnosis.refit import ROUGH, refit
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit
+from fitting.diagnosis.stand_in import too_large
 from fitting.diagnosis.thresholds import SEARCH, VERDICT
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
@@ -86,7 +87,8 @@ class Explaining:
     def scored(self, fitted: Refitted, temper: float = 1.0) -> ScoredFit:
         """A fit with what it is worth where what was explained is `temper` times as far above the noise."""
         plate = self.begun.problem.response(fitted.effects).plate
-        return ScoredFit(fitted, cost(fitted, plate, temper), self._checks(fitted))
+        large = too_large(fitted, plate)
+        return ScoredFit(fitted, cost(fitted, plate, temper), self._checks(fitted), too_large=large)
 
     def held_out(self, scored: ScoredFit) -> float:
         """Rms error of every mode predicted from all others, in its standard deviations.

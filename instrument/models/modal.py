@@ -21,8 +21,9 @@ from fitting.laws import CoreLaw
 from fitting.laws.constant import ConstantModulus
 from fitting.mode_tables.build import member_of, own_motions
 from fitting.mode_tables.diagnose import DiagnosedModes, diagnose_modes
-from fitting.mode_tables.fit import ModalFit, fit_problem, problem_of, start_of
+from fitting.mode_tables.fit import ModalFit, begin_modal, modal_fit_of, problem_of, start_of
 from fitting.mode_tables.formulas import ByFormula, by_formula
+from fitting.mode_tables.misread import Misread, misread
 from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.standing import standing
 from fitting.mode_tables.table import ModalTable
@@ -73,7 +74,8 @@ def identify_tables(
     with threadpool_limits(1, "blas"), progress("fitting modes"):
         problem = problem_of(tables, specimens)
         ready = perf_counter()
-        found = fit_problem(problem, start)
+        begun = begin_modal(problem, start)
+        found, odd = modal_fit_of(begun), misread(begun)
     theory = check_theories(found.law, tables, specimens)
     formulas = tuple(
         by_formula(t, s, found.law, bare) if isinstance(s, Beam) else ()
@@ -81,7 +83,8 @@ def identify_tables(
     )
     seconds = perf_counter() - ready
     reads = remark_on_reading(problem.members, found.law)
-    said = (*remark_on_fit(found, tables), *theory, *reads, *remarks_on_tables(tables, specimens))
+    left = (remark_on_misread(odd, tables),) if odd is not None else remark_on_fit(found, tables)
+    said = (*left, *theory, *reads, *remarks_on_tables(tables, specimens))
     return TablesIdentified(found, seconds, said, formulas, ready - began)
 
 
@@ -95,6 +98,8 @@ class TablesDiagnosed:
     setup_seconds: float
     seconds: float
     remarks: tuple[str, ...]
+    misread: str = ""
+    """Which mode does not go with the others, where that says more than any effect."""
 
 
 def diagnose_tables(
@@ -128,7 +133,8 @@ def diagnose_tables(
     law = accepted.fitted.law if accepted else found.begun.none.law
     reads = remark_on_reading(members, law)
     remarks = (*check_theories(law, tables, specimens), *reads, *remarks_on_tables(tables, specimens))
-    return TablesDiagnosed(found, effects, ready - began, perf_counter() - ready, remarks)
+    odd = remark_on_misread(found.odd, tables) if found.odd is not None else ""
+    return TablesDiagnosed(found, effects, ready - began, perf_counter() - ready, remarks, odd)
 
 
 def widened(specimen: Specimen, V: Array, report: Report, reach_hz: float) -> EnrichedReducedPlate:
@@ -170,6 +176,20 @@ def remark_on_fit(fit: ModalFit, tables: Sequence[ModalTable]) -> tuple[str, ...
         f"{two_digits(100 * np.abs(off_eta).max())} % in loss factor: check mode numbers, "
         "and that loss factors are no damping ratios (half of them); else the model lacks something, and "
         "the law may be biased beyond its band",
+    )
+
+
+def remark_on_misread(odd: Misread, tables: Sequence[ModalTable]) -> str:
+    """Which mode does not go with the others, and where they have it."""
+    files = np.repeat(np.arange(len(tables)), [len(t.mode) for t in tables])
+    mode = int(np.concatenate([t.mode for t in tables])[odd.place])
+    table, of_file = tables[files[odd.place]], f" of file {files[odd.place] + 1}" if len(tables) > 1 else ""
+    k = int(np.flatnonzero(table.mode == mode)[0])
+    return (
+        f"mode {mode}{of_file} does not go with the others, which one law explains without any effect: they "
+        f"have it at {odd.frequency_hz:.5g} Hz with a loss factor of {odd.loss_factor:.3g}, the table at "
+        f"{table.frequency_hz[k]:.5g} Hz with {table.loss_factor[k]:.3g}: is it misread, or another motion? "
+        "With this row left out there is a law; with it there is none to be trusted"
     )
 
 

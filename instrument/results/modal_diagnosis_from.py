@@ -20,6 +20,8 @@ from instrument.results.diagnosis_from import candidate_from, parameters_from
 from instrument.results.modal_from import modal_band, percent_off
 from instrument.results.rows_from import adjusted_from, law_rows_from
 
+_READ_AGAIN = "That mode's peak once more, in the record that it was read from; or diagnose without its row."
+
 
 def modal_diagnosis_from(
     diagnosed: TablesDiagnosed, tables: Sequence[ModalTable], names: Sequence[str]
@@ -51,7 +53,9 @@ def modal_diagnosis_from(
         adjusted=adjusted_from(after.adjusted),
         p_value=None,
         nested_held_out_rms_percent=None,
-        next_measurement=text.next_measurement(judgement, catalogue, with_hammer=False),
+        next_measurement=_READ_AGAIN
+        if diagnosed.misread
+        else text.next_measurement(judgement, catalogue, with_hammer=False),
         unseen=(),
         explanation=_explanation(diagnosed, effects, first, last),
         warnings=diagnosed.remarks,
@@ -124,6 +128,8 @@ def _explanation(
 ) -> tuple[str, ...]:
     judgement = diagnosed.found.judgement
     said = [f"One law leaves {two_digits(before.rms_percent)} % rms in frequency."]
+    if diagnosed.misread:
+        return (*said, f"{diagnosed.misread[0].upper()}{diagnosed.misread[1:]}.")
     if judgement.verdict == "none":
         return (*said, "That is what the modes' errors leave: no effect is called for.")
     if judgement.accepted is None:
