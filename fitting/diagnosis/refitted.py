@@ -95,8 +95,9 @@ class Refitted:
     def covariance(self) -> Array:
         """Of the fitted parameters, scaled by the residual: only upwards where the noise is known.
 
-        A parameter of the law that sits at a limit is taken as fixed there; what the data leave open is
-        bounded by the ranges that are searched. Shape (columns, columns) of `jacobian`.
+        A parameter of the law that sits at its upper limit is taken as fixed there; what the data leave open
+        is bounded by the ranges that are searched (`CoreLaw.open_widths`). Shape (columns, columns) of
+        `jacobian`.
         """
         J, kept = self.weighted()
         found = np.zeros((len(kept), len(kept)))
@@ -123,14 +124,14 @@ class Refitted:
         J = self.jacobian[:, kept]
         # An unknown noise is the readings'; a misfit is everyone's.
         J[slice(None) if self.noise_known else slice(self.data)] /= np.sqrt(scale)
-        widths = self.law.search_widths
+        widths = self.law.open_widths
         bounds = np.zeros((len(widths), self.jacobian.shape[1]))
         bounds[:, : len(widths)] = np.diag(1 / widths)
         return np.vstack([J, bounds[:, kept]]), kept
 
     @property
     def _moving(self) -> Mask:
-        """Which columns are of what does not sit at a limit of the law."""
-        fixed = limits_reached(self.law)
+        """Which columns are of what does not sit at a limit of the law; near zero it may still be more."""
+        fixed = {name for name, side in limits_reached(self.law).items() if side != "lower"}
         others = self.jacobian.shape[1] - len(self.law.names)
         return np.array([name not in fixed for name in self.law.names] + [True] * others)

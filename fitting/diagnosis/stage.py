@@ -58,8 +58,8 @@ def _of_law(fitted: Refitted, covariance: Array) -> Uncertainty:
     law = fitted.law
     reached = limits_reached(law)
     n = len(law.names)
-    # What sits at a limit has no first-order error of its own.
-    at_limit = np.array([name in reached for name in law.names])
+    # What sits at an upper limit has no first-order error of its own; near zero it has (`open_widths`).
+    at_limit = np.array([reached.get(name) == "upper" for name in law.names])
     by_law = covariance[:n, :n] * ~np.logical_or.outer(at_limit, at_limit)
     return Uncertainty(by_law, reached, fitted.chi2_per_dof)
 

@@ -67,6 +67,9 @@ def uncertainty_of(fit: Fit, *, noise_is_known: bool) -> Uncertainty:
     covariance = np.zeros((len(names), len(names)))
     if dof <= 0:
         return Uncertainty(covariance * np.nan, at_bound, chi2_per_dof)
+    if fit.covariance is not None:
+        # It knows what is open of a number that ran to zero.
+        free = np.array([at_bound.get(name) != "upper" for name in names])
     block = np.ix_(free, free)
     if fit.covariance is not None:
         covariance[block] = fit.covariance[block]

@@ -197,6 +197,18 @@ class CoreLaw:
         # The variance of a uniform density is its width squared over twelve.
         return np.asarray((high - low) / np.sqrt(12.0))
 
+    @property
+    def open_widths(self) -> Array:
+        """Of what data leave open about where the law is. Shape (parameters,).
+
+        As `search_widths`; but one that ran below the range that is searched is as likely anywhere from zero
+        to the end of that range. In its logarithm it would be sure to be nothing.
+        """
+        widths = self.search_widths
+        low, high = np.array([q.search for q in self.limits[: len(widths)]]).reshape(-1, 2).T
+        values = self.values[: len(widths)]
+        return np.where(values < low, high / values, widths)
+
     def with_logs(self, logs: Array) -> Self:
         """The same law with the exponentials of `logs` as parameters, kept within their limits.
 
