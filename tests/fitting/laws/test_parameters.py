@@ -45,3 +45,11 @@ def test_zero_is_a_value_only_where_it_is_allowed():
     assert Springs((1e6,), 0.0, 1e-3).loss == 0.0
     with pytest.raises(OutsideModel, match="g_mpa = 0"):
         Springs((0.0,), 0.5, 1e-3)
+
+
+def test_what_ran_below_what_is_searched_may_be_anything_from_zero_up():
+    within, below = LAW, Springs((1e3, 2e6), 0.5, 1e-3)
+    np.testing.assert_array_equal(within.open_widths, within.search_widths)
+    np.testing.assert_allclose(
+        below.open_widths * below.values, [1e8, *(within.search_widths * LAW.values)[1:]]
+    )
