@@ -49,7 +49,11 @@ class Card:
                 "WARNING: verdict unknown: the data show structure that nothing in the catalogue explains; "
                 "this law may be biased beyond its band"
             )
-        assumed = " (assumed: not stated in the source)" if self.poisson_is_assumed else " (as stated)"
+        assumed = (
+            " (assumed: not stated in the source; --specimen states it)"
+            if self.poisson_is_assumed
+            else " (as stated)"
+        )
         lines += [
             "units: SI: Pa, s, Hz",
             f"Poisson's ratio: {self.poisson:g}{assumed}, real and constant: bulk and shear relax alike",

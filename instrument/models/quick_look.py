@@ -62,9 +62,11 @@ def _doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> str:
         return f"it looks as if {_RAD_S}"
     as_is = _as_is(sweep, model)
     near = NEAR if len(sweep) * (1 + sweep.has_phase) >= _MANY else SCALED
-    if as_is.distance < near or _as_is(sweep, replace(model, reads=_other(model))).distance < NEAR:
-        # That the laser reads otherwise than stated is the diagnosis's to say.
+    if as_is.distance < near:
         return ""
+    if _as_is(sweep, replace(model, reads=_other(model))).distance < NEAR:
+        # That a laser reads absolute velocities where relative ones are stated is the diagnosis's to say.
+        return _RELATIVE if model.reads == "absolute" else ""
     said = _of_data(sweep, model, as_is, specimen.drive)
     if said is not None:
         return f"it looks as if {said}" if said else ""
@@ -86,6 +88,7 @@ def _doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> str:
     )
 
 
+_RELATIVE = "it looks as if the pickup's reading is relative to the clamp: [pickup] reads says absolute"
 _RAD_S = "the frequencies are in rad/s, expected Hz"
 
 
