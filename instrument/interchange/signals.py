@@ -71,10 +71,11 @@ def signals_of(source: str, table: Named, others: Collection[str]) -> list[Signa
 
 
 def _lend_phase(table: Named, parts: dict[tuple[str, ...], dict[Part, str]]) -> None:
-    """A phase that does not say of what is that of the only size, beside which there may be a base's."""
-    lent = parts.get(())
-    if lent is None or set(lent) != {"phase"}:
+    """A phase that says no more than the only size does is that one's, beside which there may be a base's."""
+    alone = [stem for stem, names in parts.items() if set(names) == {"phase"}]
+    if len(alone) != 1:
         return
+    (of,) = alone
     sizes = [
         (stem, names)
         for stem, names in parts.items()
@@ -82,10 +83,9 @@ def _lend_phase(table: Named, parts: dict[tuple[str, ...], dict[Part, str]]) -> 
         and set(names) in ({"whole"}, {"magnitude"})
         and not any(np.iscomplexobj(table[name]) for name in names.values())
     ]
-    readings = [stem for stem in parts if stem and not BASE & set(stem)]
-    if len(sizes) == len(readings) == 1:
-        sizes[0][1]["phase"] = lent["phase"]
-        del parts[()]
+    readings = [stem for stem in parts if stem != of and not BASE & set(stem)]
+    if len(sizes) == len(readings) == 1 and set(of) <= set(sizes[0][0]):
+        sizes[0][1]["phase"] = parts.pop(of)["phase"]
 
 
 def _signal(source: str, table: Named, stem: tuple[str, ...], names: dict[Part, str]) -> Signal | None:

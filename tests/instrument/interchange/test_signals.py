@@ -28,3 +28,14 @@ def test_a_phase_of_nothing_said_is_that_of_the_only_size():
 def test_one_part_alone_is_refused():
     with pytest.raises(BadInput, match="its other part is missing"):
         signals_of("table", {"Velocity re [m/s]": SIZE}, [])
+
+
+def test_a_phase_that_says_less_than_the_only_size_is_that_ones():
+    table = {"FRF Masse/Fuß [dB re 1 g/g]": np.array([-20.0, 0.0]), "FRF Phase [°]": TURN}
+    (frf,) = signals_of("table", table, [])
+    np.testing.assert_allclose(frf.values, [0.1, 1.0] * np.exp(1j * np.radians(TURN)))
+
+
+def test_a_phase_of_something_else_is_nobodys():
+    (velocity,) = signals_of("table", {"Velocity [m/s]": SIZE, "Force phase [deg]": TURN}, [])
+    assert not np.iscomplexobj(velocity.values)
