@@ -59,17 +59,12 @@ class BegunModal:
 
 def fit_modes(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> ModalFit:
     """The law of all tables. Raises `TooFewPoints`, `OutsideModel`."""
-    return fit_problem(problem_of(tables, specimens), start_of(tables, specimens))
+    return modal_fit_of(begin_modal(problem_of(tables, specimens), start_of(tables, specimens)))
 
 
 def problem_of(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> ModalProblem:
     """Tables with the models of their specimens."""
     return ModalProblem.of([member_of(t, s) for t, s in zip(tables, specimens, strict=True)])
-
-
-def fit_problem(problem: ModalProblem, start: CoreLaw) -> ModalFit:
-    """The law without any effect. Raises as `fit_modes`."""
-    return modal_fit_of(begin_modal(problem, start))
 
 
 def begin_modal(

@@ -38,11 +38,6 @@ class Misread:
     others: Refitted
     """Their fit, without any effect."""
 
-    @property
-    def chi2_per_dof(self) -> float:
-        """Of the others."""
-        return self.others.chi2_per_dof
-
     def says_more_than(self, best: ScoredFit, plate: EnrichedReducedPlate) -> bool:
         """Whether an explanation of all modes is plainly less likely, `plate` that of no effect.
 

@@ -181,14 +181,16 @@ def remark_on_fit(fit: ModalFit, tables: Sequence[ModalTable]) -> tuple[str, ...
 
 def remark_on_misread(odd: Misread, tables: Sequence[ModalTable]) -> str:
     """Which mode does not go with the others, and where they have it."""
-    files = np.repeat(np.arange(len(tables)), [len(t.mode) for t in tables])
-    mode = int(np.concatenate([t.mode for t in tables])[odd.place])
-    table, of_file = tables[files[odd.place]], f" of file {files[odd.place] + 1}" if len(tables) > 1 else ""
-    k = int(np.flatnonzero(table.mode == mode)[0])
+    mode, f, eta = (
+        np.concatenate([getattr(t, name) for t in tables])[odd.place]
+        for name in ("mode", "frequency_hz", "loss_factor")
+    )
+    file = int(np.searchsorted(np.cumsum([len(t.mode) for t in tables]), odd.place, "right")) + 1
+    of_file = f" of file {file}" if len(tables) > 1 else ""
     return (
-        f"mode {mode}{of_file} does not go with the others, which one law explains without any effect: they "
-        f"have it at {odd.frequency_hz:.5g} Hz with a loss factor of {odd.loss_factor:.3g}, the table at "
-        f"{table.frequency_hz[k]:.5g} Hz with {table.loss_factor[k]:.3g}: is it misread, or another motion? "
+        f"mode {mode:g}{of_file} does not go with the others, which one law explains without any effect: "
+        f"they have it at {odd.frequency_hz:.5g} Hz with a loss factor of {odd.loss_factor:.3g}, the table at "
+        f"{f:.5g} Hz with {eta:.3g}: is it misread, or another motion? "
         "With this row left out there is a law; with it there is none to be trusted"
     )
 

@@ -33,7 +33,7 @@ def test_the_odd_row_is_found_and_where_the_others_have_it(k, f, eta):
     assert odd.place == k
     assert odd.frequency_hz == pytest.approx(table.frequency_hz[k], rel=0.01)
     assert odd.loss_factor == pytest.approx(table.loss_factor[k], rel=0.25)
-    assert odd.chi2_per_dof < 3
+    assert odd.others.chi2_per_dof < 3
 
 
 @pytest.mark.parametrize("seed", range(12))

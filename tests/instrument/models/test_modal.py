@@ -10,7 +10,7 @@ from plate_files import plate_text
 
 from fitting.mode_tables.fit import fit_modes
 from instrument.cli.main import run
-from instrument.models.modal import remark_on_fit
+from instrument.models.modal import remark_on_fit, remark_on_misread
 
 
 @pytest.mark.long
@@ -101,3 +101,16 @@ def test_a_fit_that_leaves_the_modes_says_so():
     assert said.startswith("the modes are off by 5.6 times what their errors explain")
     assert "1 % in frequency and 50 % in loss factor" in said
     assert "no damping ratios" in said
+
+
+def test_the_row_that_does_not_go_with_the_others_is_named_with_its_file_and_where_they_have_it():
+    def table(*f):
+        return SimpleNamespace(
+            mode=np.arange(2.0, 2 + len(f)), frequency_hz=np.array(f), loss_factor=0.1 * np.array(f)
+        )
+
+    odd = SimpleNamespace(place=3, frequency_hz=4.25, loss_factor=0.5)
+    said = remark_on_misread(odd, [table(1.0, 2.0, 3.0), table(4.0, 5.0)])
+    assert said.startswith("mode 2 of file 2 does not go with the others")
+    assert "at 4.25 Hz with a loss factor of 0.5, the table at 4 Hz with 0.4" in said
+    assert remark_on_misread(odd, [table(1.0, 2.0, 3.0, 4.0)]).startswith("mode 5 does not go")
