@@ -189,8 +189,8 @@ def remark_on_misread(odd: Misread, tables: Sequence[ModalTable]) -> str:
     of_file = f" of file {file}" if len(tables) > 1 else ""
     return (
         f"mode {mode:g}{of_file} does not go with the others, which one law explains without any effect: "
-        f"they have it at {odd.frequency_hz:.5g} Hz with a loss factor of {odd.loss_factor:.3g}, the table at "
-        f"{f:.5g} Hz with {eta:.3g}: is it misread, or another motion? "
+        f"they have it at {odd.frequency_hz:.5g} Hz with a loss factor of {odd.loss_factor:.3g}, the table "
+        f"at {f:.5g} Hz with {eta:.3g}: is it misread, or another motion? "
         "With this row left out there is a law; with it there is none to be trusted"
     )
 
