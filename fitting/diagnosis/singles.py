@@ -124,7 +124,7 @@ class Singles:
         enough = (
             self._search.none.cost - scored.cost > SEARCH.promising and best.chi2_per_dof < SEARCH.unclear
         )
-        return enough and not scored.fails and not any(e.replaces_law for e in best.effects)
+        return enough and not scored.fails and not _may_stand_for_another(scored)
 
     def _leans(self, scored: ScoredFit) -> bool:
         """Whether a fit, begun where no law will do, has kept stated numbers that were moved there.
@@ -242,8 +242,7 @@ class Singles:
             }
             return [name for name in sized if name in near and has_place(self._effects[name])]
         names = [t.names[0] for t in order if t.cost < order[0].cost + SEARCH.near]
-        best = order[0].fitted
-        if not best.chi2_per_dof < SEARCH.unclear or any(e.replaces_law for e in best.effects):
+        if not order[0].fitted.chi2_per_dof < SEARCH.unclear or _may_stand_for_another(order[0]):
             plain = self._search.order_of_plain()[: SEARCH.leaders] if self._astray else []
             names = [*plain, *names, *(t.names[0] for t in order[: SEARCH.leaders])]
         return [name for name in dict.fromkeys(names) if name in sized]
@@ -257,3 +256,8 @@ class Singles:
         if not all(t.fails for t in leading):
             return []
         return [t.names[0] for t in leading if has_place(self._effects[t.names[0]])]
+
+
+def _may_stand_for_another(scored: ScoredFit) -> bool:
+    """Whether it is another law, or larger than is plausible: what it explains may be another effect's."""
+    return bool(scored.too_large) or any(e.replaces_law for e in scored.fitted.effects)

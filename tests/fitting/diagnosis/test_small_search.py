@@ -132,6 +132,20 @@ def test_a_rough_fit_that_leads_and_was_on_its_way_is_followed_to_its_end_once(h
     assert (GAIN,) in {f.effects for f in followed}
 
 
+def test_what_would_be_larger_than_is_plausible_settles_nothing_for_the_others(high):
+    search = high.search(MASS, GAIN)
+    singles = Singles(search, lambda fraction: None)
+    best = singles.best()[0]
+    assert singles._explains_all(best)
+    assert not singles._explains_all(replace(best, too_large="gain_error"))
+    # Whatever it explains, the others are gone into once more as if it explained nothing.
+    for too_large, asked in (("", {"gain_error"}), ("gain_error", {"gain_error", "added_mass"})):
+        again = Singles(search, lambda fraction: None)
+        failing = replace(best, checks={"size": 0.0}, too_large=too_large)
+        again._found = singles._found | {"gain_error": failing}
+        assert set(again._worth_more()) == asked
+
+
 def test_what_has_been_followed_to_a_goal_is_followed_again_only_to_an_easier_one(high, monkeypatch):
     asked, plain = [], CandidateFits.finished
 
