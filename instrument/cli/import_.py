@@ -28,7 +28,8 @@ def import_(file: Path, out: Path | None, columns: str | None, json_path: str | 
     """FILE (.uff, .unv, .mat, .lvm, or text) as CSV for 'viscorig identify' and 'viscorig damping'.
 
     Text is .csv, .txt, .asc, .dat, .prn or .tsv. Velocity over base acceleration becomes a sweep, motion over
-    force an FRF, a force with its responses an impact record. What is found is listed.
+    force an FRF, a force with its responses an impact record, modes with loss factors a table of modes. What
+    is found is listed.
     """
     output = Output(json_path)
     imported = import_file(file, out, None if columns is None else [c.strip() for c in columns.split(",")])

@@ -12,6 +12,7 @@ from fitting.mode_tables.as_read import READS, Read
 from fitting.mode_tables.table import ModalTable
 from instrument.errors import BadInput
 from instrument.files.nearest import nearest
+from instrument.files.sweep_file import IMPORT_READS
 from instrument.files.table import number, read_rows
 from instrument.files.text import read_text
 
@@ -54,7 +55,8 @@ def _check_header(path: Path, header: list[str]) -> None:
         return
     meant = nearest(missing[0], unknown)
     near = f", the nearest is {meant}" if meant is not None else ""
-    raise BadInput(f"{path}: header: no {missing[0]}{near}; expected {', '.join(_MUST)} of a table of modes")
+    expected = f"expected {', '.join(_MUST)} of a table of modes; {IMPORT_READS}"
+    raise BadInput(f"{path}: header: no {missing[0]}{near}; {expected}")
 
 
 def _check_optional(path: Path, header: list[str], unknown: list[str]) -> None:
@@ -117,6 +119,14 @@ def _at_one_temperature(mode: Array, temperature_c: Array) -> list[NDArray[np.in
         found.append(np.array(rows, dtype=np.intp))
         left = [k for k in left if k not in rows]
     return found
+
+
+def read_modal_rows(path: Path) -> dict[str, Array]:
+    """Columns of a table of one temperature or of several, shape (rows,) each. Raises `BadInput`."""
+    columns = _columns(path)
+    if "temperature_c" not in columns:
+        _check_modes(path, columns)
+    return columns
 
 
 def _columns(path: Path) -> dict[str, Array]:

@@ -14,6 +14,8 @@ from instrument.files.nearest import nearest
 from instrument.files.point_columns import understood
 from instrument.files.table import number, read_rows
 
+IMPORT_READS = "'viscorig import' reads other programs' tables"
+"""For people whose columns have other names."""
 _LARGEST_WHOLE = 1e9
 """Numbers of segments and passes are small; beyond this a double may no longer be whole."""
 _DRIVES: dict[Drive, tuple[str, str]] = {
@@ -158,7 +160,7 @@ def _check_header(path: Path, header: list[str]) -> None:
                     "over 2 pi"
                 )
             found = f"is it {near}?" if near else f"found {', '.join(header)[:120]}"
-            raise BadInput(f"{path}: header: column {column.name} missing, {found}")
+            raise BadInput(f"{path}: header: column {column.name} missing, {found}; {IMPORT_READS}")
     known = [column.name for column in understood()]
     for name in header:
         meant = nearest(name, [k for k in known if k not in header], _MEANT) if name not in known else None
@@ -172,7 +174,7 @@ def _check_header(path: Path, header: list[str]) -> None:
     if not readings and "velocity_m_s" not in header:
         raise BadInput(
             f"{path}: header: no velocity, expected velocity_re_m_s and velocity_im_m_s, or velocity_m_s, "
-            "or acceleration or displacement in their place"
+            f"or acceleration or displacement in their place; {IMPORT_READS}"
         )
     phases = [name for name in header if "phase" in name.lower()]
     if not readings and phases:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.modal.frf import Frf, Motion
+from fitting.mode_tables.as_read import Read
 from instrument.errors import BadInput
 from instrument.files.impact_csv import MOTIONS
 from instrument.files.units import DERIVATIVE, Quantity
@@ -19,6 +20,11 @@ Columns = dict[str, Array]
 CARRIED = ("mass_kg", "mounting", "temperature_c")
 """Columns of ours that say of which plate, or at what temperature, a row is: whoever fits asks about them.
 NaN where it is not known."""
+EXPECTED = (
+    "a frequency with a velocity or an FRF, a force with a response and times, or mode, frequency and loss "
+    "factor; units in the names, as in velocity_mm_s, frf_mm_s_per_g or 'Force [N]'"
+)
+"""Of a table of named columns, for people."""
 REFERENCE_M_S2 = PUBLISHED_G_M_S2
 """Base acceleration a ratio is stated at where its level is not known: it cancels in the fit."""
 _CSV_NAMES = {motion: name for name, motion in MOTIONS.items()}
@@ -41,6 +47,15 @@ class Ratio:
     """Between which points: ratios of one name are passes, of several ones they are spots."""
 
 
+@dataclass(frozen=True)
+class Modes:
+    """A table of modes in the columns of ours."""
+
+    columns: Columns
+    read: Read | None = None
+    """How the numbers were read, where it is known."""
+
+
 @dataclass
 class Found:
     """Everything a file gave."""
@@ -49,6 +64,7 @@ class Found:
     frfs: list[tuple[str, Frf, Array | None]] = field(default_factory=list)
     """Name, motion over force, coherence."""
     hits: list[Hit] = field(default_factory=list)
+    modes: list[Modes] = field(default_factory=list)
     said: list[str] = field(default_factory=list)
     """What was found, and what was passed over and why: one line each."""
     _responses: list[tuple[str, Columns]] = field(default_factory=list)

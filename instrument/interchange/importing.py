@@ -1,7 +1,7 @@
 """Foreign data to this program's CSV files: sweeps, FRFs, impact records."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,12 +12,16 @@ from fitting.sweep import segments_by_gap
 from instrument.errors import BadInput
 from instrument.files.at_once import write_at_once
 from instrument.files.impact_csv import write_frf_csv, write_impact_csv
+from instrument.files.modal_table import read_modal_rows
 from instrument.files.point_columns import understood
 from instrument.files.sweep_file import read_sweep, sweep_of_columns
 from instrument.impact.record import Hit
-from instrument.interchange.found import Columns
+from instrument.interchange.found import Columns, Modes
 from instrument.interchange.provenance import one_line
 from instrument.interchange.readers import read_foreign
+
+_READ_BY: dict[str, Callable[[Path], object]] = {"sweep": read_sweep, "modes": read_modal_rows}
+"""What reads a kind of file, where that is more than a table of numbers."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +37,8 @@ def import_file(path: Path, out: Path | None, columns: Sequence[str] | None = No
 
     `columns` are names in the place of a text's own, empty or `-` for what is passed over.
 
-    One kind of thing goes to `out` itself; several get its name with `-sweep`, `-frf` or `-hits` behind it.
+    One kind of thing goes to `out` itself; several get its name with `-sweep`, `-frf`, `-hits` or `-modes`
+    behind it.
     """
     found = read_foreign(path, columns)
     if found.sweeps:
@@ -46,6 +51,7 @@ def import_file(path: Path, out: Path | None, columns: Sequence[str] | None = No
         "sweep": [_sweep_text(found.sweeps)] if found.sweeps else [],
         "frf": found.frfs,
         "hits": _alike(found.hits),
+        "modes": [_modes_text(one) for one in found.modes],
     }
     plan = _names(target, {kind: len(items) for kind, items in kinds.items()})
     if any(p.exists() and p.samefile(path) for p in plan.values()):
@@ -55,9 +61,10 @@ def import_file(path: Path, out: Path | None, columns: Sequence[str] | None = No
         for (kind, k), file in unproven.items():
             _write(file, kind, kinds[kind][k])
             _say_where_from(file, path)
-        if found.sweeps:
-            # What was written has to be what the program reads.
-            _prove(unproven["sweep", 0], plan["sweep", 0])
+        # What was written has to be what the program reads.
+        for (kind, k), file in unproven.items():
+            if kind in _READ_BY:
+                _prove(_READ_BY[kind], file, plan[kind, k])
         for key, file in unproven.items():
             file.replace(plan[key])
     except OSError as error:
@@ -72,10 +79,10 @@ def import_file(path: Path, out: Path | None, columns: Sequence[str] | None = No
     return Imported(tuple(plan.values()), tuple(found.said))
 
 
-def _prove(written: Path, named: Path) -> None:
+def _prove(read: Callable[[Path], object], written: Path, named: Path) -> None:
     """Raises `BadInput`, which names the file as it would have been."""
     try:
-        read_sweep(written)
+        read(written)
     except BadInput as error:
         raise BadInput(str(error).replace(str(written), str(named))) from None
 
@@ -148,12 +155,20 @@ def one_table(sweeps: list[Columns]) -> Columns:
 
 def _sweep_text(sweeps: list[Columns]) -> str:
     table = one_table(sweeps)
-    whole = {column.name for column in understood() if column.whole}
+    return _rows_text(table, {column.name for column in understood() if column.whole})
+
+
+def _rows_text(table: Columns, whole: Collection[str]) -> str:
     rows = (
         ",".join(_cell(float(v), whole=n in whole) for n, v in zip(table, row, strict=True))
         for row in zip(*table.values(), strict=True)
     )
     return "\n".join([",".join(table), *rows]) + "\n"
+
+
+def _modes_text(modes: Modes) -> str:
+    said = f"# read: {modes.read}\n" if modes.read is not None else ""
+    return said + _rows_text(modes.columns, {"mode"})
 
 
 def _cell(value: float, *, whole: bool) -> str:

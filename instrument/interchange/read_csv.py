@@ -12,7 +12,7 @@ from instrument.errors import BadInput
 from instrument.files.table import Rows, rate_stated_in
 from instrument.interchange.celsius import is_temperature
 from instrument.interchange.decoded import decoded
-from instrument.interchange.found import CARRIED, Found
+from instrument.interchange.found import CARRIED, EXPECTED, Found
 from instrument.interchange.read_table import read_table
 from instrument.interchange.said_by_name import NotSaid, part_in, unit_in
 from instrument.interchange.signals import Named
@@ -48,11 +48,7 @@ def read_csv(path: Path, columns: Sequence[str] | None = None) -> Found:
 
 
 def _nothing(path: Path, names: Sequence[str]) -> str:
-    return (
-        f"{path}: header: found {', '.join(names)[:100]}, expected a frequency with a velocity or "
-        "an FRF, or a force with a response and times; units in the names, as in velocity_mm_s or "
-        "'Force [N]'; and two rows or more"
-    )
+    return f"{path}: header: found {', '.join(names)[:100]}, expected {EXPECTED}; and two rows or more"
 
 
 def _hits_apart(path: Path, table: Named) -> list[tuple[str, Named]]:

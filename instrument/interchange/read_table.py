@@ -14,6 +14,7 @@ from instrument.files.table import rate_of_times
 from instrument.files.units import DERIVATIVE, KNOWN, Quantity
 from instrument.interchange.celsius import with_celsius
 from instrument.interchange.found import CARRIED, Columns, Found, Ratio
+from instrument.interchange.read_modes import read_modes
 from instrument.interchange.said_by_name import (
     BASE,
     NotSaid,
@@ -37,6 +38,8 @@ def read_table(source: str, table: Named, found: Found) -> bool:
 
     `source` names it in messages.
     """
+    if read_modes(source, table, found):
+        return True
     table = with_celsius(source, table, found)
     signals = signals_of(source, table, _others())
     frequency = _axis(source, table, _FREQUENCIES, _AXIS_HZ)

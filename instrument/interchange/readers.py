@@ -11,7 +11,7 @@ from fitting.plugins import NoPlugin, Registry
 from instrument.errors import BadInput
 from instrument.files.guard import checked_frf, checked_hits, said_of
 from instrument.files.table import LARGEST
-from instrument.interchange.found import CARRIED, Found
+from instrument.interchange.found import CARRIED, EXPECTED, Found
 from instrument.interchange.provenance import one_line
 
 Reader = Callable[[Path], Found]
@@ -21,6 +21,8 @@ _OURS = ("csv", "txt")
 """Endings of sweeps as this program writes them, too."""
 _TEXTS = (*_OURS, "asc", "dat", "prn", "tsv")
 """Endings of tables as text."""
+_NAMED = ("mat", *_TEXTS)
+"""Endings of files whose arrays have names that this program goes by."""
 
 
 def _judge(name: str, found: Any) -> Reader:
@@ -58,9 +60,10 @@ def read_foreign(path: Path, columns: Sequence[str] | None = None) -> Found:
         text_reader: Callable[..., Found] = reader
         reader = partial(text_reader, columns=columns)
     found = _read(reader, path)
-    if not (found.sweeps or found.frfs or found.hits):
+    if not (found.sweeps or found.frfs or found.hits or found.modes):
         said = "; ".join(found.said) or "no array that says what it is"
-        raise BadInput(f"{path}: nothing to import: {one_line(said)[:160]}")
+        expected = f"; expected {EXPECTED}" if _ending(path) in _NAMED else ""
+        raise BadInput(f"{path}: nothing to import: {one_line(said)[:160]}{expected}")
     found.said += [f"column pickup: {k} is {name}" for k, name in enumerate(found.spots)]
     return found
 
@@ -82,8 +85,8 @@ def _checked(path: Path, found: Found) -> Found:
     checked_hits(path, found.hits)
     for name, frf, _ in found.frfs:
         checked_frf(path, name, frf)
-    for sweep in found.sweeps:
-        for name, values in sweep.items():
+    for columns in (*found.sweeps, *(m.columns for m in found.modes)):
+        for name, values in columns.items():
             size = np.abs(np.asarray(values, dtype=float))
             known = size[~np.isnan(size)] if name in CARRIED else size
             if not np.all(known <= LARGEST):

@@ -40,7 +40,15 @@ _OF_BASE = {"base", "clamp", "reference", "ref"}
 """Of a measured base: left out, its commanded level would stand in its place."""
 _RATIOS = {"frf", "tf", "transfer", "ratio", "h", "h1", "h2", "hv"}
 """Words of one signal over another: velocity over acceleration is in seconds, as times are."""
-_STEMS = {"accelerance": "(m/s^2)/N", "inertance": "(m/s^2)/N", "mobility": "(m/s)/N", "receptance": "m/N"}
+_TRANSMISSIBILITY = "transmissibility"
+_STEMS = {
+    "accelerance": "(m/s^2)/N",
+    "inertance": "(m/s^2)/N",
+    "mobility": "(m/s)/N",
+    "receptance": "m/N",
+    _TRANSMISSIBILITY: "(m/s^2)/(m/s^2)",
+}
+_NO_UNIT = ("", "-", "1")
 _LENGTHS = ("cm", "mm", "um", "nm", "in", "ft", "m")
 _SUFFIXES = (
     *((f"_{length}_s2", f"{length}/s^2") for length in _LENGTHS),
@@ -68,6 +76,8 @@ _MOST_SAID_RAD = 2 * _MOST_RAD
 _UNWRAPPED = "unwrapped"
 _LAST_GROUP = re.compile(r"\(((?:[^()]|\([^()]*\))*)\)\s*$")
 _DECIBELS = re.compile(r"dB\b\s*(?:re[lf]?\b[.:]?)?\s*([\d.]+(?:e[-+]?\d+)?)?\s*(.*)", re.I)
+EXPECTED_DB = "expected as in '[dB re 1 (m/s)/N]'"
+"""For people."""
 _HALF_DECADE_DB = 20.0
 _DENSITIES = frozenset(
     ("psd", "asd", "lsd", "csd", "esd", "density", "power", "autopower", "crosspower", "autospectrum", "gxx")
@@ -101,11 +111,17 @@ def reference_of_db(name: str) -> float | None:
     `FRF [dB re 1 (m/s)/N]`, `Velocity [dB re 1e-9 m/s]`.
     """
     match = _in_db(name)
-    return None if match is None or unit_of(match[2]) is None else float(match[1] or 1.0)
+    return None if match is None or _of_level(match, name) is None else float(match[1] or 1.0)
 
 
 def _in_db(name: str) -> re.Match[str] | None:
     return _DECIBELS.fullmatch(bracketed(name)[0].strip())
+
+
+def _of_level(match: re.Match[str], name: str) -> Unit | None:
+    """What 0 dB are of; of a ratio of like quantities that need not be said."""
+    is_plain = not match[2] and _TRANSMISSIBILITY in bracketed(name)[1]
+    return unit_of(_STEMS[_TRANSMISSIBILITY] if is_plain else match[2])
 
 
 def of_decibels(values: Array, reference: float) -> Array:
@@ -118,10 +134,10 @@ def unit_in(name: str) -> Unit | None:
     unit, words = bracketed(name)
     level = _in_db(name)
     if level is not None:
-        return unit_of(level[2])
+        return _of_level(level, name)
     if unit.strip().lower() == "s" and not _RATIOS & set(words):
         return None
-    if unit:
+    if unit and not (unit.strip() in _NO_UNIT and _TRANSMISSIBILITY in words):
         return unit_of(_without_size(unit))
     stem = next((_STEMS[w] for w in words if w in _STEMS), None)
     if stem is not None:
@@ -235,6 +251,8 @@ def refuse_contradiction(source: str, name: str, unit: Unit) -> None:
     stems = [u for word in words if word in _STEMS and (u := unit_of(_STEMS[word])) is not None]
     said = {_QUANTITIES[w] for word in words if (w := word.rstrip("0123456789")) in _QUANTITIES}
     is_other = unit.per is None and bool(said) and unit.quantity not in said
+    if _TRANSMISSIBILITY in words and unit.quantity == unit.per:
+        return
     if is_other or any((u.quantity, u.per) != (unit.quantity, unit.per) for u in stems):
         over = f" over {unit.per}" if unit.per else ""
         raise NotSaid(f"{source}: {name}: its unit is of {unit.quantity}{over}: which is it?")
@@ -251,8 +269,8 @@ def refuse_unknown(source: str, name: str, unit: Unit | None) -> None:
     is_part = part_in(name) in ("re", "im", "magnitude")
     part = is_part or bool(BASE & set(words))
     base = bool(_OF_BASE & set(words)) and (is_part or (bool(said) and set(words) <= BASE))
-    if _in_db(name) is not None and (decides or part):
-        raise NotSaid(f"{source}: {name}: dB of what? expected as in 'dB re 1 (m/s)/N'")
+    if _in_db(name) is not None and (decides or part or _STEMS.keys() & set(words)):
+        raise NotSaid(f"{source}: {name}: dB of what? {EXPECTED_DB}")
     if said and (decides or base):
         raise NotSaid(f"{source}: {name}: in {said!r}, expected one of {KNOWN}, or one over another")
     if not said and ((decides and part) or base):

@@ -11,6 +11,7 @@ from instrument.errors import BadInput
 from instrument.files.units import Unit
 from instrument.interchange.said_by_name import (
     BASE,
+    EXPECTED_DB,
     NotSaid,
     Part,
     amplitude_factor,
@@ -108,7 +109,9 @@ def _signal(source: str, table: Named, stem: tuple[str, ...], names: dict[Part, 
     elif "phase" in names:
         values = _size(table, size)
         if not np.iscomplexobj(values) and np.any(values < 0):
-            raise NotSaid(f"{source}: {size}: {np.nanmin(values):g} as a size beside a phase: is it in dB?")
+            raise NotSaid(
+                f"{source}: {size}: {np.nanmin(values):g} as a size beside a phase: in dB? {EXPECTED_DB}"
+            )
         values = values * np.exp(1j * radians(source, names["phase"], table[names["phase"]]))
     else:
         values = _size(table, size)

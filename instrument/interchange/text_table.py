@@ -8,7 +8,7 @@ import csv
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import groupby
+from itertools import groupby, product
 from pathlib import Path
 from typing import NamedTuple
 
@@ -111,13 +111,14 @@ def _is_row(fields: Sequence[str], *, comma: bool = True, begun: bool = True) ->
 def _separator(lines: Sequence[tuple[int, str]]) -> str:
     """That by which most lines are rows, of numbers alone before others; the first of several."""
 
-    def score(separator: str, some: Sequence[tuple[int, str]]) -> float:
-        rows = [r for _, line in some if _is_row(r := _loose(line, separator), comma=separator != ",")]
+    def score(separator: str, some: Sequence[tuple[int, str]], *, begun: bool) -> float:
+        split = [_loose(line, separator) for _, line in some]
+        rows = [r for r in split if _is_row(r, comma=separator != ",", begun=begun)]
         whole = sum(all(is_number(f, comma=separator != ",") for f in r if f) for r in rows)
         return (len(rows) + whole) / 2
 
-    for some in (lines[:_SAMPLED], lines):
-        scores = {s: score(s, some) for s in SEPARATORS}
+    for some, begun in product((lines[:_SAMPLED], lines), (True, False)):
+        scores = {s: score(s, some, begun=begun) for s in SEPARATORS}
         if max(scores.values()) > 0:
             return max(scores, key=scores.__getitem__)
     return ","

@@ -10,6 +10,7 @@ from scipy.io import savemat
 from instrument.errors import BadInput
 from instrument.files.units import unit_of
 from instrument.interchange.found import Found
+from instrument.interchange.importing import import_file
 from instrument.interchange.read_mat import read_mat
 from instrument.interchange.read_table import read_table
 
@@ -265,3 +266,9 @@ def test_testlab_spectra_and_records_without_a_force_are_passed_over(tmp_path):
         "passed over: S: a spectrum in g, expected one signal over another",
         "passed over: a: no force among them",
     ]
+
+
+def test_a_matlab_file_of_names_that_say_nothing_hears_which_would(tmp_path):
+    savemat(tmp_path / "a.mat", {"x": np.arange(3.0), "y": np.arange(3.0)})
+    with pytest.raises(BadInput, match=r"passed over: a\.mat: x, y; expected .* frf_mm_s_per_g"):
+        import_file(tmp_path / "a.mat", tmp_path / "out.csv")

@@ -46,6 +46,10 @@ def of(table):
         ("H1 [s]", "s"),
         ("FRF_m_s_per_m_s2", "(m/s)/(m/s^2)"),
         ("frf_re_m_s2_per_n", "(m/s^2)/N"),
+        ("Transmissibility", "(m/s^2)/(m/s^2)"),
+        ("Transmissibility [-]", "(m/s^2)/(m/s^2)"),
+        ("Transmissibility [dB]", "(m/s^2)/(m/s^2)"),
+        ("Transmissibility [(mm/s)/(mm/s)]", "(mm/s)/(mm/s)"),
     ],
 )
 def test_a_unit_is_read_as_it_stands(name, unit):
@@ -265,7 +269,7 @@ def test_phases_that_may_be_unwrapped_rad_are_asked_about():
 
 
 def test_a_size_below_zero_beside_a_phase_is_asked_about():
-    with pytest.raises(BadInput, match=r"FRF magnitude .g/N.: -3 as a size beside a phase: is it in dB"):
+    with pytest.raises(BadInput, match=r"FRF magnitude .g/N.: -3 as a size beside a phase: in dB"):
         of({"FRF magnitude [g/N]": F - 18.0, "FRF phase [deg]": F})
 
 

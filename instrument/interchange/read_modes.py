@@ -1,0 +1,156 @@
+"""Tables of modes as other laboratories write them: loss factors, damping ratios, Q, or half-power widths."""
+
+from collections.abc import Callable
+from typing import Literal
+
+import numpy as np
+
+from fitting.arrays import Array
+from instrument.errors import BadInput
+from instrument.interchange.celsius import OURS, is_temperature, with_celsius
+from instrument.interchange.found import Columns, Found, Modes
+from instrument.interchange.said_by_name import NotSaid, bracketed, unit_in
+from instrument.interchange.signals import Named
+
+Loss = Literal["loss factor", "damping ratio", "quality", "bandwidth", "decrement"]
+Kind = Literal["mode", "frequency", "spread", "damping"] | Loss
+
+_LOSS_OF: dict[Loss, Callable[[Array, Array], Array]] = {
+    "loss factor": lambda x, f: x,
+    "damping ratio": lambda x, f: 2 * x,
+    "quality": lambda x, f: 1 / x,
+    "bandwidth": lambda x, f: x / f,
+    "decrement": lambda x, f: x / np.pi,
+}
+"""The loss factor of a mode, of a small one, from what is stated and its frequency: ASTM E756, ISO 6721-1.
+Of several that are stated the first counts."""
+_HZ = {"hz": 1.0, "khz": 1e3, "rad/s": 1 / (2 * np.pi), "": 1.0}
+_PLAIN = {"": 1.0, "-": 1.0, "1": 1.0, "%": 0.01, "percent": 0.01, "pct": 0.01}
+_FREQUENCY = frozenset(("frequency", "freq", "f", "fn", "f0", "frequenz", "frequence", "eigenfrequency"))
+_NUMBER = frozenset(("mode", "n", "order"))
+_SPREAD = frozenset(("std", "sd", "sigma", "stdev", "deviation", "uncertainty", "se"))
+_GREEK = (("η", "eta"), ("ζ", "zeta"), ("Δf", "df"), ("δ", " delta"), ("σ", "sigma"))
+_HALF_POWER_DB = "3"
+_AGREE = 0.05
+"""Between two statements of one loss factor, written with few digits."""
+
+
+def read_modes(source: str, table: Named, found: Found) -> bool:
+    """Add a table of modes; False where this is none. Raises `NotSaid` where it says too little."""
+    kinds = {name: kind for name in table if (kind := _kind(name)) is not None}
+    stated = [name for name, kind in kinds.items() if kind in _LOSS_OF or kind == "damping"]
+    frequencies = [name for name, kind in kinds.items() if kind == "frequency"]
+    numbers = [name for name, kind in kinds.items() if kind == "mode"]
+    if not stated or not frequencies:
+        return False
+    if not numbers:
+        if not any(unit_in(name) is not None for name in table):
+            found.said.append(f"{source}: {stated[0]}: of which mode? expected a column of their numbers")
+        return False
+    _refuse_doubt(source, kinds, frequencies)
+    f = table[frequencies[0]] * _factor(source, frequencies[0], _HZ)
+    if not np.all(f > 0):
+        raise BadInput(f"{source}: {frequencies[0]}: up from {np.min(f):g}, expected more than 0")
+    if len(numbers) > 1:
+        raise NotSaid(f"{source}: {', '.join(numbers)}: which is the mode's number? expected one")
+    columns: Columns = {"mode": table[numbers[0]], "frequency_hz": f}
+    name, columns["loss_factor"] = _loss_factor(source, table, {n: kinds[n] for n in stated}, f)
+    columns |= _spreads(source, table, [name for name, kind in kinds.items() if kind == "spread"])
+    warm = with_celsius(source, table, found)
+    if OURS in warm:
+        columns[OURS] = warm[OURS]
+    half_power = any(kinds[n] == "bandwidth" or "half" in bracketed(n)[1] for n in stated)
+    found.modes.append(Modes(columns, "half-power" if half_power else None))
+    found.said.append(f"{source}: {len(f)} modes, {np.min(f):.5g} to {np.max(f):.5g} Hz, from {name}")
+    left = [n for n in table if n not in kinds and not is_temperature(n)]
+    if left:
+        found.said.append(f"passed over: {source}: {', '.join(left)[:200]}")
+    return True
+
+
+def _kind(name: str) -> Kind | None:
+    """What a column is of, by its words."""
+    for letter, plain in _GREEK:
+        name = name.replace(letter, plain)
+    _, ordered = bracketed(name)
+    words = set(ordered)
+    if words & _SPREAD:
+        return "spread"
+    if words & {"bandwidth", "width", "df"} or {"delta", "f"} <= words:
+        return "bandwidth"
+    if words & {"decrement", "logdec"}:
+        return "decrement"
+    if words & {"eta", "lossfactor", "verlustfaktor", "tandelta"} or words >= {"loss", "factor"}:
+        return "loss factor"
+    if words >= {"tan", "delta"} or words >= {"tan", "d"}:
+        return "loss factor"
+    if words & {"zeta", "critical"} or words >= {"damping", "ratio"}:
+        return "damping ratio"
+    if words & {"q", "quality", "qfactor"}:
+        return "quality"
+    if "damping" in words:
+        return "damping"
+    if words & _FREQUENCY:
+        return "frequency"
+    return "mode" if ordered and ordered[0] in _NUMBER else None
+
+
+def _refuse_doubt(source: str, kinds: dict[str, Kind], frequencies: list[str]) -> None:
+    if len(frequencies) > 1:
+        raise NotSaid(f"{source}: {', '.join(frequencies)}: which is the mode's frequency? expected one")
+    for name, kind in kinds.items():
+        _, words = bracketed(name)
+        if kind == "damping":
+            raise NotSaid(
+                f"{source}: {name}: the loss factor, or the ratio to critical (half of it)? expected "
+                "'Loss factor' or 'Damping ratio'"
+            )
+        if kind == "bandwidth" and "db" in words and _HALF_POWER_DB not in words:
+            raise NotSaid(f"{source}: {name}: expected the width at half power, 3 dB below the peak")
+
+
+def _loss_factor(source: str, table: Named, stated: dict[str, Kind], f: Array) -> tuple[str, Array]:
+    """From the first of what is stated. Raises `BadInput` where another one says something else."""
+    known = []
+    for kind, of in _LOSS_OF.items():
+        for name in (n for n, k in stated.items() if k == kind):
+            factor = _factor(source, name, _HZ if kind == "bandwidth" else _PLAIN)
+            x = np.asarray(table[name], float) * factor
+            if not np.all(x > 0):
+                raise BadInput(f"{source}: {name}: down to {np.min(x):g}, expected more than 0")
+            known.append((name, np.asarray(of(x, f))))
+    (name, eta), *others = known
+    for other, its in others:
+        if not np.allclose(its, eta, rtol=_AGREE):
+            row = int(np.argmax(np.abs(its / eta - 1)))
+            raise BadInput(
+                f"{source}: row {row + 1}: loss factor {eta[row]:.4g} by {name}, {its[row]:.4g} by {other}: "
+                "expected one of both"
+            )
+    return name, eta
+
+
+def _spreads(source: str, table: Named, names: list[str]) -> Columns:
+    """Standard deviations in the unit of what they are of. Raises `NotSaid` for percents."""
+    columns: Columns = {}
+    for name in names:
+        words = set(bracketed(name)[1])
+        of_frequency = bool(words & _FREQUENCY) and not words & {"loss", "eta"}
+        if not of_frequency and not (words & {"eta", "lossfactor"} or words >= {"loss", "factor"}):
+            raise NotSaid(f"{source}: {name}: of what? expected that of the frequency or of the loss factor")
+        factor = _factor(source, name, _HZ if of_frequency else {"": 1.0, "-": 1.0, "1": 1.0})
+        columns["frequency_std_hz" if of_frequency else "loss_factor_std"] = table[name] * factor
+    return columns
+
+
+def _factor(source: str, name: str, units: dict[str, float]) -> float:
+    """To Hz or to one, by the unit in brackets or the last word. Raises `NotSaid` for any other one."""
+    bracket, words = bracketed(name)
+    unit = bracket.strip().lower()
+    if not unit:
+        unit = next((w for w in words[-1:] if w in units), "")
+    known = "%" if unit.startswith("%") and "%" in units else unit
+    if known not in units:
+        expected = ", ".join(u for u in units if u)
+        raise NotSaid(f"{source}: {name}: in {bracket!r}, expected {expected or 'no unit'}")
+    return units[known]
