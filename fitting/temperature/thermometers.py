@@ -68,11 +68,15 @@ def _without(temperature_c: Array, its: list[int]) -> list[int]:
     return [k for k in range(len(temperature_c)) if k not in its]
 
 
-def rising(shift: Shift, log_a: Array) -> tuple[float, float] | None:
-    """Two neighbouring temperatures of which the warmer one has the larger factor. `log_a` (sweeps,)."""
-    order = np.argsort(shift.temperature_c, kind="stable")
+def rising(shift: Shift, log_a: Array, errors: Array | float = 0.0) -> tuple[float, float] | None:
+    """Two neighbouring temperatures of which the warmer one has the larger factor, by more than both errors.
+
+    `log_a` and `errors` of shape (sweeps,).
+    """
+    order, by = np.argsort(shift.temperature_c, kind="stable"), np.broadcast_to(errors, log_a.shape)
     for one, two in pairwise(order):
-        if shift.temperature_c[one] < shift.temperature_c[two] and log_a[one] < log_a[two]:
+        apart = np.hypot(by[one], by[two])
+        if shift.temperature_c[one] < shift.temperature_c[two] and log_a[two] - log_a[one] > apart:
             return float(shift.temperature_c[one]), float(shift.temperature_c[two])
     return None
 

@@ -211,6 +211,7 @@ def identify(
             vertical=vertical,
             temperature_k=temperature_k,
             specimens=specimen,
+            insist=insist,
         )
         return
     files = together(every, data)

@@ -15,7 +15,7 @@ from instrument.cli.reading import read_tables_at, sweeps_at
 from instrument.errors import BadInput
 from instrument.files.hammer_file import HammerModes
 from instrument.interchange.given import Given
-from instrument.interchange.questions import question_modes_at, question_tables
+from instrument.interchange.questions import question_modes_at, question_shift, question_tables
 from instrument.models.members import AtTemperature
 from instrument.models.temperatures import Shifted
 from instrument.models.temperatures import identify_shifted as identify_at_temperatures
@@ -37,6 +37,7 @@ def identify_shifted(
     vertical: bool,
     temperature_k: float | None = None,
     specimens: Sequence[Path] = (),
+    insist: bool = False,
 ) -> None:
     """Fit sweeps, print, draw; a law that is not simple is refused after its figures are saved."""
     if len(given) < 2:
@@ -49,6 +50,8 @@ def identify_shifted(
         out.say(f"the hammer test is that of {tested[1]}\n")
     modes = tested[0] if tested is not None else None
     found = _fitted(out, sweeps, stated, kind, reference_c, figures, vertical, temperature_k, modes)
+    if not insist:
+        question_shift(found, data)
     _tell(out, found, sweeps)
 
 
@@ -72,6 +75,7 @@ def identify_tables_shifted(
     found = _fitted(out, every, stated, kind, reference_c, figures, vertical, temperature_k)
     if not insist:
         question_modes_at(tables, np.exp(found.fit.one.velocity_m_s.real), data)
+        question_shift(found, data)
     _tell(out, found, every)
 
 

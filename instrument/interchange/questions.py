@@ -19,6 +19,7 @@ from instrument.interchange.given import Given
 from instrument.models.modal_look import modal_doubt
 from instrument.models.modal_mistakes import table_doubt
 from instrument.models.quick_look import data_doubt
+from instrument.models.temperatures import Shifted
 from instrument.progress import Progress, quiet
 
 _WARM_C = 200.0
@@ -95,6 +96,12 @@ def question_temperatures(temperatures_c: Sequence[float | None], paths: Sequenc
             f"{first}: at {cold:g} degC, {last.name} at {warm:g} degC: one law is that of one temperature, "
             f"expected 'identify --shift', or files of one temperature; {INSIST}"
         )
+
+
+def question_shift(found: Shifted, paths: Sequence[Path]) -> None:
+    """Ask about temperatures that would have the core stiffen as it warms. Raises `BadInput`."""
+    if found.plainly_stiffens:
+        _ask(f"{found.stiffens}: are temperatures exchanged?", paths)
 
 
 def _many(lines: int, of_plate: bool) -> str:

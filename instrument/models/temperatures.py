@@ -35,6 +35,8 @@ _FREER = 2
 _SCATTERED = 0.01
 """Tail probability below which temperatures lie farther off than is said of them."""
 _FORMS = {"wlf": "WLF", "arrhenius": "Arrhenius' line"}
+_PLAIN = 3.0
+"""Standard errors of a shift factor, by which it lies above a colder one's. A choice."""
 THERMOMETER_K = 0.3
 """Typical standard deviation of a stated temperature: a good thermocouple may be 0.5 K off, a plate lags."""
 
@@ -86,13 +88,28 @@ class Shifted:
                 f"by {-fit.joint.off[k] * fit.shift.error_k:+.2g} K: check it, or say with "
                 "--temperature-k how well they are known; errors of the shift are too small"
             )
-        upwards = rising(fit.shift, fit.log_shift)
-        if upwards is not None:
-            said.append(
+        if self.stiffens is not None:
+            said.append(self.stiffens)
+        return tuple(said)
+
+    @property
+    def stiffens(self) -> str | None:
+        """For people, where the core would stiffen as it warms."""
+        upwards = rising(self.fit.shift, self.fit.log_shift)
+        return (
+            None
+            if upwards is None
+            else (
                 f"the factor of {upwards[1]:g} degC is above that of {upwards[0]:g} degC: no polymer "
                 "stiffens as it warms, one of these temperatures is wrong or another batch's"
             )
-        return tuple(said)
+        )
+
+    @property
+    def plainly_stiffens(self) -> bool:
+        """Whether it would by more than the factors are uncertain."""
+        fit = self.fit
+        return rising(fit.shift, fit.log_shift, _PLAIN * fit.log_shift_errors) is not None
 
 
 def identify_shifted(

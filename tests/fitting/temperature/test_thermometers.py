@@ -69,6 +69,13 @@ def test_a_factor_that_rises_with_the_temperature_is_seen():
     assert rising(shift, np.array([2.5, 0.0, -3.9, -3.8])) is None
 
 
+def test_a_factor_that_rises_by_no_more_than_its_error_is_not():
+    shift = Shift("free", np.array([0.0, 10.0, 40.0, 30.0]), 10.0)
+    log_a = np.array([2.5, 0.0, -2.1, -2.2])
+    assert rising(shift, log_a, np.full(4, 0.05)) == (30.0, 40.0)
+    assert rising(shift, log_a, np.full(4, 0.08)) is None
+
+
 def test_what_shares_a_free_factor_may_be_a_little_warmer_or_colder_and_what_has_its_own_may_not():
     shared = Shift("free", np.array([10.0, 10.0, 20.0, 40.0]), 20.0, 0.3)
     assert shared.moves_temperatures

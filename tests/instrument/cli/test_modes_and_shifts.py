@@ -149,18 +149,20 @@ def given(zn1, k, *, modes=None, session=False):
 @pytest.fixture
 def found(monkeypatch):
     """One law over three temperatures, as simple as it is told to be; what was asked of the fit."""
-    _, fit, each = fitted(shifted())
+    of = {True: fitted(shifted())[1:], False: fitted(shifted()[::-1])[1:]}
+    fit = of[True][0]
     f = np.geomspace(50, 4000, 18)
     G, eta = fit.law.storage_and_loss(2 * np.pi * f)
     band = LawBand(f, G, eta, 0.01 * G, 0.01 * eta)
     asked, told = [], []
 
-    def make(simple=True):
+    def make(simple=True, softens=True):
         verdict = Verdict(simple, 0.4, 1.2, 30.0, "one law serves" if simple else "no one law serves")
 
         def identify(sweeps, specimens, kind, reference_c, progress, *, vertical, hammer, temperature_k):
             asked.append(([s.name for s in sweeps], kind, reference_c, vertical, hammer))
             told.append(([s.specimen for s in sweeps], specimens))
+            fit, each = of[softens]
             return Shifted(fit, verdict, band, alone(each), None, 2.0)
 
         monkeypatch.setattr(shifting, "identify_at_temperatures", identify)
@@ -170,8 +172,9 @@ def found(monkeypatch):
     return make
 
 
-def shift(given_, figures=None, out=None, files=FILES):
-    shifting.identify_shifted(out or Output(None), files, given_, "wlf", 20.0, figures, vertical=True)
+def shift(given_, figures=None, out=None, files=FILES, *, insist=False):
+    out = out or Output(None)
+    shifting.identify_shifted(out, files, given_, "wlf", 20.0, figures, vertical=True, insist=insist)
 
 
 def test_shifts_and_law_are_told_and_written(capsys, zn1, found, tmp_path):
@@ -186,6 +189,15 @@ def test_shifts_and_law_are_told_and_written(capsys, zn1, found, tmp_path):
     written = json.loads((tmp_path / "a.json").read_text())
     assert [one["name"] for one in written["temperatures"]] == ["10.csv", "20.csv", "30.csv"]
     assert written["simple"] is True
+
+
+def test_a_core_that_stiffens_as_it_warms_is_asked_about_unless_someone_insists(capsys, zn1, found):
+    found(softens=False)
+    with pytest.raises(BadInput, match="factor of 20 degC is above that of 10 .* are temperatures exchanged"):
+        shift([given(zn1, k) for k in range(3)])
+    assert not capsys.readouterr().out
+    shift([given(zn1, k) for k in range(3)], insist=True)
+    assert "no polymer stiffens as it warms" in " ".join(capsys.readouterr().out.split())
 
 
 def test_a_law_that_is_not_simple_is_refused_after_its_figures_are_saved(
