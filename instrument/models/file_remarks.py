@@ -19,6 +19,8 @@ _AS_WIDE = 1.0 + 1e-9
 """Of r_o - r_i: up to here solid discs are within 1.3 % of what is counted, as much as is left open."""
 _FAR = 10.0
 """Times the modulus of the law in a file: more is asked about."""
+_OFF_PERCENT = 10.0
+"""Of a reading, rms: more than any rig is off."""
 _WORTH_SAYING_OF_A_BEAM = 1e-3
 """Of a resonance."""
 
@@ -75,6 +77,19 @@ def _beyond_edges(pair: ShearPair) -> tuple[str, ...]:
         f"the discs are {thick:.2g} times as thick as r_o - r_i: what their free edges give way is counted "
         "as of thinner ones, and G' may be low (of full discs by 4 % at 1.5 times, by 9 % at 2); take "
         "thinner discs",
+    )
+
+
+def remarks_on_one_specimen(files: Sequence[File], rms_percent: float) -> tuple[str, ...]:
+    """Where files share one pair or beam and one law leaves `rms_percent` of what they read."""
+    one = files[0].specimen
+    shared = len(files) > 1 and all(f.specimen == one for f in files) and isinstance(one, Beam | ShearPair)
+    if not shared or rms_percent < _OFF_PERCENT:
+        return ()
+    differ = "mass" if isinstance(one, ShearPair) else "length or layers"
+    return (
+        f"all files are taken to be of the one {one.kind} that is stated: where they differ in {differ}, "
+        "expected a --specimen for each",
     )
 
 

@@ -24,7 +24,7 @@ from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.models.diagnosis import Diagnosed, effects_among
 from instrument.models.exchanged import exchanged
-from instrument.models.file_remarks import remarks_on_files, remarks_on_scale
+from instrument.models.file_remarks import remarks_on_files, remarks_on_one_specimen, remarks_on_scale
 from instrument.models.files import File, mounted, numbers_of, one_plate
 from instrument.models.files_at_work import FilesAtWork, SetAside
 from instrument.models.identification import Identified, Joint
@@ -180,7 +180,8 @@ def diagnose_together(
             if "fixture_transfer" in {e.name for e in effects} and result.verdict == "unknown":
                 result = with_transfer(result, work)
     theory = _check_theories(files, result.after.law)
-    further = (*remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
+    same_one = remarks_on_one_specimen(files, result.before.rms_percent)
+    further = (*same_one, *remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
     result = replace(result, warnings=(*result.warnings, *further))
     asked = tuple(tried) if accept is None else ()
     found = Diagnosed(result, ready - began, perf_counter() - ready, asked)

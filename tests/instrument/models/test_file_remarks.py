@@ -10,7 +10,12 @@ from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Core
 from fitting.structures import ShearPair
 from fitting.structures.shear_pair import EDGE
-from instrument.models.file_remarks import remarks_on_edges, remarks_on_files, remarks_on_scale
+from instrument.models.file_remarks import (
+    remarks_on_edges,
+    remarks_on_files,
+    remarks_on_one_specimen,
+    remarks_on_scale,
+)
 from instrument.models.files import File
 
 CORE = Core(6e-3, 0.5, 1100.0, ConstantModulus(5e6, 0.3))
@@ -75,3 +80,13 @@ def test_what_holds_of_all_files_is_said_once_and_of_some_by_their_names():
     both, alone = edges_of(a, b, c)
     assert both.startswith("a, b: what the discs'")
     assert alone.startswith("c: what the discs'")
+
+
+def test_files_far_off_one_law_that_share_one_pair_are_asked_whether_they_do():
+    files = [File(sweep(PAIR, points=9), specimen) for specimen in (PAIR, PAIR)]
+    (said,) = remarks_on_one_specimen(files, 41.0)
+    assert said.startswith("all files are taken to be of the one shear-pair")
+    assert "differ in mass" in said
+    assert remarks_on_one_specimen(files, 4.0) == remarks_on_one_specimen(files[:1], 41.0) == ()
+    other = replace(files[1], specimen=replace(PAIR, mass_kg=1.0))
+    assert remarks_on_one_specimen([files[0], other], 41.0) == ()
