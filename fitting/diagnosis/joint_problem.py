@@ -10,6 +10,7 @@ from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.response import SweepResponse
+from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 
 _APART = 1e-5
@@ -69,9 +70,15 @@ class JointProblem:
         """Residuals turned, all together, so that only the first is not zero.
 
         Steps depend on products alone, so on any orthogonal turn of the rows. This one needs no Jacobian:
-        none is made where a step is not taken. Shape (unknowns + 1 or fewer,).
+        none is made where a step is not taken. Infinite where a step leads to a structure that has no such
+        modes, or less than no mass: it is then not taken. Shape (unknowns + 1 or fewer,).
         """
-        r = self.residuals(x)
+        try:
+            r = self.residuals(x)
+        except (OutsideModel, np.linalg.LinAlgError):
+            if self._seen is None:
+                raise
+            return np.full(min(len(self._seen.r), len(x) + 1), np.inf)
         found = np.zeros(min(len(r), len(x) + 1))
         found[0] = np.linalg.norm(r)
         return found

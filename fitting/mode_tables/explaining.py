@@ -12,7 +12,7 @@ from fitting.diagnosis.looks import Start, promising
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.of_files import OfFiles
 from fitting.diagnosis.predictive import TOLERANCES, form_error, of_stated_numbers
-from fitting.diagnosis.refit import ROUGH, refit
+from fitting.diagnosis.refit import COMPARABLE, ROUGH, refit
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit
 from fitting.diagnosis.stand_in import too_large
@@ -74,11 +74,15 @@ class Explaining:
         if not found:
             return []
         best = min(found, key=lambda f: f.chi2)
-        return [self.ended(effects, best.law, best.u)]
+        ended = self.ended(effects, best.law, best.u)
+        return [] if ended is None else [ended]
 
-    def ended(self, effects: Sequence[Effect], law: CoreLaw, u: Array) -> Refitted:
-        """Effects fitted to the end from somewhere; `u` of shape (unknowns,)."""
-        return refit(self.begun.problem.response(effects), self.begun.evidence, law, u)
+    def ended(self, effects: Sequence[Effect], law: CoreLaw, u: Array) -> Refitted | None:
+        """Effects fitted to the end from somewhere; `u` of shape (unknowns,).
+
+        None where the structure has not the table's modes there.
+        """
+        return self._tried(effects, law, u, COMPARABLE)
 
     def determined(self, fitted: Refitted) -> bool:
         """Whether the tables leave over what a fit needs."""
@@ -113,10 +117,13 @@ class Explaining:
     def _carried(self, law: CoreLaw) -> bool:
         return len(law.names) <= self.begun.evidence.count - _SPARE
 
-    def _tried(self, effects: Sequence[Effect], law: CoreLaw, u: Array) -> Refitted | None:
-        """A rough fit; None where the structure it leads to has not the table's modes."""
+    def _tried(
+        self, effects: Sequence[Effect], law: CoreLaw, u: Array, tolerance: float = ROUGH
+    ) -> Refitted | None:
+        """A rough fit; None where the structure it begins with has not the table's modes."""
+        response, evidence = self.begun.problem.response(effects), self.begun.evidence
         try:
-            return refit(self.begun.problem.response(effects), self.begun.evidence, law, u, tolerance=ROUGH)
+            return refit(response, evidence, law, u, tolerance=tolerance)
         except (OutsideModel, np.linalg.LinAlgError):
             return None
 

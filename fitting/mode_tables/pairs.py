@@ -12,7 +12,6 @@ from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
-from fitting.errors import OutsideModel
 from fitting.mode_tables.explaining import Explaining
 
 LEADERS = 3
@@ -77,15 +76,12 @@ def _beyond(work: Explaining, pair: Refitted) -> list[Refitted]:
         return []
     u = pair.u.copy()
     u[pair.stated :] = np.clip(1 / u[pair.stated :], *np.array([(q.lower, q.upper) for q in each]).T)
-    try:
-        return [work.ended(pair.effects, pair.law, u)]
-    except (OutsideModel, np.linalg.LinAlgError):
-        return []
+    fitted = work.ended(pair.effects, pair.law, u)
+    return [] if fitted is None else [fitted]
 
 
 def _alone(work: Explaining, pair: ScoredFit) -> list[ScoredFit]:
     """Each effect of a pair fitted alone from where the pair left it."""
     both = pair.fitted
-    return [
-        work.scored(work.ended([e], both.law, np.concatenate([both.z, both.of(e)]))) for e in both.effects
-    ]
+    fits = [work.ended([e], both.law, np.concatenate([both.z, both.of(e)])) for e in both.effects]
+    return [work.scored(f) for f in fits if f is not None]

@@ -26,7 +26,7 @@ from fitting.mode_tables.formulas import ByFormula, by_formula
 from fitting.mode_tables.misread import Misread, misread
 from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.standing import standing
-from fitting.mode_tables.table import ModalTable
+from fitting.mode_tables.table import FREQUENCY_STD, LOSS_STD, ModalTable
 from fitting.plate import Plate
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
@@ -195,6 +195,26 @@ def remark_on_misread(odd: Misread, tables: Sequence[ModalTable]) -> str:
     )
 
 
+def remarks_on_errors(tables: Sequence[ModalTable]) -> tuple[str, ...]:
+    """Where standard deviations are not stated, which are assumed."""
+    assumed = [
+        f"{two_digits(100 * usual)} % of {what} ({column})"
+        for what, column, usual, unsaid in (
+            (
+                "frequencies",
+                "frequency_std_hz",
+                FREQUENCY_STD,
+                any(t.frequency_std_hz is None for t in tables),
+            ),
+            ("loss factors", "loss_factor_std", LOSS_STD, any(t.loss_factor_std is None for t in tables)),
+        )
+        if unsaid
+    ]
+    if not assumed:
+        return ()
+    return (f"errors of the modes are not stated, assumed are {' and '.join(assumed)}",)
+
+
 def remarks_on_tables(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> tuple[str, ...]:
     """What is to be said of tables and specimens as they were given."""
     said: list[str] = []
@@ -204,12 +224,7 @@ def remarks_on_tables(tables: Sequence[ModalTable], specimens: Sequence[AnySpeci
         if isinstance(specimen, Specimen):
             said += remarks_on_tolerances(specimen)
         said += remarks_on_held_width(specimen)
-        if not table.states_its_noise:
-            f, eta = table.relative_std
-            said.append(
-                f"errors of the modes are not stated: {two_digits(100 * f.max())} % of frequencies and "
-                f"{two_digits(100 * eta.max())} % of loss factors at most are taken for granted"
-            )
+        said += remarks_on_errors([table])
         warm = table.temperature_c
         if warm is not None and float(warm.max() - warm.min()) > _WARMER:
             said.append(

@@ -5,6 +5,7 @@ from fitting.specimen import METAL_PER_K, Face, Specimen
 from fitting.structures import Beam
 from instrument.models.file_remarks import remarks_on_edges, remarks_on_held_width
 from instrument.models.members import Members
+from instrument.models.modal import remarks_on_errors
 
 _WORTH_SAYING_K = 10.0
 """Between the coldest and the warmest, from which a metal's own change is said."""
@@ -25,12 +26,7 @@ def remarks_at_temperatures(members: Members) -> tuple[str, ...]:
                 "metal's modulus changes by 0.03 to 0.05 % a kelvin, which is not counted of a plate"
             )
     tables = [one.data for one in members.every if isinstance(one.data, ModalTable)]
-    if not all(t.states_its_noise for t in tables):
-        f, eta = (max(float(t.relative_std[k].max()) for t in tables) for k in (0, 1))
-        said.append(
-            f"errors of the modes are not stated: {100 * f:.2g} % of frequencies and {100 * eta:.2g} % of "
-            "loss factors at most are taken for granted"
-        )
+    said += remarks_on_errors(tables)
     return tuple(dict.fromkeys(said))
 
 

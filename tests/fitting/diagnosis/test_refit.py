@@ -132,3 +132,23 @@ def test_a_law_that_no_core_can_have_pays_for_it_and_is_followed_to_one_that_can
     found = refit(OfSmooth(effect, 2), evidence, steep, start)
     assert found.law.breaches().max() < 0.6 * steep.breaches().max()
     assert found.chi2 < np.sum(steep.breaches() ** 2)
+
+
+class Ends(Reads):
+    """The same up to where a structure has less than no mass."""
+
+    def velocity(self, law, u):
+        if SOFTNESS / u[0] > 1.5:
+            raise np.linalg.LinAlgError("not positive definite")
+        return super().velocity(law, u)
+
+
+def test_a_step_to_a_structure_that_cannot_be_is_not_taken_and_such_a_start_is_refused():
+    effect = OfFiles(CATALOGUE["clamp_compliance"], 2, EACH)
+    measured = np.concatenate([np.log(LAW.values), [2.0, 0.5]]).astype(complex)
+    sigma = np.array([1e-3, 1e-3, 0.01, 0.1])
+    evidence = Evidence(measured, sigma, sigma, np.zeros((8, 1)), True)
+    found = refit(Ends(effect, 2), evidence, LAW, np.array([SOFTNESS, SOFTNESS, EACH]))
+    assert 1.2 < SOFTNESS / found.u[0] <= 1.5
+    with pytest.raises(np.linalg.LinAlgError):
+        refit(Ends(effect, 2), evidence, LAW, np.array([0.5 * SOFTNESS, SOFTNESS, EACH]))
