@@ -20,6 +20,8 @@ _LEAST_RATIO = 1.05
 """Of the ends of a band."""
 _SPECIMENS = ("plate", "beam", "shear-pair")
 """Tables of a specimen's file."""
+_RIGS = ("shaker", "vibrometer", "front_end")
+"""Of a rig's."""
 _CONTROL, _SETTLE, _DWELL = LevelControl(), Settle(), Dwell()
 
 
@@ -261,21 +263,21 @@ class ExperimentDocument(TomlTable):
 
 def read_experiment(path: Path) -> ExperimentDocument:
     """Read and check an experiment. Raises `BadInput`."""
-    _refuse_specimen(path)
+    _refuse_another(path)
     return read_document(path, ExperimentDocument)
 
 
 def experiment_faults(path: Path) -> list[str]:
     """Everything wrong with it at once."""
     try:
-        _refuse_specimen(path)
+        _refuse_another(path)
     except BadInput as error:
         return [str(error)]
     return document_faults(path, ExperimentDocument)
 
 
-def _refuse_specimen(path: Path) -> None:
-    """Raise `BadInput` for a specimen's file: it lacks all that an experiment has."""
+def _refuse_another(path: Path) -> None:
+    """Raise `BadInput` for a specimen's file or a rig's: it lacks all that an experiment has."""
     try:
         tables = tomllib.loads(read_text(path))
     except (BadInput, tomllib.TOMLDecodeError, RecursionError, ValueError):
@@ -285,4 +287,9 @@ def _refuse_specimen(path: Path) -> None:
         raise BadInput(
             f"{path}: a specimen, expected an experiment, which names its specimen and its rig "
             "(viscorig new experiment)"
+        )
+    if not isinstance(tables.get("rig"), str) and any(part in tables for part in _RIGS):
+        raise BadInput(
+            f"{path}: a rig, expected an experiment, which names its specimen and its rig (viscorig new "
+            "experiment); 'viscorig doctor' asks a rig's instruments"
         )

@@ -190,3 +190,10 @@ def test_a_specimen_in_the_place_of_an_experiment_is_one_fault():
         f"{path}: a specimen, expected an experiment, which names its specimen and its rig "
         "(viscorig new experiment)"
     )
+
+
+def test_so_is_a_rig_which_hears_what_asks_its_instruments():
+    path = case_file("rig.toml")
+    (said,) = all_faults(path)
+    assert said.startswith(f"{path}: a rig, expected an experiment")
+    assert "'viscorig doctor'" in said
