@@ -2,7 +2,9 @@
 
 Local scatter is what a model of seven neighbours leaves of the middle one. The model is one pole over
 a parabola (the local rational method), so that a peak, however coarsely stepped, is not taken for
-noise. Within a segment the variance is alpha^2 + beta^2 |v|^2: a floor and a share of the response.
+noise. Within a segment the variance is alpha^2 + beta^2 |v|^2: a floor and a share of the response. Over a
+band that is wide the floor is as likely flat in displacement or in acceleration as in velocity, or between:
+an accelerometer's is not flat in what is made of its reading.
 """
 
 from dataclasses import dataclass
@@ -30,6 +32,11 @@ choice."""
 _WIDE = 1e-4
 """Of the peak's square: what is smaller is read in a sweep over many resonances, where a floor far below the
 first split is seen too."""
+_TILTS = (-2.0, -1.0, 0.0, 1.0, 2.0)
+"""Powers of the frequency that a floor's variance may follow in velocity: flat in acceleration, in velocity,
+in displacement, and between."""
+_WIDE_BAND = 3.0
+"""Highest over lowest frequency, from which on it matters. A choice."""
 
 
 @dataclass(frozen=True)
@@ -102,9 +109,8 @@ def _scatter(frequency_hz: Array, response: NDArray[np.complex128] | Array) -> A
     middle, left_over = local_residuals(f, v)
     parts = 2 if np.iscomplexobj(v) else 1
     square = np.abs(left_over) ** 2 / parts
-    floor, share = _variance_model(np.abs(v[middle]) ** 2, square, parts)
     std = np.empty(len(f))
-    std[order] = np.sqrt(floor + share * np.abs(v) ** 2)
+    std[order] = np.sqrt(_variance(f, np.abs(v) ** 2, middle, square, parts))
     return std
 
 
@@ -146,25 +152,34 @@ def around(left: Array, count: int) -> Array:
     return np.pad(medians, (before, count - len(medians) - before), mode="edge")
 
 
-def _variance_model(size_squared: Array, square: Array, parts: int) -> tuple[float, float]:
-    """Floor and share of variance = floor + share |v|^2: their means, the floor's part as likely anywhere.
+def _variance(f: Array, size_squared: Array, middle: NDArray[np.intp], square: Array, parts: int) -> Array:
+    """Of a part of each reading: the mean over floors and shares, a floor's part as likely anywhere.
 
-    `square` are squared residuals of a part, `parts` of each reading. Shape (residuals,) each. Few points
-    hardly say how much of their scatter is a floor: the likeliest split is often none, and far from the peak
-    readings would then count for several times what they are worth.
+    `square` are squared residuals of a part of the readings at `middle`, `parts` of each. Few points hardly
+    say how much of their scatter is a floor: the likeliest split is often none, and far from the peak
+    readings would then count for several times what they are worth. Shapes (points,), (points,),
+    (residuals,) twice.
     """
-    largest = float(np.max(size_squared))
+    largest = float(np.max(size_squared[middle]))
     tiny = 1e-12 * largest + 1e-300
-    edges = _splits(float(np.min(size_squared)) / (largest or 1.0))
+    edges = _splits(float(np.min(size_squared[middle])) / (largest or 1.0))
     floor = (edges[1:] + edges[:-1]) / 2
-    # var = s (floor + (1 - floor) |v|^2 / largest); for each floor s has an inverse gamma distribution.
-    form = floor[:, None] + (1 - floor[:, None]) * size_squared / largest
+    relative = f / np.exp(np.mean(np.log(f)))
+    tilts = _TILTS if f[-1] > _WIDE_BAND * f[0] else (0.0,)
+    # var = s (floor tilt + (1 - floor) |v|^2 / largest); s has an inverse gamma distribution for each.
+    whole = np.array(
+        [
+            floor[:, None] * relative**tilt + (1 - floor[:, None]) * (size_squared / (largest or 1.0))
+            for tilt in tilts
+        ]
+    )
+    form = whole[:, :, middle]
     freedom = parts * len(square) / 2
-    sums = parts / 2 * np.sum((square + tiny) / form, axis=1)
-    log_weight = -parts / 2 * np.sum(np.log(form), axis=1) - freedom * np.log(sums)
+    sums = parts / 2 * np.sum((square + tiny) / form, axis=2)
+    log_weight = -parts / 2 * np.sum(np.log(form), axis=2) - freedom * np.log(sums)
     weight = np.exp(log_weight - log_weight.max()) * np.diff(edges)
     scale = weight / weight.sum() * sums / (freedom - 1)
-    return float(scale @ floor) + tiny, float(scale @ (1 - floor)) / largest
+    return np.asarray(np.einsum("tk,tkp->p", scale, whole)) + tiny
 
 
 def _splits(smallest: float) -> Array:

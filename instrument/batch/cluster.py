@@ -3,6 +3,7 @@
 Dask does again what a worker had under way when it was lost.
 """
 
+import re
 from collections.abc import Callable, Sequence
 from time import perf_counter
 from typing import Any
@@ -19,6 +20,8 @@ _LEAST_AHEAD = 16
 _BUNDLE_S, _MOST_IN_A_BUNDLE = 1.0, 8
 """Short rows travel together: a journey costs scheduler and program some milliseconds, a small sweep 50."""
 _TIMEOUT_S = 20
+_ADDRESS = re.compile(r"(?:\w+://)?[^\s/]+:\d+/?")
+"""Asked of anything else, Dask waits, and says so by a traceback."""
 
 
 def on_cluster(address: str, tasks: Sequence[BatchTask], keep: Callable[[BatchTask, Outcome], None]) -> None:
@@ -27,6 +30,8 @@ def on_cluster(address: str, tasks: Sequence[BatchTask], keep: Callable[[BatchTa
         from distributed import Client
     except ImportError:
         raise BadInput("--scheduler: no Dask here, expected pip install 'viscorig[cluster]'") from None
+    if _ADDRESS.fullmatch(address) is None:
+        raise BadInput(f"--scheduler {address}: no address, expected as in tcp://host:8786")
     try:
         client = Client(address, timeout=_TIMEOUT_S, set_as_default=False)
     except (OSError, TimeoutError, ValueError) as error:

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from pydantic import BaseModel, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from fitting.arrays import Array
 from fitting.bare_modes import CarriedSensor
@@ -14,10 +14,16 @@ from instrument.errors import BadInput
 from instrument.facts.damping import DampingResult
 from instrument.files.text import read_text
 
+_HIGHEST_HZ = 1e6
+"""No hammer reaches it."""
+
 
 class _Mode(BaseModel):
-    frequency_hz: float = Field(gt=0, allow_inf_nan=False)
-    damping_ratio: float | None = Field(default=None, ge=0, lt=0.2, allow_inf_nan=False)
+    model_config = ConfigDict(strict=True)
+
+    frequency_hz: float = Field(gt=0, le=_HIGHEST_HZ, allow_inf_nan=False)
+    # Null where no method gives one; a table of modes that has none at all is no hammer test's.
+    damping_ratio: float | None = Field(ge=0, lt=0.2, allow_inf_nan=False)
     accepted: bool = True
 
 
@@ -50,13 +56,17 @@ def read_hammer(path: Path) -> HammerModes:
         raise BadInput(f"{path}: line {error.lineno}: not JSON: {error.msg}") from None
     except (ValidationError, RecursionError) as error:
         first = error.errors()[0] if isinstance(error, ValidationError) else None
-        place = ".".join(str(p) for p in first["loc"]) if first else "nesting"
-        said = f": {first['msg'].lower()}" if first else ""
-        if first and first["loc"][-1] == "damping_ratio":
+        place = ".".join(str(p) for p in first["loc"]) or "the whole" if first else "nesting"
+        said = f": {_words(first['type'], first['msg'])}" if first else ""
+        if first and first["loc"][-1:] == ("damping_ratio",):
             said += " (a fraction of critical, not percent)"
         raise BadInput(f"{path}: {place}{said}, expected the JSON of 'viscorig damping'") from None
     except TooFewPoints as error:
         raise BadInput(f"{path}: {error}") from None
+
+
+def _words(kind: str, message: str) -> str:
+    return "no object" if kind == "model_type" else message.lower()
 
 
 def hammer_modes(found: DampingResult) -> HammerModes:

@@ -68,7 +68,8 @@ def check_separator(path: Path, header: list[str], separator: str = ",") -> None
 def number(path: Path, line: int, name: str, text: str) -> float:
     """A finite number of a size that is measured, or one line saying where it is not. Raises `BadInput`."""
     try:
-        value = float(text)
+        # Python also takes 1_4.3, and digits of other scripts.
+        value = float(text if text.isascii() and "_" not in text else "no number")
     except ValueError:
         raise BadInput(f"{path}: line {line}: {name} = {text!r}, expected a number") from None
     if not math.isfinite(value):

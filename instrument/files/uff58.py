@@ -30,7 +30,8 @@ _AXES = {1: " X", 2: " Y", 3: " Z", 4: " about X", 5: " about Y", 6: " about Z"}
 _UNSAID = (0, 1)
 """Data types "unknown" and "general"."""
 _PLACE = re.compile(r"\bsweep (\d+) segment (\d+)\b")
-
+_MARK = re.compile(rb"    -1(?=[\r\n]|\Z| {74})")
+"""Begins a set and ends it; behind a binary one it stands in no line of its own."""
 _STEP_DIGITS = 5e-6
 """A step is written with six digits."""
 
@@ -269,9 +270,22 @@ def _name(s: dict[str, Any], k: int) -> str:
     return " ".join(said.replace("NONE", "").split()) or f"set {k}"
 
 
+def _check_closed(path: Path) -> None:
+    """Raise `BadInput` where the last set does not end: the library passes over what is left of it."""
+    try:
+        marks = len(_MARK.findall(path.read_bytes()))
+    except OSError as error:
+        raise BadInput(f"{path}: {error.strerror or error}") from None
+    if marks % 2:
+        raise BadInput(
+            f"{path}: cut off in data set {marks // 2 + 1}, expected -1 at its end"
+        )
+
+
 def _sets(path: Path) -> list[dict[str, Any]]:
     if not path.is_file():
         raise BadInput(f"{path}: no such file")
+    _check_closed(path)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
