@@ -71,10 +71,10 @@ def fixture_factor(f):
     return 0.97 * np.exp(0.02j) * (1 + 0.02 * r**2 / (1 - r**2 + 0.1j * r))
 
 
-def sweeps_of_masses(points, *, alike):
+def sweeps_of_masses(points, *, alike, first_seed=0):
     """A sweep of each mass: behind one fixture, or each wandering by itself."""
     given = []
-    for k, m in enumerate(HEAVIER_KG):
+    for k, m in enumerate(HEAVIER_KG, start=first_seed):
         s = sweep(pair(m), seed=k, noise=5e-4, points=points, wander=0.0 if alike else 0.01)
         v = s.velocity_m_s * (fixture_factor(s.frequency_hz) if alike else 1.0)
         given.append(Sweep(**{**vars(s), "velocity_m_s": v}))

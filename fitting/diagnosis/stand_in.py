@@ -17,13 +17,18 @@ _AT = 1e-6
 def stands_in(problem: DiagnosisProblem, fitted: Refitted) -> str:
     """Why an explanation may stand in for something that is not known: a clause; empty where it cannot."""
     effects = fitted.effects
-    if sum(e.causes for e in effects) > _CAUSES:
+    if supposes_too_much(fitted):
         return "so many things at once come near to anything"
     for effect in effects:
         if not effect.shows(problem.points, problem.resonances, fitted.of(effect)):
             return f"no measured points show a {effect.name} by themselves"
     name = too_large(fitted, problem.plate)
     return f"{name} would be larger than is plausible" if name else ""
+
+
+def supposes_too_much(fitted: Refitted) -> bool:
+    """Whether it is more things at once than can be told from a cause that is in no catalogue."""
+    return sum(e.causes for e in fitted.effects) > _CAUSES
 
 
 def too_large(fitted: Refitted, plate: EnrichedReducedPlate) -> str:

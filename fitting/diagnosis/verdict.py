@@ -15,6 +15,7 @@ from fitting.diagnosis.marginal import probabilities
 from fitting.diagnosis.predictive import weakest
 from fitting.diagnosis.result import Verdict
 from fitting.diagnosis.search import ScoredFit
+from fitting.diagnosis.stand_in import supposes_too_much
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.digits import two_digits
 
@@ -216,6 +217,8 @@ def _against(none: ScoredFit, best: ScoredFit, held_out: Callable[[ScoredFit], f
     if best.too_large and len(best.names) > 1:
         # One of two that goes as far as it may is what a third would be, that is in no catalogue.
         return f"has more of {best.too_large} than is plausible"
+    if supposes_too_much(best.fitted):
+        return "supposes three things at once, which come near to anything"
     if _predicts_nothing(none, best, held_out):
         return "does not predict the segments it has not seen"
     return ""

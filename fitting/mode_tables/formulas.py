@@ -63,6 +63,8 @@ def by_formula(
 def _e756(table: ModalTable, beam: Beam, law: CoreLaw, bare: ModalTable) -> tuple[ByFormula, ...]:
     if beam.boundary != "clamped-free":
         raise OutsideModel(f"--bare with a {beam.boundary} beam: the formulas of ASTM E756 are clamped-free")
+    if beam.masses:
+        raise OutsideModel("--bare with [[mass]]: the formulas of ASTM E756 are of a beam that carries none")
     assert beam.core is not None
     measured = dict(zip(bare.mode.astype(int).tolist(), bare.frequency_hz.tolist(), strict=True))
     method = _method(beam)

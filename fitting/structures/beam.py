@@ -18,10 +18,10 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.model_error import ModelError
-from fitting.specimen import METAL_PER_K, Core, Drive, Face, Reading, Specimen
+from fitting.specimen import METAL_PER_K, Core, Drive, Face, PlacedMass, Reading, Specimen
 from fitting.structures.beam_apart import APART_WITHIN, open_by_poisson
 from fitting.structures.beam_error import HELD_WIDTH_WITHIN, free_layer_error, sandwich_error, shortened_m
-from fitting.structures.beam_parts import PARTS, parts_of
+from fitting.structures.beam_parts import PARTS, carrying, parts_of
 from fitting.structures.beam_section import BeamSection
 from fitting.structures.small import Parts
 from fitting.tolerances import OF_TEMPERATURE, STATED, STATED_PER_K
@@ -30,6 +30,9 @@ Ends = Literal["clamped-free", "free-free", "clamped-clamped", "centre-driven"]
 
 _HELD_ENDS = {"clamped-free": 1, "free-free": 0, "clamped-clamped": 2, "centre-driven": 1}
 """Of one piece."""
+_BY_PLACE = 4.0
+"""What a share of the span off is to a mass, relative: twice the slope of a cantilever's first modes at its
+tip, 1.4 and 4.8."""
 
 
 @dataclass(frozen=True)
@@ -53,6 +56,8 @@ class Beam:
     """Spots beside the first: rows of data say which one they are of (`at_pickup`)."""
     force_m: float | None = None
     """Where a force drives it, its ends at rest; None: the base does."""
+    masses: tuple[PlacedMass, ...] = ()
+    """What sits on it, in the middle of its width: a sensor. Of one piece alone."""
     reads: Reading = "relative"
     base_acceleration_m_s2: float = PUBLISHED_G_M_S2
     tolerances: Mapping[str, float] = field(default_factory=dict, hash=False)
@@ -143,8 +148,9 @@ class Beam:
         wide = ("width",) if self.force_m is not None else ()
         held = ("held_width",) if _HELD_ENDS[self.boundary] and not self.slender else ()
         across = ("core_stretch",) if self.parts_faces else ()
+        carried = ("mass",) if self.masses else ()
         each = (f"{layer}_{n}" for layer, numbers in layers for n in numbers)
-        return (*each, "length", *wide, *held, *across)
+        return (*each, "length", *wide, *held, *across, *carried)
 
     @property
     def parts_faces(self) -> bool:
@@ -155,11 +161,15 @@ class Beam:
         """For unit coefficients, on the basis of modes."""
         pickup, force = (self.places.get(name) for name in ("pickup", "force"))
         span = self.span_m
-        return parts_of(
+        parts = parts_of(
             self.section,
             pickup / span if pickup is not None else None,
             force / span if force is not None else None,
         )
+        if not self.masses:
+            return parts
+        masses = [(m.mass_kg, m.x_m / span) for m in self.masses]
+        return carrying(parts, self.section, masses, by_base=force is None)
 
     @property
     def section(self) -> BeamSection:
@@ -172,7 +182,9 @@ class Beam:
             copies=self.copies,
             thickness_m=tuple(0.0 if x is None else x.thickness_m for x in layers),  # type: ignore[arg-type]
             both_sides=self.both_sides,
-            coefficients=tuple(replace(self, temperature_c=None).coefficients({}).real[:-1].tolist()),
+            coefficients=tuple(
+                replace(self, temperature_c=None, masses=()).coefficients({}).real[:-1].tolist()
+            ),
             rigidity=self._rigidity,
             poisson=tuple(0.0 if x is None else x.poisson for x in layers),  # type: ignore[arg-type]
             share=self._share,
@@ -195,9 +207,10 @@ class Beam:
         return 2 if self.boundary == "centre-driven" else 1
 
     def coefficients(self, by: Mapping[str, float]) -> Complex:
-        """Of the parts of `beam_shapes.BeamMatrices`, and the load. Shape (36,).
+        """Of the parts of `beam_shapes.BeamMatrices`, of what it carries, and the loads. Shape (36 or more,).
 
-        Four of the faces' stiffness, as much of it as clamps hold, 14 of the core, 13 of inertia.
+        Four of the faces' stiffness, as much of it as clamps hold, 14 of the core, 13 of inertia; a mass is
+        part of the inertia, and a load where the base drives.
         """
         b, c, v = (self._moved(name, by) for name in ("substrate", "constraining", "core"))
         span = self.span_m
@@ -251,9 +264,10 @@ class Beam:
             mass = m_b + sides * m_v
         M = np.array([mass * L, m_b * L, m_c * L, *inertia, *(x * L for x in moved_apart)])
         load = width * mass * L if self.force_m is None else 1.0
-        return np.append(width * np.concatenate([K_0, held * K_0, slip, free, apart, M]), load).astype(
-            complex
-        )
+        carried = np.array([m.mass_kg for m in self.masses]) * np.exp(by.get("mass", 0.0))
+        own = width * np.concatenate([K_0, held * K_0, slip, free, apart, M])
+        loads = [load, *(carried if self.force_m is None else ())]
+        return np.concatenate([own, carried, loads]).astype(complex)
 
     def _turning(self, b: dict[str, float], c: dict[str, float], v: dict[str, float]) -> float:
         """Inertia of what turns with the sections, per area: of layers about their own middles, in kg."""
@@ -343,6 +357,9 @@ class Beam:
             return self._stretch_open
         if self.exact:
             return 0.0
+        if name == "mass":
+            weighed, laid = (self.tolerances.get(n, STATED[n].typical) for n in ("mass", "place"))
+            return float(np.hypot(weighed, _BY_PLACE * laid / self.span_m))
         typical = STATED[name].typical
         if name in OF_TEMPERATURE and getattr(self, name.partition("_")[0]).young_per_k is not None:
             typical *= STATED_PER_K
@@ -362,6 +379,7 @@ class Beam:
         others |= {"length": (self.length_m, 1e3, "mm"), "width": (self.width_m, 1e3, "mm")}
         others |= {name: (x, 1e3, "mm") for name, x in self.places.items()}
         others["core_stretch"] = 1.0, 1.0, "1"
+        others["mass"] = sum(m.mass_kg for m in self.masses), 1e3, "g"
         others["held_width"] = (self.held_width_m if self.held_width else 0.0, 1e3, "mm")
         if kind in others:
             return others[kind]

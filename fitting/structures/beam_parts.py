@@ -11,6 +11,7 @@ further columns stand beside them, in groups:
 Matrices go by the names that a plate's have (`fitting.effects`).
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -169,6 +170,22 @@ def parts_of(section: BeamSection, pickup: float | None, force: float | None) ->
         vectors={"air.load": _air_kg_m(section) * section.length_m * lifted}
         | {f"{why}.observe": V.T @ row for why, row in read_otherwise(section, pickup).items()}
         | {f"{why}.load": V.T @ row for why, row in read_otherwise(section, force).items()},
+    )
+
+
+def carrying(
+    parts: Parts, section: BeamSection, masses: Sequence[tuple[float, float]], *, by_base: bool
+) -> Parts:
+    """The same with point masses, kg and shares of its length: each a part of M, and a load `by_base`."""
+    _, V, _ = _columns(section)
+    rows = np.array([row_at(section, V, x) for _, x in masses])
+    # A base that turns lifts each as far as it is away.
+    turned = sum(m * x * section.length_m * row for (m, x), row in zip(masses, rows, strict=True))
+    return replace(
+        parts,
+        M=np.concatenate([parts.M, np.einsum("pi,pj->pij", rows, rows)]),
+        load=np.concatenate([parts.load, -rows]) if by_base else parts.load,
+        pitch=None if parts.pitch is None else parts.pitch - turned,
     )
 
 

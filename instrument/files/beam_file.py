@@ -2,13 +2,19 @@
 
 from typing import Any
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.specimen import Core, Drive, Reading
+from fitting.specimen import Core, Drive, PlacedMass, Reading
 from fitting.structures.beam import Beam, Ends
 from instrument.files.layer_tables import Poisson, StatedLayer
-from instrument.files.specimen_file import TolerancesSection, law_of, tolerances_of, with_further_pickups
+from instrument.files.specimen_file import (
+    MOST_MASSES,
+    TolerancesSection,
+    law_of,
+    tolerances_of,
+    with_further_pickups,
+)
 from instrument.files.toml import NotNegative, Positive, TomlTable
 
 
@@ -30,6 +36,13 @@ class _Viscoelastic(TomlTable):
 class _Spot(TomlTable):
     x_mm: NotNegative
     reads: Reading = "relative"
+
+
+class _Mass(TomlTable):
+    """A known mass on the beam, in the middle of its width: an accelerometer."""
+
+    mass_kg: Positive
+    x_mm: NotNegative
 
 
 class _Base(TomlTable):
@@ -59,6 +72,7 @@ class BeamDocument(TomlTable):
     pickup: _Spot | None = None
     further_pickups: list[_Spot] | None = None
     """Of `[[pickup]]`, those after the first."""
+    mass: list[_Mass] | None = Field(default=None, max_length=MOST_MASSES)
     base: _Base = _Base()
     excitation: _Excitation | None = None
     tolerances: TolerancesSection | None = None
@@ -81,7 +95,12 @@ class BeamDocument(TomlTable):
             raise ValueError('held_width = true with boundary = "free-free", expected a held end')
         self._driven()
         reach = self.beam.length_mm / (2 if self.beam.boundary == "centre-driven" else 1)
-        for table, x_mm in (*(("pickup", p.x_mm) for p in self.pickups), ("excitation", self.force_mm)):
+        if self.mass and self.beam.boundary == "centre-driven":
+            raise ValueError(
+                '[[mass]] with boundary = "centre-driven", expected none: its halves would not move alike'
+            )
+        placed = [("pickup", p.x_mm) for p in self.pickups] + [("mass", m.x_mm) for m in self.mass or ()]
+        for table, x_mm in (*placed, ("excitation", self.force_mm)):
             if x_mm is not None and x_mm > reach:
                 raise ValueError(f"{table}.x_mm = {x_mm:g} is off the beam, expected 0 to {reach:g}")
         return self
@@ -136,6 +155,7 @@ class BeamDocument(TomlTable):
             pickup_m=self.pickup.x_mm * 1e-3 if self.pickup is not None else None,
             further_pickups_m=tuple(p.x_mm * 1e-3 for p in self.pickups[1:]),
             force_m=self.force_mm * 1e-3 if self.force_mm is not None else None,
+            masses=tuple(PlacedMass(m.mass_kg, m.x_mm * 1e-3, 0.0) for m in self.mass or ()),
             reads=self.pickup.reads if self.pickup is not None else "relative",
             base_acceleration_m_s2=self.base.acceleration_m_s2,
             tolerances=tolerances_of(self.tolerances, "beam"),

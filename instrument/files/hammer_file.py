@@ -22,8 +22,7 @@ class _Mode(BaseModel):
     model_config = ConfigDict(strict=True)
 
     frequency_hz: float = Field(gt=0, le=_HIGHEST_HZ, allow_inf_nan=False)
-    # Null where no method gives one; a table of modes that has none at all is no hammer test's.
-    damping_ratio: float | None = Field(ge=0, lt=0.2, allow_inf_nan=False)
+    damping_ratio: float | None = Field(default=None, ge=0, lt=0.2, allow_inf_nan=False)
     accepted: bool = True
 
 
@@ -51,7 +50,10 @@ class HammerModes(NamedTuple):
 def read_hammer(path: Path) -> HammerModes:
     """The JSON of `viscorig damping`. Raises `BadInput`."""
     try:
-        return _modes(_Document.model_validate(json.loads(read_text(path))))
+        document = _Document.model_validate(json.loads(read_text(path)))
+        if not any("damping_ratio" in m.model_fields_set for m in document.modes):
+            raise BadInput(f"{path}: no damping_ratio, expected the JSON of 'viscorig damping'")
+        return _modes(document)
     except json.JSONDecodeError as error:
         raise BadInput(f"{path}: line {error.lineno}: not JSON: {error.msg}") from None
     except (ValidationError, RecursionError) as error:

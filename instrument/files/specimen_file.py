@@ -135,7 +135,7 @@ class TolerancesSection(TomlTable):
 _OF_LAYERS = tuple(name for name in STATED if name.startswith(("substrate", "constraining")))
 _NOT_OF = {
     "plate": ("area", *OF_TEMPERATURE),
-    "beam": ("area", "place", *OF_FEW),
+    "beam": ("area", *OF_FEW),
     "shear-pair": (*_OF_LAYERS, *OF_FEW, "length", "width", "pickup", "force", "place"),
 }
 """Stated numbers that a kind of specimen has not."""
@@ -147,7 +147,7 @@ _MOST_PICKUPS = 20
 """A bound on what one file asks for."""
 
 
-_MOST_MASSES = 10
+MOST_MASSES = 10
 """The same."""
 
 
@@ -166,7 +166,7 @@ class SpecimenDocument(TomlTable):
     pickup: _Pickup | None = None
     further_pickups: list[_Pickup] | None = None
     """Of `[[pickup]]`, those after the first."""
-    mass: list[_Mass] | None = Field(default=None, max_length=_MOST_MASSES)
+    mass: list[_Mass] | None = Field(default=None, max_length=MOST_MASSES)
     base: _BaseSection = _BaseSection(acceleration_m_s2=PUBLISHED_G_M_S2)
     excitation: _Excitation | None = None
     mesh: _Mesh | None = None

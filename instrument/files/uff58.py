@@ -277,9 +277,7 @@ def _check_closed(path: Path) -> None:
     except OSError as error:
         raise BadInput(f"{path}: {error.strerror or error}") from None
     if marks % 2:
-        raise BadInput(
-            f"{path}: cut off in data set {marks // 2 + 1}, expected -1 at its end"
-        )
+        raise BadInput(f"{path}: cut off in data set {marks // 2 + 1}, expected -1 at its end")
 
 
 def _sets(path: Path) -> list[dict[str, Any]]:

@@ -18,6 +18,7 @@ from instrument.models.any_core import FURTHEST, AnyCore, Nearest, any_core
 from instrument.models.mistake_in_part import mistake_in_a_segment
 from instrument.models.mistakes import Mistake, lacks_phase, mistakes, of_another_scale, response_of, words_of
 from instrument.models.specimen_mistakes import specimen_mistakes
+from instrument.models.unstated_mass import unstated_mass
 from instrument.progress import Progress, quiet
 
 NEAR, DOUBTFUL, SCALED, FAR = 0.1, 0.35, 0.5, 0.65
@@ -25,6 +26,8 @@ NEAR, DOUBTFUL, SCALED, FAR = 0.1, 0.35, 0.5, 0.65
 powers, dB and stated numbers above the third; another specimen is certain above the last."""
 EXPLAINED, BETTER = 0.12, 0.35
 """A mistake taken back has to leave no more, and at most this part of the distance."""
+LIKELY = 0.15
+"""The same of a reading and of a sensor's mass."""
 _LOWEST_HZ = 1.0
 _ENOUGH = 400
 """Points, spread over the sweep: more say the same."""
@@ -64,9 +67,15 @@ def _doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> str:
     near = NEAR if len(sweep) * (1 + sweep.has_phase) >= _MANY else SCALED
     if as_is.distance < near:
         return ""
-    if _as_is(sweep, replace(model, reads=_other(model))).distance < NEAR:
+    otherwise = _as_is(sweep, replace(model, reads=_other(model))).distance
+    if otherwise < NEAR or _likely(otherwise, as_is.distance):
         # That a laser reads absolute velocities where relative ones are stated is the diagnosis's to say.
         return _RELATIVE if model.reads == "absolute" else ""
+    far = as_is.distance > 2 * NEAR
+    if far and isinstance(specimen, Beam) and specimen.boundary != "centre-driven":
+        left, words = unstated_mass(specimen, lambda carrying: _distance_of(sweep, carrying, progress))
+        if _likely(left, as_is.distance):
+            return f"it looks as if {words}"
     said = _of_data(sweep, model, as_is, specimen.drive)
     if said is not None:
         return f"it looks as if {said}" if said else ""
@@ -112,6 +121,11 @@ def _likely_beside_effects(
 
 def _explains(distance: float, as_is: float) -> bool:
     return distance < min(EXPLAINED, BETTER * as_is)
+
+
+def _likely(distance: float, as_is: float) -> bool:
+    """The same of what is common, on a beam as far as a core of one slope follows it over decades."""
+    return distance < min(LIKELY, BETTER * as_is)
 
 
 def _of_data(sweep: Sweep, model: AnyCore, as_is: Nearest, drive: Drive) -> str | None:

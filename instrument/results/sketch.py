@@ -145,6 +145,7 @@ def _beam(beam: Beam) -> tuple[View, ...]:
     ]
     if beam.force_m is not None:
         marks.append(Mark(1e3 * beam.force_m, top, "force", "force"))
+    marks += [Mark(1e3 * m.x_m, top, f"{1e3 * m.mass_kg:g} g", "mass") for m in beam.masses]
     section = [Box(0.0, float(z), B, h, kind) for z, (h, kind) in zip(ends, layers, strict=False)]
     said = ", ".join(f"{h:g}" for h, _ in layers)
     return (

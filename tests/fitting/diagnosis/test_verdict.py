@@ -302,12 +302,21 @@ def test_who_may_stand_in_is_doubted_and_that_there_is_an_effect_is_not(costs, u
         assert share <= VERDICT.stand_in * (1 - said.probability[()]) + 1e-12
 
 
-@pytest.mark.parametrize("names", [("added_masses", "spot_offset"), ("fixture_resonance", "gain_error")])
-def test_beside_another_what_stands_in_is_never_certain(names):
+def test_beside_another_what_stands_in_is_never_certain():
+    names = ("fixture_resonance", "gain_error")
     pair = scored(*names, cost=0.0, stands_in="not seen")
     said = judged(POOR_NONE, pair, off={names: 1.0, (): 9.0})
     assert (said.verdict, said.accepted.names, said.confirmed) == ("ambiguous", names, True)
     assert judged(POOR_NONE, scored("added_masses", cost=0.0)).verdict == "effect"
+
+
+def test_three_things_at_once_are_named_beside_what_stands_and_never_alone():
+    pair = scored("added_masses", "spot_offset", cost=0.0, stands_in="so many things")
+    alone = judged(POOR_NONE, pair, off={pair.names: 1.0, (): 9.0})
+    assert (alone.verdict, alone.refused) == ("unknown", pair.names)
+    assert alone.why == "supposes three things at once, which come near to anything"
+    beside = judged(POOR_NONE, pair, scored("added_mass", "spot_offset", cost=1.0))
+    assert (beside.verdict, beside.accepted.names) == ("ambiguous", ("added_mass", "spot_offset"))
 
 
 def test_of_two_effects_none_may_be_larger_than_is_plausible():

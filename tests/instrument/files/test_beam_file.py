@@ -1,5 +1,6 @@
 """What a beam's file may say of what drives it and where it is read."""
 
+import numpy as np
 import pytest
 
 from instrument.errors import BadInput
@@ -63,6 +64,14 @@ def test_a_clamp_that_holds_the_width_is_counted_where_the_file_says_so(tmp_path
     assert read_structure(path).held_width
 
 
+def test_what_it_carries_is_stated_as_of_a_plate(tmp_path):
+    mass = "[[mass]]\nmass_kg = 0.0015\nx_mm = 200.0\n"
+    tolerances = "[tolerances]\nmass_percent = 1.0\nplace_mm = 0.2\n"
+    beam = read_structure(written(tmp_path, mass + tolerances, "clamped-free"))
+    assert [(m.mass_kg, m.x_m) for m in beam.masses] == [(0.0015, 0.2)]
+    assert beam.tolerance("mass") == pytest.approx(np.hypot(0.01, 0.004))
+
+
 @pytest.mark.parametrize(
     ("tables", "boundary", "more", "said"),
     [
@@ -79,6 +88,8 @@ def test_a_clamp_that_holds_the_width_is_counted_where_the_file_says_so(tmp_path
         ("[[pickup]]\nx_mm = 10.0\n[[pickup]]\nx_mm = 250.0\n", "clamped-free", "", "off the beam"),
         (FORCE + "[base]\nacceleration_m_s2 = 9.81\n", "clamped-free", "", "expected one of them"),
         ("", "free-free", "held_width = true", "expected a held end"),
+        ("[[mass]]\nmass_kg = 1e-3\nx_mm = 50.0\n", "centre-driven", "", "would not move alike"),
+        ("[[mass]]\nmass_kg = 1e-3\nx_mm = 250.0\n", "clamped-free", "", "mass.x_mm = 250 is off the beam"),
         (
             "[tolerances]\narea_percent = 1.0\n",
             "clamped-free",
