@@ -112,7 +112,7 @@ def _judged(
         None,
         "whether one shifted law serves cannot be told: not even a law for each temperature explains the "
         f"readings (chi-square per degree of freedom {fit.own_chi2_per_dof:.3g}), nor one effect at "
-        "all of them; 'viscorig diagnose' each of them first",
+        "all of them; first 'viscorig diagnose' the data of each temperature by itself",
     )
 
 

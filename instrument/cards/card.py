@@ -21,13 +21,15 @@ class Card:
     prony: Prony
     poisson: float
     poisson_is_assumed: bool
+    wanted: float = 0.01
+    """Relative error that its series was to have."""
 
     @classmethod
     def of(cls, law: MaterialLaw, poisson: float | None = None, wanted: float = 0.01) -> "Card":
         """`poisson` where the law's file does not state it; `wanted`: relative error of the series."""
         given = poisson if poisson is not None else law.poisson
         prony = fit_prony(law.modulus, *law.band_hz, wanted)
-        return cls(law, prony, USUAL_POISSON if given is None else given, given is None)
+        return cls(law, prony, USUAL_POISSON if given is None else given, given is None, wanted)
 
     def header(self) -> list[str]:
         """Lines without the format's comment sign."""
@@ -65,9 +67,13 @@ class Card:
     def about_series(self) -> str:
         """How well the series stands for the law."""
         p = self.prony
+        missed = (
+            f"; {100 * self.wanted:.2g} % is not reached: no sum of relaxations is this law, as far as its "
+            "own uncertainty lets it bend"
+        )
         return (
             f"Prony series of {len(p.g_pa)} terms: at most {100 * p.max_error:.2g} % off the law's G* in the "
-            f"band, rms {100 * p.rms_error:.2g} %"
+            f"band, rms {100 * p.rms_error:.2g} %{missed if p.max_error > self.wanted else ''}"
         )
 
     def about_table(self) -> str:

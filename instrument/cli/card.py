@@ -47,6 +47,8 @@ def card(
 
     A session's law is that after its diagnosis, where it has one. Units are Pa, s and Hz.
     """
+    if str(out) == "-" and json_path == "-":
+        raise click.UsageError("--out - and --json -: standard output takes one of them")
     output = Output(json_path)
     form = FORMATS[to]
     path = out if out is not None else found.with_name(f"{found.stem}-card{form.ending}")

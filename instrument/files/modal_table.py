@@ -86,7 +86,11 @@ def read_modal_table(path: Path) -> ModalTable:
     columns = _columns(path)
     warm = columns.get("temperature_c")
     several = warm is not None and float(np.ptp(warm)) > _ONE_K
-    _check_modes(path, columns, "; rows of several temperatures go with 'identify --shift'" * several)
+    _check_modes(
+        path,
+        columns,
+        "; rows of several temperatures go with 'identify --shift', or in a table each" * several,
+    )
     return _table(path, columns)
 
 
