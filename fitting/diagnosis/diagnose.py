@@ -126,7 +126,12 @@ def diagnose_task(
         ),
         before=before,
         after=after,
-        next_measurement=text.next_measurement(judgement, catalogue, with_hammer=bare is not None),
+        next_measurement=text.next_measurement(
+            judgement,
+            catalogue,
+            with_hammer=bare is not None,
+            unknown=text.where_nothing_explains(problem.specimen.kind, problem.points.levels),
+        ),
         explanation=(
             *(f"{s[0].upper()}{s[1:]}." for s in seen),
             *text.explain(problem, judgement, before, after, found, catalogue),

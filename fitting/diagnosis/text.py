@@ -109,14 +109,14 @@ def _percent(probability: float) -> str:
     return f"{two_digits(100 * probability)} %"
 
 
-def next_measurement(judgement: Judgement, catalogue: dict[str, Effect], *, with_hammer: bool) -> str:
-    """What would tell equivalent effects apart, or confirm a single one."""
+def next_measurement(
+    judgement: Judgement, catalogue: dict[str, Effect], *, with_hammer: bool, unknown: str = ""
+) -> str:
+    """What would tell equivalent effects apart, or confirm a single one; `unknown` where there is none."""
     if judgement.verdict == "none":
         return ""
     if judgement.accepted is None:
-        return (
-            "A second spot and a second level: they show whether the rest belongs to the place or the drive."
-        )
+        return unknown
     names = [n for group in judgement.equivalent.values() if len(group) > 1 for n in group]
     names = names or list(judgement.equivalent)
     ways = {
@@ -129,6 +129,21 @@ def next_measurement(judgement: Judgement, catalogue: dict[str, Effect], *, with
     if all(len(group) == 1 for group in judgement.equivalent.values()):
         return "To confirm: " + "; ".join(ways) + "."
     return "To tell them apart: " + "; ".join(f"{way} ({name})" for way, name in ways.items()) + "."
+
+
+def where_nothing_explains(kind: str, levels: int) -> str:
+    """What to measure next on a kind of specimen that was driven at so many levels."""
+    level = "a second level" if levels == 1 else "its lowest level by itself"
+    if kind == "shear-pair":
+        return f"Another mass and {level}: they show whether the rest belongs to the rig or to the strain."
+    return f"A second spot and {level}: they show whether the rest belongs to the place or the drive."
+
+
+WHERE_NOTHING_EXPLAINS_MODES = (
+    "A second specimen, and the sweeps that the modes were read from: they show whether the rest belongs to "
+    "the specimen or to the reading."
+)
+"""The same of tables of modes."""
 
 
 def _left(problem: DiagnosisProblem, before: Stage) -> str:

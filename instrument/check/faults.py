@@ -19,6 +19,8 @@ from instrument.simulated_case import case_file
 from instrument.simulated_case.stated import refuse_simulation
 from instrument.simulated_case.structure import stands_on
 
+_SPOT_M = 1e-3
+"""As near a laser is aimed."""
 _SAMPLES_A_CYCLE = 4.0
 """Below, a front-end's own filter is near."""
 
@@ -71,8 +73,21 @@ def _simulated_plate(experiment: Experiment) -> Iterator[str]:
             f"{experiment.rig_path.name}"
         )
         return
+    published = read_specimen(case_file("specimen.toml"))
+    at, stated = published.pickup_m, specimen.pickup_m
+    if (
+        at is not None
+        and stated is not None
+        and max(abs(a - b) for a, b in zip(at, stated, strict=True)) > _SPOT_M
+    ):
+        x, y = (1e3 * v for v in stated)
+        yield (
+            f"{experiment.specimen_path}: pickup at {x:g}, {y:g} mm, but the simulated rig reads the "
+            f"published plate at {1e3 * at[0]:g}, {1e3 * at[1]:g}: expected that, or [simulation] specimen = "
+            f'"{experiment.specimen_path.name}" in {experiment.rig_path.name}, which is read anywhere'
+        )
     try:
-        check_like(specimen, read_specimen(case_file("specimen.toml")))
+        check_like(specimen, published)
     except OutsideModel as error:
         said = str(error).partition(", expected")[0]
         yield (

@@ -3,9 +3,10 @@
 from collections.abc import Mapping
 from math import nan
 
+from instrument.facts.identification import PointFitted
 from instrument.facts.number import MaybeNumber, Number
 from instrument.facts.result import Result
-from instrument.facts.rows import AdjustedNumber, LawRow
+from instrument.facts.rows import AdjustedNumber, HeldOut, LawRow
 
 
 class ModeFitted(Result):
@@ -57,6 +58,11 @@ class ModalResult(Result):
     chi2_per_dof: MaybeNumber = None
     leave_one_out_rms_percent: MaybeNumber = None
     """None: modes are not left out one by one."""
+    points: tuple[PointFitted, ...] = ()
+    """None: `modes` are what was measured; so are the three below of sweeps alone."""
+    held_out: tuple[HeldOut, ...] = ()
+    held_out_rms_percent: MaybeNumber = None
+    criterion_met: bool | None = None
     modes: tuple[ModeFitted, ...]
     files: tuple[str, ...]
     iterations: int = 0

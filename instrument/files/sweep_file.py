@@ -18,6 +18,8 @@ IMPORT_READS = "'viscorig import' reads other programs' tables"
 """For people whose columns have other names."""
 _LARGEST_WHOLE = 1e9
 """Numbers of segments and passes are small; beyond this a double may no longer be whole."""
+_SAME_SIZE = 0.02
+"""Between an amplitude and its phasor, written with few digits."""
 _DRIVES: dict[Drive, tuple[str, str]] = {
     "base": ("base_accel_re_m_s2", "base_accel_im_m_s2"),
     "force": ("force_re_n", "force_im_n"),
@@ -125,6 +127,7 @@ def read_sweep(path: Path) -> SweepFile:
             columns[name] = np.array([_number(path, line, known[name], row[k]) for line, row in rows])
     lines = [f"line {line}" for line, _ in rows]
     _check_phasors(path, lines, columns)
+    _check_amplitudes(path, lines, columns)
     _check_twice(path, lines, columns)
     unknown = {
         name: [row[k] for _, row in rows] for k, name in enumerate(header) if name and name not in known
@@ -217,6 +220,21 @@ def _check_phasors(path: Path, places: list[str], columns: dict[str, Array]) -> 
             if zero.size:
                 stem = real.partition("_re_")[0]
                 raise BadInput(f"{path}: {places[zero[0]]}: {stem} is zero, expected a reading")
+
+
+def _check_amplitudes(path: Path, places: list[str], columns: dict[str, Array]) -> None:
+    """Raise `BadInput` where amplitudes beside phasors are not theirs."""
+    amplitude = columns.get("velocity_m_s")
+    if amplitude is None or "velocity_re_m_s" not in columns:
+        return
+    size = np.hypot(columns["velocity_re_m_s"], columns["velocity_im_m_s"])
+    wrong = np.flatnonzero(np.abs(amplitude - size) > _SAME_SIZE * np.maximum(amplitude, size))
+    if wrong.size:
+        k = int(wrong[0])
+        raise BadInput(
+            f"{path}: {places[k]}: velocity_m_s = {amplitude[k]:g} beside a phasor of {size[k]:.4g}, "
+            "expected one of both, or both alike"
+        )
 
 
 def _check_twice(path: Path, places: list[str], columns: dict[str, Array]) -> None:

@@ -55,7 +55,9 @@ def modal_diagnosis_from(
         nested_held_out_rms_percent=None,
         next_measurement=_READ_AGAIN
         if diagnosed.misread
-        else text.next_measurement(judgement, catalogue, with_hammer=False),
+        else text.next_measurement(
+            judgement, catalogue, with_hammer=False, unknown=text.WHERE_NOTHING_EXPLAINS_MODES
+        ),
         unseen=(),
         explanation=_explanation(diagnosed, effects, first, last),
         warnings=diagnosed.remarks,

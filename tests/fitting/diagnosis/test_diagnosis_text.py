@@ -7,7 +7,7 @@ from shear_pair_cases import pair, sweep
 from fitting.diagnosis.of_files import Place
 from fitting.diagnosis.several import SeveralProblem
 from fitting.diagnosis.small_problem import SmallProblem
-from fitting.diagnosis.text import how_likely, moved_words
+from fitting.diagnosis.text import how_likely, moved_words, next_measurement, where_nothing_explains
 from fitting.diagnosis.verdict import Judgement
 
 
@@ -16,6 +16,21 @@ def test_what_is_named_beside_a_likelier_none_is_not_called_most_likely(none, wo
     names = ("gain_error",)
     said = Judgement("ambiguous", None, {}, probability={(): none, names: 0.35})
     assert how_likely(said, names) == words
+
+
+@pytest.mark.parametrize(
+    ("kind", "levels", "asked"),
+    [
+        ("plate", 1, ("A second spot and a second level", "the place or the drive")),
+        ("beam", 2, ("A second spot and its lowest level by itself", "the place or the drive")),
+        ("shear-pair", 2, ("Another mass and its lowest level by itself", "the rig or to the strain")),
+    ],
+)
+def test_where_nothing_explains_what_is_asked_for_is_what_the_specimen_has(kind, levels, asked):
+    unknown = where_nothing_explains(kind, levels)
+    said = next_measurement(Judgement("unknown", None, {}), {}, with_hammer=False, unknown=unknown)
+    assert all(words in said for words in asked)
+    assert next_measurement(Judgement("none", None, {}), {}, with_hammer=False, unknown=unknown) == ""
 
 
 def moved(*places):

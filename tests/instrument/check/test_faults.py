@@ -133,6 +133,14 @@ def test_another_plate_than_the_published_one_is_not_on_the_rig(tmp_path):
     assert "length is -20.1 % off the model's; expected that plate's specimen, or a real rig" in said
 
 
+def test_the_published_plate_is_read_at_its_spot_alone(tmp_path):
+    elsewhere = {"x_mm = 60.0": "x_mm = 80.0"}
+    (said,) = objections(tmp_path, ("sweep",), specimen=elsewhere)
+    assert said.startswith("specimen.toml: pickup at 80, 60 mm, but the simulated rig reads the published")
+    own = {"seed = 1": 'seed = 1\nspecimen = "specimen.toml"'}
+    assert objections(tmp_path, ("sweep",), specimen=elsewhere, rig=own) == []
+
+
 def test_a_plate_that_stands_on_the_rig_is_the_one_that_is_stated(tmp_path):
     write_case(tmp_path)
     (tmp_path / "other.toml").write_text((tmp_path / "specimen.toml").read_text().replace("300.2", "240.0"))

@@ -12,6 +12,7 @@ from instrument.files.lvm import read_lvm
 from instrument.files.mat import read_mat_variables
 from instrument.files.modal_table import is_modal_table, read_modal_table
 from instrument.files.plausible import INSIST, question_specimen, specimen_doubts
+from instrument.files.sweep_file import read_sweep
 from instrument.files.uff58 import FRF, read_uff58
 
 LVM = """LabVIEW Measurement
@@ -168,3 +169,12 @@ def test_a_face_that_is_no_solid_is_asked_about(young_gpa, density, asked):
 )
 def test_metals_and_polymers_are_not_asked_about(young_gpa, density):
     assert specimen_doubts({"substrate": {"young_gpa": young_gpa, "density_kg_m3": density}}) == []
+
+
+def test_amplitudes_beside_phasors_are_theirs_or_refused(tmp_path):
+    head = "frequency_hz,velocity_re_m_s,velocity_im_m_s,velocity_m_s\n"
+    path = written(tmp_path, head + "10,0.03,0.04,0.05\n20,0.03,0.04,0.1\n", "both.csv")
+    with pytest.raises(BadInput, match=r"line 3: velocity_m_s = 0\.1 beside a phasor of 0\.05, expected one"):
+        read_sweep(path)
+    path = written(tmp_path, head + "10,0.03,0.04,0.05\n20,0.03,0.04,0.0501\n", "both.csv")
+    assert read_sweep(path).columns["velocity_m_s"].size == 2
