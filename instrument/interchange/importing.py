@@ -60,7 +60,7 @@ def import_file(path: Path, out: Path | None, columns: Sequence[str] | None = No
     try:
         for (kind, k), file in unproven.items():
             _write(file, kind, kinds[kind][k])
-            _say_where_from(file, path)
+            _say_where_from(file, path, kinds[kind][k][0] if kind == "frf" else "")
         # What was written has to be what the program reads.
         for (kind, k), file in unproven.items():
             if kind in _READ_BY:
@@ -108,8 +108,10 @@ def _write(file: Path, kind: str, item: object) -> None:
         write_frf_csv(file, item[1], item[2])
 
 
-def _say_where_from(file: Path, source: Path) -> None:
-    write_at_once(file, f"# imported from {one_line(source.name)}\n" + file.read_text(encoding="utf-8"))
+def _say_where_from(file: Path, source: Path, what: str) -> None:
+    """`what` of the source it is, where that has several."""
+    said = one_line(f"{source.name}: {what}" if what else source.name)
+    write_at_once(file, f"# imported from {said}\n" + file.read_text(encoding="utf-8"))
 
 
 def _alike(hits: list[Hit]) -> list[list[Hit]]:

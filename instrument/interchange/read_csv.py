@@ -35,7 +35,7 @@ def read_csv(path: Path, columns: Sequence[str] | None = None) -> Found:
     if rate is not None:
         table["sample_rate_hz"] = np.array([rate])
     found.said += [f"{path.name}: {line}" for line in stands.said]
-    words = [name for name in stands.names if name and name not in table]
+    words = [name for name in stands.names if name not in ("", "-") and name not in table]
     if words:
         found.said.append(f"passed over: {path.name}: {', '.join(words)[:200]}: no numbers")
     try:

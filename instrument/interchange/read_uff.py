@@ -24,6 +24,9 @@ def read_uff(path: Path) -> Found:
             found.said.append(f"passed over: {f.name}: {f.points}: not along what drives it")
             continue
         turned = f"{f.name} (sign turned: a negative direction)" if f.turned else f.name
+        if f.points and per == "force":
+            # Several of a roving hammer have one name.
+            turned = f"{turned}, {f.points}"
         ratio = Ratio(turned, f.x, f.values, f.unit.quantity, per, f.level_m_s2, f.place, f.points)
         found.add_ratio(ratio, None if own is None else own.values)
     left = [c for c in coherences if not any(c is own for own in theirs)]

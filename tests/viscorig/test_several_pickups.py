@@ -62,3 +62,10 @@ def test_an_effect_of_all_of_them_is_accepted_on_a_persons_word(command, files, 
 def test_what_is_of_one_pickup_is_refused(loaded, keywords):
     with pytest.raises(BadInput, match=r"several pickups .* expected one pickup"):
         vr.identify(*loaded, **keywords)
+
+
+def test_a_beam_is_refused_by_its_name(tmp_path):
+    path = tmp_path / "beam.toml"
+    path.write_text("[beam]\nlength_mm = 200.0\n")
+    with pytest.raises(BadInput, match=r"beam\.toml: a beam, expected a plate"):
+        vr.load_specimen(path)

@@ -6,6 +6,7 @@ from foreign_files import F, frf_set, time_set
 from uff_files import write_sets
 
 from instrument.errors import BadInput
+from instrument.interchange.importing import import_file
 from instrument.interchange.read_uff import read_uff
 
 H = np.array([1.0, 0.5 + 0.1j, 0.25j, 0.1, 0.2j])
@@ -127,3 +128,19 @@ def test_records_without_a_force_are_passed_over(tmp_path):
     found = read_uff(tmp_path / "a.uff")
     assert found.hits == []
     assert found.said == ["passed over: 2 time records without a force among them"]
+
+
+def test_of_a_roving_hammers_frfs_each_file_says_which_points_it_is_between(tmp_path):
+    write_sets(tmp_path / "a.uff", ratio(1), ratio(2))
+    made = import_file(tmp_path / "a.uff", tmp_path / "out.csv")
+    for k, path in enumerate(made.files, start=1):
+        assert f"node {k} Z over node 1 Z" in path.read_text().splitlines()[0]
+        assert f"node {k} Z over node 1 Z" in made.said[k - 1]
+
+
+def test_a_file_that_ends_within_a_set_is_refused(tmp_path):
+    write_sets(tmp_path / "a.uff", ratio(1, format="ascii"), ratio(2, format="ascii"))
+    whole = (tmp_path / "a.uff").read_bytes()
+    (tmp_path / "b.uff").write_bytes(whole[: len(whole) - 40])
+    with pytest.raises(BadInput, match=r"b\.uff: cut off in data set \d, expected -1 at its end"):
+        read_uff(tmp_path / "b.uff")
