@@ -19,6 +19,8 @@ def stands_in(problem: DiagnosisProblem, fitted: Refitted) -> str:
     effects = fitted.effects
     if supposes_too_much(fitted):
         return "so many things at once come near to anything"
+    if len(effects) > 1 and any(e.of_a_segment for e in effects):
+        return "what one segment alone shows, beside another effect, may be of anything"
     for effect in effects:
         if not effect.shows(problem.points, problem.resonances, fitted.of(effect)):
             return f"no measured points show a {effect.name} by themselves"

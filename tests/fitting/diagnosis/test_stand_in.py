@@ -31,6 +31,8 @@ def fitted(**effects):
         ({"gain_error": [1.02]}, ""),
         ({"fixture_resonance": [100.0, 0.02, 0.02, 0.0, 1.0]}, ""),
         ({"fixture_resonance": [150.0, 0.02, 0.02, 0.0, 1.0]}, "no measured points"),
+        ({"segment_gain": [1.02, 90.0, 110.0, 0.0]}, ""),
+        ({"segment_gain": [1.02, 90.0, 110.0, 0.0], "gain_error": [1.02]}, "what one segment alone shows"),
         ({"added_masses": [1e-3, 0.1, 0.1, 1e-3, 0.2, 0.1]}, ""),
         ({"added_masses": [1e-3, 0.1, 0.1, 1e-3, 0.2, 0.1], "gain_error": [1.02]}, "so many things"),
         # Quite free is as far as a treatment goes.
