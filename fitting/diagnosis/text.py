@@ -63,6 +63,8 @@ def explain(
         said.append(_moved(problem, scored.fitted))
     if scored.stands_in and not judgement.by_hand:
         said.append(f"It may stand in for what is not known: {scored.stands_in}.")
+    if scored.too_large and judgement.by_hand:
+        said.append(f"{scored.too_large} ends at the limit of what is plausible: it would be larger still.")
     if scored.strains is not None and not judgement.by_hand:
         said.append(
             f"It has stated numbers as far off as they are once in {1 / scored.strains:.2g} times, and may "
