@@ -34,6 +34,7 @@ def unlike_a_cantilever(plate: Specimen) -> str:
         (plate.core is not None and bool(plate.core.glue), "glue"),
         (any(face.rolled is not None for face in faces), "an orthotropic face"),
         (plate.force_m is not None, "a force that drives it"),
+        (bool(plate.masses), "[[mass]] (effects.added_mass puts one on)"),
     )
     return next((said for wrong, said in reasons if wrong), "")
 

@@ -53,6 +53,11 @@ def stands_on(simulation: Simulation, rig_path: Path) -> Beam | ShearPair | Spec
     if isinstance(read, Beam):
         if read.boundary == "free-free":
             raise BadInput(f"{rig_path}: simulation.specimen: a free beam stands on no shaker")
+        if read.masses:
+            raise BadInput(
+                f"{rig_path}: simulation.specimen: {path.name} has [[mass]], expected none: "
+                "effects.added_mass puts one on"
+            )
         if read.pickup_m is None:
             raise BadInput(f"{path}: [pickup] is missing, expected x_mm of the measured spot")
     return read

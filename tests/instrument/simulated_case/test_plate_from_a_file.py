@@ -66,3 +66,15 @@ def test_a_rig_file_is_refused_for_a_plate_that_is_not_simulated(tmp_path):
     document = RigDocument.model_validate(tomllib.loads((tmp_path / "rig.toml").read_text()))
     with pytest.raises(BadInput, match=r"plate\.toml has boundary free, expected a cantilever"):
         refuse_simulation(document, tmp_path / "rig.toml")
+
+
+@pytest.mark.parametrize("kind", ["plate", "beam"])
+def test_a_stated_mass_is_no_part_of_what_stands_on_the_rig(tmp_path, kind):
+    write_new(kind, tmp_path / "it.toml")
+    y = "y_mm = 60.0\n" if kind == "plate" else ""
+    with (tmp_path / "it.toml").open("a") as file:
+        file.write(f"\n[[mass]]\nmass_kg = 0.001\nx_mm = 60.0\n{y}")
+    (tmp_path / "rig.toml").write_text(case_file("rig.toml").read_text() + 'specimen = "it.toml"\n')
+    document = RigDocument.model_validate(tomllib.loads((tmp_path / "rig.toml").read_text()))
+    with pytest.raises(BadInput, match=r"it\.toml has \[\[mass\]\].*effects\.added_mass puts one on"):
+        refuse_simulation(document, tmp_path / "rig.toml")
