@@ -6,7 +6,9 @@ from scipy.io import savemat
 
 from instrument.errors import BadInput
 from instrument.files.modal_table import read_modal_table, read_modal_tables
+from instrument.interchange.found import Found
 from instrument.interchange.importing import import_file
+from instrument.interchange.read_modes import read_modes
 
 
 def imported(tmp_path, text, ending=".csv"):
@@ -98,3 +100,14 @@ def test_what_does_not_say_enough_is_asked_about(tmp_path, text, said):
 def test_a_loss_beside_a_velocity_is_no_table_of_modes(tmp_path):
     imported(tmp_path, "Frequency [Hz],Velocity [mm/s],Q\n20,1,2\n21,1,2\n")
     assert "velocity_m_s" in (tmp_path / "ours.csv").read_text()
+
+
+def test_what_is_no_table_of_modes_is_left_alone():
+    found = Found()
+    f = np.array([20.0, 21.0])
+    assert not read_modes("a", {"frequency_hz": f, "velocity_m_s": f}, found)
+    assert not read_modes("a", {"frequency_hz": f, "Velocity [mm/s]": f, "Q": f}, found)
+    assert found.said == []
+    assert not read_modes("a", {"frequency_hz": f, "eta": f}, found)
+    assert found.said == ["a: eta: of which mode? expected a column of their numbers"]
+    assert found.modes == []
