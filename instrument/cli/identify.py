@@ -14,6 +14,7 @@ from fitting.specimen import Specimen
 from fitting.temperature.shifts import Kind
 from instrument.cli.identify_modes import identify_modes
 from instrument.cli.identify_shifted import identify_shifted, identify_tables_shifted
+from instrument.cli.naming import naming_data
 from instrument.cli.options import NumberRange, figures_option, file_arguments, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_beside import print_beside
@@ -121,6 +122,7 @@ from instrument.results.uncertainty_facts import Depth, in_depth, in_depth_facts
 )
 @figures_option("With --pointwise, --with or --shift: save figures as PNG.")
 @json_option
+@naming_data
 def identify(
     data: tuple[Path, ...],
     specimen: tuple[Path, ...],
