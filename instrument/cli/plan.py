@@ -125,6 +125,11 @@ def plan(
         raise BadInput(
             f"{specimen}: a {read.kind}, expected a plate: other specimens are not planned for yet"
         )
+    if read.force_m is not None:
+        raise BadInput(
+            f"{specimen}: a plate that a force drives, expected one on a base: what is planned are steps of a "
+            "shaker"
+        )
     wish = Wish(
         target=target / 100,
         band_hz=band,

@@ -7,7 +7,8 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.modal.frf import Frf
 from fitting.modal.rational_fit import RationalFit
-from instrument.impact.damping import Mode, marks
+from instrument.impact.damping import marks
+from instrument.impact.mode import Mode
 
 
 @dataclass(frozen=True)

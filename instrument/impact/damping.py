@@ -12,7 +12,9 @@ from fitting.modal.half_power import half_power, half_power_marks
 from fitting.modal.lscf import lscf, lscf_poles
 from fitting.modal.rational_fit import RationalFit, rational_fit
 from instrument.errors import BadInput
+from instrument.impact.hits_apart import told_apart
 from instrument.impact.judge import Judged
+from instrument.impact.mode import Mode
 from instrument.impact.spectra import Estimator, Spectra, rolloff_hz, spectra
 
 PADDING = 8
@@ -39,26 +41,6 @@ _LSCF_BANDWIDTHS = 15
 """Either side of a mode: its neighbours' poles are found too, and take their part."""
 _SAME = 2e-3
 """Relative distance within which two channels' peaks are one mode."""
-
-
-@dataclass(frozen=True)
-class Mode:
-    """One mode: what each method says, what is adopted, and what speaks against it."""
-
-    frequency_hz: float
-    damping_ratio: float
-    """NaN where no method gives one."""
-    channel: str
-    half_power: DampingEstimate | Refusal
-    rational_fit: DampingEstimate | Refusal
-    lscf: DampingEstimate | Refusal
-    lines_in_bandwidth: float
-    bandwidths_to_next: float
-    """Distance to the nearest other mode; infinite for a single one."""
-    accepted: bool
-    why: str
-    fit: RationalFit | None = None
-    """For drawing."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +78,8 @@ def damping_of_hits(
     seconds = good[0].hit.seconds
     band = band_hz or (3 / seconds, min(rolloff_hz(plain), 0.45 * good[0].hit.sample_rate_hz))
     modes = _modes(plain.frfs, fine.frfs, band, at_hz, seconds)
-    said = [f"{j.hit.source}: {note}" for j in hits for note in j.notes]
+    modes, differ = told_apart(good, modes, estimator, end_value)
+    said = [*(f"{j.hit.source}: {note}" for j in hits for note in j.notes), *differ]
     if not modes:
         said.append(
             f"no mode found between {band[0]:.3g} and {band[1]:.4g} Hz: name it with --at, or see --band"

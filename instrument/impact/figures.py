@@ -8,7 +8,8 @@ from matplotlib.figure import Figure
 
 from fitting.modal.frf import Motion
 from instrument.errors import BadInput
-from instrument.impact.damping import Damping, Mode, marks
+from instrument.impact.damping import Damping, marks
+from instrument.impact.mode import Mode
 
 _DATA, _FIT, _MARK = "#0b63a5", "#c2571a", "#5b8c2a"
 _UNITS: dict[Motion, tuple[str, str]] = {

@@ -7,7 +7,8 @@ from threadpoolctl import threadpool_limits
 
 from fitting.modal.frf import Frf
 from fitting.modal.rational_fit import RationalFit, rational_fit
-from instrument.impact.damping import Damping, Mode
+from instrument.impact.damping import Damping
+from instrument.impact.mode import Mode
 from instrument.impact.spectra import spectra
 
 _FEWEST = 2

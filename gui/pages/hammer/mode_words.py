@@ -11,7 +11,7 @@ from fitting.modal.frf import Refusal
 from gui.pages.hammer.findings import ModesFound
 from gui.tables import Cell, Row
 from instrument.facts.damping import METHODS, DampingResult, Method, ModeFound, RatioFound
-from instrument.impact.damping import Mode
+from instrument.impact.mode import Mode
 from instrument.impact.scatter import Scatter
 from instrument.results.numbers import with_error
 

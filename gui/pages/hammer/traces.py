@@ -8,8 +8,9 @@ from fitting.arrays import Array, Complex
 from fitting.modal.frf import Frf
 from instrument.files.units import DERIVATIVE
 from instrument.impact.curves import HalfPowerMarks, fit_curve, half_power_at
-from instrument.impact.damping import Damping, Mode
+from instrument.impact.damping import Damping
 from instrument.impact.judge import Judged
+from instrument.impact.mode import Mode
 
 XY = tuple[Array, Array]
 
