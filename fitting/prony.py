@@ -54,21 +54,34 @@ class Prony:
 
 
 def fit_prony(
-    modulus: Callable[[Array], Complex], low_hz: float, high_hz: float, wanted: float = 0.01
+    modulus: Callable[[Array], Complex],
+    low_hz: float,
+    high_hz: float,
+    wanted: float = 0.01,
+    at_rest_pa: float | None = None,
 ) -> Prony:
     """The series with the fewest terms whose largest error is at most `wanted`; else the best there is.
 
-    `modulus`: rad/s to Pa, shape (n,) both.
+    Its long-time modulus is `at_rest_pa` where a series with that has the error wanted: slow terms fit a band
+    as well, and leave nothing under a static load. `modulus`: rad/s to Pa, shape (n,) both.
     """
     omega = 2 * np.pi * np.geomspace(low_hz, high_hz, _POINTS)
     G = modulus(omega)
+    if at_rest_pa is not None and 0 < at_rest_pa < G.real.min():
+        found = _fewest(omega, G, wanted, at_rest_pa)
+        if found.max_error <= wanted:
+            return found
+    return _fewest(omega, G, wanted, None)
+
+
+def _fewest(omega: Array, G: Complex, wanted: float, at_rest: float | None) -> Prony:
     best: Prony | None = None
     for count in range(1, MOST_TERMS + 1):
         for reach in _REACHES:
             tau = np.geomspace(1 / (reach * omega[-1]), reach / omega[0], count)
             if count == 1:
                 tau = np.array([reach / np.sqrt(omega[0] * omega[-1])])
-            found = _fit(omega, G, tau)
+            found = _fit(omega, G, tau, at_rest)
             if best is None or found.max_error < best.max_error:
                 best = found
         assert best is not None
@@ -90,14 +103,18 @@ def series_of(modulus: Callable[[Array], Complex], low_hz: float, high_hz: float
     return min(found, key=lambda series: series.rms_error)
 
 
-def _fit(omega: Array, G: Complex, tau: Array) -> Prony:
+def _fit(omega: Array, G: Complex, tau: Array, at_rest: float | None = None) -> Prony:
+    """By non-negative least squares; the long-time modulus is one of the unknowns where none is given."""
     s = 1j * np.multiply.outer(omega, tau)
-    columns = np.concatenate([np.ones((len(omega), 1)), s / (1 + s)], axis=1) / np.abs(G)[:, None]
-    target = G / np.abs(G)
+    given = at_rest or 0.0
+    free = np.ones((len(omega), 0 if given else 1))
+    columns = np.concatenate([free, s / (1 + s)], axis=1) / np.abs(G)[:, None]
+    target = (G - given) / np.abs(G)
     A = np.concatenate([columns.real, columns.imag])
     # Columns of one size: the long-time modulus may be a thousand times smaller than the others.
     size = np.linalg.norm(A, axis=0)
     x = nnls(A / size, np.concatenate([target.real, target.imag]))[0] / size
     error = np.abs(columns @ x - target)
-    kept = np.flatnonzero(x[1:])
-    return Prony(float(x[0]), x[1:][kept], tau[kept], float(error.max()), float(np.sqrt(np.mean(error**2))))
+    g_inf, g = (given, x) if given else (float(x[0]), x[1:])
+    kept = np.flatnonzero(g)
+    return Prony(g_inf, g[kept], tau[kept], float(error.max()), float(np.sqrt(np.mean(error**2))))

@@ -28,7 +28,8 @@ class Card:
     def of(cls, law: MaterialLaw, poisson: float | None = None, wanted: float = 0.01) -> "Card":
         """`poisson` where the law's file does not state it; `wanted`: relative error of the series."""
         given = poisson if poisson is not None else law.poisson
-        prony = fit_prony(law.modulus, *law.band_hz, wanted)
+        at_rest = law.parameters.get("g0_pa", law.parameters.get("g_inf_pa"))
+        prony = fit_prony(law.modulus, *law.band_hz, wanted, at_rest)
         return cls(law, prony, USUAL_POISSON if given is None else given, given is None, wanted)
 
     def header(self) -> list[str]:
@@ -73,7 +74,8 @@ class Card:
         )
         return (
             f"Prony series of {len(p.g_pa)} terms: at most {100 * p.max_error:.2g} % off the law's G* in the "
-            f"band, rms {100 * p.rms_error:.2g} %{missed if p.max_error > self.wanted else ''}"
+            f"band, rms {100 * p.rms_error:.2g} %{missed if p.max_error > self.wanted else ''}; at rest "
+            f"{p.g_inf_pa:.3g} Pa, an extrapolation"
         )
 
     def about_table(self) -> str:

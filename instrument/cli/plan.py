@@ -127,8 +127,8 @@ def plan(
         )
     if read.force_m is not None:
         raise BadInput(
-            f"{specimen}: a plate that a force drives, expected one on a base: what is planned are steps of a "
-            "shaker"
+            f"{specimen}: a plate that a force drives, expected one on a base: what is planned are steps of "
+            "a shaker"
         )
     wish = Wish(
         target=target / 100,

@@ -265,3 +265,13 @@ def test_other_shifts_and_doubts_are_said_in_the_header(tmp_path, changed, said)
     path = tmp_path / "shifted.json"
     path.write_text(json.dumps(facts(**{**SHIFT, **changed})), encoding="utf-8")
     assert said in card(path, "abaqus")
+
+
+def test_the_long_time_modulus_is_the_law_s_where_the_band_allows_it():
+    at_rest = TABLE_4.g0_pa
+    free, held = (fit_prony(TABLE_4.modulus, LOW, HIGH, 0.01, given) for given in (None, at_rest))
+    assert held.g_inf_pa == at_rest
+    assert max(held.max_error, free.max_error) <= 0.01
+    assert np.abs(held.modulus(np.array([1e-6]))[0]) == pytest.approx(at_rest, rel=1e-6)
+    # One that the band rules out is not taken.
+    assert fit_prony(TABLE_4.modulus, LOW, HIGH, 0.01, 1e9).g_inf_pa == free.g_inf_pa
