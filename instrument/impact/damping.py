@@ -15,7 +15,7 @@ from instrument.errors import BadInput
 from instrument.impact.hits_apart import told_apart
 from instrument.impact.judge import Judged
 from instrument.impact.mode import Mode
-from instrument.impact.spectra import Estimator, Spectra, rolloff_hz, spectra
+from instrument.impact.spectra import Estimator, Spectra, from_the_blow, rolloff_hz, spectra
 
 PADDING = 8
 """Half power is read on lines so many times finer."""
@@ -73,6 +73,7 @@ def damping_of_hits(
     good = [j for j in hits if j.accepted]
     if not good:
         raise BadInput("no good hit: " + "; ".join(f"{j.hit.source}: {j.why}" for j in hits))
+    good = from_the_blow(good)
     plain = spectra(good, estimator=estimator, end_value=end_value)
     fine = spectra(good, estimator=estimator, end_value=end_value or HALF_POWER_END, padding=PADDING)
     seconds = good[0].hit.seconds

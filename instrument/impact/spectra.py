@@ -1,6 +1,6 @@
 """From accepted hits to frequency response functions and coherence."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -11,6 +11,10 @@ from instrument.impact.judge import Judged
 
 Estimator = Literal["h1", "h2", "hv"]
 
+_LEAD_S = 0.02
+"""Kept before the blow: it rises within a millisecond or two."""
+_SHORT_WAIT = 0.03
+"""Of the record, before the blow: it changes nothing that shows."""
 _TAPER = 0.5
 """The force window closes over this share of its own length, a half cosine."""
 _PULSES = 4
@@ -27,6 +31,28 @@ class Spectra:
     force: Array
     """Mean magnitude of the force spectrum, N s. Shape (lines,)."""
     frequency_hz: Array
+
+
+def from_the_blow(hits: list[Judged]) -> list[Judged]:
+    """The same without a long wait before the blow, all of one length still.
+
+    What a record cuts off of a decay is smooth over its lines where it begins with the blow; later by t_0 it
+    turns from line to line by exp(i omega t_0), and no fit about a mode follows that.
+    """
+    lead = round(_LEAD_S * hits[0].hit.sample_rate_hz)
+    starts = [max(0, j.pulse.start - lead) for j in hits]
+    length = len(hits[0].hit.force_n)
+    if max(starts) <= _SHORT_WAIT * length:
+        return hits
+    kept = length - max(starts)
+    return [_cut(j, start, start + kept) for j, start in zip(hits, starts, strict=True)]
+
+
+def _cut(judged: Judged, start: int, stop: int) -> Judged:
+    hit, pulse = judged.hit, judged.pulse
+    responses = tuple(replace(c, samples=c.samples[start:stop]) for c in hit.responses)
+    shorter = replace(hit, force_n=hit.force_n[start:stop], responses=responses)
+    return replace(judged, hit=shorter, pulse=slice(pulse.start - start, pulse.stop - start))
 
 
 def spectra(

@@ -1,5 +1,7 @@
 """Hits that are not of one plate: named, and their mean not adopted."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from impact_cases import BARE_HZ, TABLE_3, clean_hit, noisy_hits
@@ -53,3 +55,26 @@ def test_hits_of_one_plate_are_averaged_as_they_are(seed):
     assert not any("differ" in w for w in found.warnings)
     assert told_apart(alike, found.modes, "h1", None) == (found.modes, [])
     assert told_apart(alike[:1], found.modes, "h1", None) == (found.modes, [])
+
+
+def test_a_blow_late_in_the_record_loses_no_mode_and_no_digits():
+    at_once = hits((1, 1), (1, 1), (1, 1))
+    wait = int(0.5 * at_once[0].hit.sample_rate_hz)
+    late = [judge(later(j.hit, wait + 3 * k)) for k, j in enumerate(at_once)]
+    early, found = damping_of_hits(at_once, at_hz=AT), damping_of_hits(late, at_hz=AT)
+    (ratio, error), (before, known) = ratios(found), ratios(early)
+    assert np.all(np.abs(ratio - TABLE_3[:5]) < 4 * error)
+    assert np.all(error < 2 * known)
+    np.testing.assert_allclose(ratio, before, rtol=0.02)
+
+
+def later(hit, samples):
+    """Quiet before the blow, as long as the record was."""
+    rng = np.random.default_rng(samples)
+
+    def waited(x):
+        quiet = np.std(x[:20]) * rng.normal(size=samples)
+        return np.concatenate([quiet, x[: len(x) - samples]])
+
+    responses = tuple(replace(c, samples=waited(c.samples)) for c in hit.responses)
+    return replace(hit, force_n=waited(hit.force_n), responses=responses)
