@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array
-from instrument.batch.columns import cells
+from instrument.batch.columns import cells, is_doubted
 from instrument.batch.run import BatchRow
 from instrument.facts.batch import BatchSpread
 from instrument.material.comparing import RESOLUTION
@@ -46,7 +46,7 @@ def between_rows(rows: Iterable[BatchRow]) -> list[Between]:
     """The spread of every temperature that has rows enough with a band in common, the lowest first.
 
     `rows` is gone through twice; of each a few numbers are kept. Rows that failed, whose verdict is unknown,
-    or whose law has no standard errors take no part.
+    whose law says that it may be biased or has no standard errors take no part.
     """
     bands: dict[Group, list[tuple[float, float]]] = defaultdict(list)
     for row in _once(rows):
@@ -90,7 +90,7 @@ def _group(row: BatchRow) -> Group:
 def _law(row: BatchRow) -> dict[str, Array] | None:
     """Its columns, where all of them are known."""
     o = row.outcome
-    if o["failed"] or o["verdict"] == UNKNOWN:
+    if o["failed"] or o["verdict"] == UNKNOWN or is_doubted(row):
         return None
     law = {key: np.array(values, dtype=float) for key, values in (o.get("law") or {}).items()}
     if not law or not all(np.isfinite(v).all() for v in law.values()) or np.any(law["loss_factor"] <= 0):

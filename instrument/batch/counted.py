@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from instrument.batch.between import Between
-from instrument.batch.columns import NOT_DIAGNOSED
+from instrument.batch.columns import NOT_DIAGNOSED, is_doubted
 from instrument.batch.run import BatchRow
 from instrument.facts.batch import BatchFailure, BatchResult
 
@@ -21,6 +21,8 @@ class Counted:
     effects: Counter[str] = field(default_factory=Counter)
     failures: list[tuple[str, str]] = field(default_factory=list)
     """Data and reason, in the order of the rows."""
+    doubted: list[str] = field(default_factory=list)
+    """Data whose law says of itself that it may be biased."""
     borrowed: int = 0
     """Rows worked out on another specimen's reduced model."""
 
@@ -35,6 +37,8 @@ class Counted:
                 found.failures.append((row.task.data, o["failed"]))
                 continue
             found.done += 1
+            if is_doubted(row):
+                found.doubted.append(row.task.data)
             found.borrowed += bool(o["borrowed_model"])
             found.verdicts[o["verdict"] or NOT_DIAGNOSED] += 1
             found.effects.update(o["effects"])
@@ -50,6 +54,7 @@ class Counted:
             effects=dict(self.effects.most_common()),
             borrowed_models=self.borrowed,
             failures=tuple(BatchFailure(data=data, reason=why) for data, why in self.failures),
+            doubted=tuple(self.doubted),
             known_before=known_before,
             spread=tuple(one.result for one in spread),
             files=tuple(str(path) for path in files),

@@ -96,6 +96,13 @@ def _say(out: Output, counted: Counted, repeated: int) -> None:
     out.say(f"{counted.done} of {counted.rows} rows done{before}, {len(counted.failures)} failed")
     if counted.verdicts:
         out.say("verdicts: " + ", ".join(f"{n} {name}" for name, n in counted.verdicts.most_common()))
+    if counted.doubted:
+        some = counted.doubted[:_FAILURES_SHOWN]
+        more = f" and {len(counted.doubted) - len(some)} more" if len(counted.doubted) > len(some) else ""
+        out.say(
+            f"in doubt, not in the spread: {', '.join(some)}{more}: the law may be biased beyond its "
+            "band, see its remarks; --diagnose looks for why"
+        )
     for data, why in counted.failures[:_FAILURES_SHOWN]:
         out.say(f"failed: {data}: {why}")
     if len(counted.failures) > _FAILURES_SHOWN:

@@ -35,6 +35,8 @@ class BatchResult(Result):
     """Rows worked out on another specimen's reduced model."""
     failures: tuple[BatchFailure, ...]
     """In the order of the rows."""
+    doubted: tuple[str, ...] = ()
+    """Data whose law, not diagnosed, says of itself that it may be biased: not in the spread."""
     known_before: int
     """Rows that an earlier run had done."""
     spread: tuple[BatchSpread, ...] = ()

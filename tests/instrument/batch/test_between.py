@@ -58,7 +58,10 @@ def test_temperatures_are_apart_and_the_unmeasured_come_last():
     assert [(b.temperature_c, b.result.rows) for b in found] == [(20.0, 5), (40.0, 3), (None, 4)]
 
 
-@pytest.mark.parametrize("outcome", [{"failed": "torn"}, {"verdict": "unknown"}, {"law": {}}])
+DOUBTED = {"verdict": None, "warnings": ["numbers moved too far: the law may be biased beyond its band"]}
+
+
+@pytest.mark.parametrize("outcome", [{"failed": "torn"}, {"verdict": "unknown"}, {"law": {}}, DOUBTED])
 def test_rows_without_a_law_to_believe_take_no_part(outcome):
     some = [*rows(3, 0.0), row(9, 5.0, **outcome)]
     (found,) = between_rows(some)

@@ -107,6 +107,13 @@ def test_failed_rows_are_counted_apart_with_their_reasons_in_order():
     assert [(f.data, f.reason) for f in result.failures] == [("c.csv", "no such file")]
 
 
+def test_a_law_that_doubts_itself_is_counted_by_its_data_unless_it_was_diagnosed():
+    doubt = {"warnings": ["it may be less; the law may be biased beyond its band; see 'viscorig diagnose'"]}
+    rows = [row(**doubt), row(verdict="effect", effects=["added_mass"], **doubt), row(), FAILED]
+    result = Counted.of(rows).result(known_before=0, files=())
+    assert result.doubted == (rows[0].task.data,)
+
+
 def test_a_few_laws_are_named_by_their_files_and_failed_rows_are_not_drawn():
     figure = laws_figure(
         [row("a/first.csv"), BatchRow(BatchTask("c.csv"), {"failed": "why"}), row("a/2.csv")], 2
