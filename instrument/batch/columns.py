@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from instrument.batch.run import BatchRow
+from instrument.material.found_law import DOUBT
 
 Cell = str | float | int | bool | None
 
@@ -34,14 +35,12 @@ _AFTER = ("borrowed_model", "warnings")
 _LAW = _BEFORE[-5:-1]
 DONE, FAILED = "done", "failed"
 NOT_DIAGNOSED = "not diagnosed"
-_DOUBT = "law may be biased beyond its band"
-"""In the remark of a fit that says of itself that it lacks something."""
 
 
 def is_doubted(row: BatchRow) -> bool:
     """Whether a law that nobody has diagnosed says of itself that it may be wrong."""
     o = row.outcome
-    return not o["failed"] and o["verdict"] is None and any(_DOUBT in said for said in o["warnings"])
+    return not o["failed"] and o["verdict"] is None and any(DOUBT in said for said in o["warnings"])
 
 
 def columns_of(rows: Iterable[BatchRow]) -> list[str]:

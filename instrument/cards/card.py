@@ -11,6 +11,8 @@ from instrument.material.found_law import MaterialLaw
 
 USUAL_POISSON = 0.49
 """Of a viscoelastic core where nobody states it: nearly incompressible; cards say that it is assumed."""
+_NOTHING = 1e-6
+"""Of the instantaneous modulus: less is none."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,11 @@ class Card:
                 "WARNING: verdict unknown: the data show structure that nothing in the catalogue explains; "
                 "this law may be biased beyond its band"
             )
+        if law.is_doubted:
+            lines.append(
+                "WARNING: the fit says that this law may be biased beyond its band: see its warnings, and "
+                "'viscorig diagnose'"
+            )
         assumed = (
             " (assumed: not stated in the source; --specimen states it)"
             if self.poisson_is_assumed
@@ -68,14 +75,16 @@ class Card:
     def about_series(self) -> str:
         """How well the series stands for the law."""
         p = self.prony
+        rest = f"at rest {p.g_inf_pa:.3g} Pa, an extrapolation"
+        if p.g_inf_pa < _NOTHING * p.g_0_pa:
+            rest = "at rest nothing is left: not for static loads"
         missed = (
             f"; {100 * self.wanted:.2g} % is not reached: no sum of relaxations is this law, as far as its "
             "own uncertainty lets it bend"
         )
         return (
             f"Prony series of {len(p.g_pa)} terms: at most {100 * p.max_error:.2g} % off the law's G* in the "
-            f"band, rms {100 * p.rms_error:.2g} %{missed if p.max_error > self.wanted else ''}; at rest "
-            f"{p.g_inf_pa:.3g} Pa, an extrapolation"
+            f"band, rms {100 * p.rms_error:.2g} %{missed if p.max_error > self.wanted else ''}; {rest}"
         )
 
     def about_table(self) -> str:

@@ -78,6 +78,8 @@ def compare(
         if law.verdict == "unknown":
             beside = ", and is not in the spread" if spread is not None else ""
             out.say(f"{name}: verdict unknown: this law may be biased beyond what is known of it{beside}")
+        elif law.is_doubted:
+            out.say(f"{name}: its fit says that this law may be biased beyond its band{beside}")
         if doubt := kelvin_doubt(law.temperature_c):
             out.say(f"{name}: {doubt}")
     for (a, b), c in zip(pairs, found, strict=True):

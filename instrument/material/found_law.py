@@ -104,6 +104,10 @@ class _Diagnosed(BaseModel):
         return said
 
 
+DOUBT = "law may be biased beyond its band"
+"""In the remark of a fit that says of itself that it lacks something."""
+
+
 @dataclass(frozen=True)
 class MaterialLaw:
     """A core's law over the band that was measured. Arrays have shape (frequencies,), ascending."""
@@ -132,6 +136,8 @@ class MaterialLaw:
     """Which mount of its specimen it was, where a session says so."""
     posterior: LawPosterior | None = None
     """Where the source holds the covariance of the whole curve."""
+    is_doubted: bool = False
+    """Whether its fit, not diagnosed, says of itself that it may be biased."""
 
     @property
     def band_hz(self) -> tuple[float, float]:
@@ -231,7 +237,11 @@ def _identified(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
         found = _law(path, _LawFound.model_validate(facts), NOT_DIAGNOSED)
     except ValidationError:
         return None
-    return replace(found, posterior=posterior_of(facts)) if found is not None else None
+    if found is None:
+        return None
+    said = facts.get("warnings")
+    doubted = isinstance(said, list | tuple) and any(DOUBT in str(one) for one in said)
+    return replace(found, posterior=posterior_of(facts), is_doubted=doubted)
 
 
 def _of_session(path: Path, progress: Progress) -> MaterialLaw:

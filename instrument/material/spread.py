@@ -78,13 +78,18 @@ class Spread:
 def spread_of(laws: Sequence[MaterialLaw], between: Between = "specimens") -> Spread:
     """By restricted maximum likelihood. Raises `BadInput`, also for two laws of one mount.
 
-    Laws whose verdict is `unknown` are left out: they may be biased by more than any spread.
+    Laws whose verdict is `unknown`, or whose fit says so itself, are left out: they may be biased by more
+    than any spread.
     """
     if between == "mounts":
         _check_mounts(laws)
-    laws, all_of_them = [law for law in laws if law.verdict != "unknown"], len(laws)
+    laws, all_of_them = [law for law in laws if law.verdict != "unknown" and not law.is_doubted], len(laws)
     if len(laws) < FEWEST:
-        left = f", {all_of_them - len(laws)} more of verdict unknown" if len(laws) < all_of_them else ""
+        left = (
+            f", {all_of_them - len(laws)} more of verdict unknown or in doubt"
+            if len(laws) < all_of_them
+            else ""
+        )
         raise BadInput(f"{len(laws)} laws{left}, expected {FEWEST} or more to tell a spread from")
     low, high = max(law.band_hz[0] for law in laws), min(law.band_hz[1] for law in laws)
     if not low < high:

@@ -11,6 +11,7 @@ from conftest import TABLE_4
 from diagnosed_session import diagnosed_session
 
 from fitting.prony import MOST_TERMS, fit_prony
+from instrument.cards.card import Card
 from instrument.cli.main import run
 from instrument.errors import BadInput
 from instrument.material.found_law import read_law
@@ -275,3 +276,13 @@ def test_the_long_time_modulus_is_the_law_s_where_the_band_allows_it():
     assert np.abs(held.modulus(np.array([1e-6]))[0]) == pytest.approx(at_rest, rel=1e-6)
     # One that the band rules out is not taken.
     assert fit_prony(TABLE_4.modulus, LOW, HIGH, 0.01, 1e9).g_inf_pa == free.g_inf_pa
+
+
+def test_a_fit_that_doubts_itself_says_so_in_its_card(tmp_path):
+    said = "numbers moved too far: the law may be biased beyond its band; see 'viscorig diagnose'"
+    (tmp_path / "a.json").write_text(json.dumps(facts(warnings=[said])), encoding="utf-8")
+    law = read_law(tmp_path / "a.json")
+    assert law.is_doubted
+    assert any("WARNING: the fit says" in line for line in Card.of(law).header())
+    (tmp_path / "b.json").write_text(json.dumps(facts(warnings=["tolerances not named"])), encoding="utf-8")
+    assert not read_law(tmp_path / "b.json").is_doubted

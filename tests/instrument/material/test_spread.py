@@ -71,5 +71,5 @@ def test_a_law_of_an_unknown_verdict_is_not_in_the_spread(tmp_path, capsys):
     assert "2-0.json: verdict unknown" in said
     assert "is not in the spread" in said
     assert "spread between 4 specimens" in said
-    with pytest.raises(BadInput, match="2 laws, 1 more of verdict unknown, expected 3"):
+    with pytest.raises(BadInput, match="2 laws, 1 more of verdict unknown or in doubt, expected 3"):
         spread_of([read_law(p) for p in paths[:3]])
