@@ -9,6 +9,7 @@ from impact_cases import BARE_HZ, TABLE_3, clean_hit, noisy_hits
 from instrument.impact.damping import damping_of_hits
 from instrument.impact.hits_apart import told_apart
 from instrument.impact.judge import judge
+from instrument.impact.mode import Mode
 
 AT = tuple(BARE_HZ[:5])
 
@@ -53,6 +54,7 @@ def test_hits_of_one_plate_are_averaged_as_they_are(seed):
     alike = hits((1, 1), (1, 1), (1, 1), seed=seed)
     found = damping_of_hits(alike, at_hz=AT)
     assert not any("differ" in w for w in found.warnings)
+    assert all(isinstance(m, Mode) for m in found.modes)
     assert told_apart(alike, found.modes, "h1", None) == (found.modes, [])
     assert told_apart(alike[:1], found.modes, "h1", None) == (found.modes, [])
 
