@@ -111,6 +111,8 @@ class Expecting:
         self.reduced = several.reduced[0] if several and several.reduced else rivals.reduced
         """The plate that frequencies not yet measured are asked of; None where there is none."""
         self._errors = model_error(self.problem, rivals.reduced, first.law, first.velocity_m_s)
+        self._are_known = len(self._errors) == self.evidence.B.shape[1]
+        """Whether they are the evidence's: another law may have another resonance at a segment's edge."""
         self.known = [self._learnt(fitted) for _, fitted, _ in forms]
 
     @cached_property
@@ -241,6 +243,8 @@ class Expecting:
             e = self._errors[:, self.part][:, near] * (v / fitted.velocity_m_s[self.part][near])
             again = e * further.same_errors
             anew = e - again
+            if not self._are_known:
+                anew, again = e, np.zeros((len(known.errors), len(v)), complex)
         mean = v + known.errors @ again
         by_known = known.root.T @ np.concatenate([by, again])
         fresh += list(anew[np.any(anew != 0, axis=1)])

@@ -95,6 +95,17 @@ def test_errors_made_anew_are_not_those_of_the_first_sweep(expecting, again):
     assert (spread(anew) > spread(first)).all()
 
 
+def test_errors_of_resonances_that_the_evidence_does_not_have_are_made_anew(expecting, again):
+    evidence = replace(expecting.evidence, B=expecting.evidence.B[:, :-1])
+    each = tuple((known.fitted, 0.5) for known in expecting.known)
+    other = Expecting(Rivals(expecting.problem, evidence, each), 6)
+    anew = expecting.forecasts(replace(again, same_errors=False), NOISE)[0]
+    for first in (True, False):
+        found = other.forecasts(replace(again, same_errors=first), NOISE)[0]
+        np.testing.assert_allclose(found.mean, anew.mean, rtol=1e-9)
+        np.testing.assert_allclose(spread(found), spread(anew), rtol=0.05)
+
+
 def test_a_channel_that_is_another_one_is_as_uncertain_as_it_is_stated(expecting, again):
     plain = replace(again, same_errors=False)
     anew = replace(plain, new=frozenset({"gain"}))
