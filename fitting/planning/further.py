@@ -111,8 +111,9 @@ class Expecting:
         self.reduced = several.reduced[0] if several and several.reduced else rivals.reduced
         """The plate that frequencies not yet measured are asked of; None where there is none."""
         self._errors = model_error(self.problem, rivals.reduced, first.law, first.velocity_m_s)
-        self._are_known = len(self._errors) == self.evidence.B.shape[1]
-        """Whether they are the evidence's: another law may have another resonance at a segment's edge."""
+        # The evidence's are of another law, which may have another resonance at a segment's edge.
+        known = 1.0 if self.evidence.scale_known else 0.0
+        self._over_sigma = known * self.evidence.over_sigma(first.velocity_m_s, self._errors).T
         self.known = [self._learnt(fitted) for _, fitted, _ in forms]
 
     @cached_property
@@ -171,7 +172,7 @@ class Expecting:
         response = response_of(self.problem, fitted.effects)
         v, dv = response.with_derivatives(fitted.law, fitted.u)
         A = self.evidence.over_sigma(v, self._columns(fitted, dv)).T
-        B = self.evidence.B
+        B = self._over_sigma
         left = self.evidence.over_sigma(v, _rest(self.evidence, v))
         rest = fitted.jacobian[fitted.data :]
         k, errors = A.shape[1], B.shape[1]
@@ -243,8 +244,6 @@ class Expecting:
             e = self._errors[:, self.part][:, near] * (v / fitted.velocity_m_s[self.part][near])
             again = e * further.same_errors
             anew = e - again
-            if not self._are_known:
-                anew, again = e, np.zeros((len(known.errors), len(v)), complex)
         mean = v + known.errors @ again
         by_known = known.root.T @ np.concatenate([by, again])
         fresh += list(anew[np.any(anew != 0, axis=1)])

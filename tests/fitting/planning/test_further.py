@@ -95,15 +95,15 @@ def test_errors_made_anew_are_not_those_of_the_first_sweep(expecting, again):
     assert (spread(anew) > spread(first)).all()
 
 
-def test_errors_of_resonances_that_the_evidence_does_not_have_are_made_anew(expecting, again):
+def test_the_model_errs_as_it_does_under_the_likeliest_law_whatever_law_the_readings_were_judged_by(
+    expecting, again
+):
     evidence = replace(expecting.evidence, B=expecting.evidence.B[:, :-1])
-    each = tuple((known.fitted, 0.5) for known in expecting.known)
+    each = tuple((known.fitted, p) for known, p in zip(expecting.known, (0.8, 0.2), strict=True))
     other = Expecting(Rivals(expecting.problem, evidence, each), 6)
-    anew = expecting.forecasts(replace(again, same_errors=False), NOISE)[0]
-    for first in (True, False):
-        found = other.forecasts(replace(again, same_errors=first), NOISE)[0]
-        np.testing.assert_allclose(found.mean, anew.mean, rtol=1e-9)
-        np.testing.assert_allclose(spread(found), spread(anew), rtol=0.05)
+    for found, forecast in zip(other.forecasts(again, NOISE), expecting.forecasts(again, NOISE), strict=True):
+        np.testing.assert_allclose(found.mean, forecast.mean, rtol=1e-9)
+        np.testing.assert_allclose(spread(found), spread(forecast), rtol=1e-9)
 
 
 def test_a_channel_that_is_another_one_is_as_uncertain_as_it_is_stated(expecting, again):
