@@ -36,13 +36,16 @@ def told_apart(
     found, off = list[Mode](), dict[int, list[float]]()
     with threadpool_limits(1, "blas"):
         for mode in modes:
+            if not mode.accepted:
+                found.append(mode)
+                continue
             others = tuple(m.frequency_hz for m in modes if m is not mode)
             fits = [
                 rational_fit(of[mode.channel], mode.frequency_hz, mode.damping_ratio, others) for of in alone
             ]
             each = {k: f.estimate for k, f in enumerate(fits) if isinstance(f, RationalFit)}
             apart = _apart(list(each.values()))
-            if not mode.accepted or not apart.any():
+            if not apart.any():
                 found.append(mode)
                 continue
             for k in np.array(list(each))[apart].tolist():
