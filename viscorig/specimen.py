@@ -14,10 +14,10 @@ from instrument.errors import BadInput
 from instrument.files.law_table import with_rows
 from instrument.files.specimen_file import (
     SpecimenDocument,
-    read_specimen,
     read_specimen_document,
     specimen_of,
 )
+from instrument.files.structure_file import read_structure
 from instrument.files.text import read_text
 from instrument.files.toml import one_line
 from instrument.stream.jsonable import to_jsonable
@@ -54,7 +54,10 @@ class Specimen(Shown):
     def from_file(cls, path: str | Path) -> Self:
         """Read a SPECIMEN.toml. Raises `BadInput`."""
         made = cls.__new__(cls)
-        made.model = read_specimen(Path(path))
+        read = read_structure(Path(path))
+        if not isinstance(read, Model):
+            raise BadInput(f"{path}: a {read.kind}, expected a plate: here others are not taken")
+        made.model = read
         made._tables = tomllib.loads(read_text(Path(path)))
         made._keep_rows(read_specimen_document(Path(path)))
         return made

@@ -1,6 +1,5 @@
 """SPECIMEN.toml: its keys, units and limits, and the `Specimen` it describes."""
 
-import tomllib
 from math import pi
 from pathlib import Path
 from typing import Annotated, Any
@@ -18,7 +17,6 @@ from fitting.tolerances import OF_FEW, OF_TEMPERATURE, STATED
 from instrument.errors import BadInput
 from instrument.files.law_table import with_rows
 from instrument.files.layer_tables import GluePart, PatchPart, Poisson, StatedLayer, refuse_patches
-from instrument.files.text import read_text
 from instrument.files.toml import NotNegative, Percent, Positive, TomlTable, one_line, read_document
 
 Elements = Annotated[int, Field(ge=2, le=400)]
@@ -243,21 +241,7 @@ def read_specimen(path: Path) -> Specimen:
 
 def read_specimen_document(path: Path) -> SpecimenDocument:
     """A plate's document, the rows of a law's table in it. Raises `BadInput`."""
-    try:
-        return with_rows(read_document(path, SpecimenDocument), path.parent)
-    except BadInput:
-        other = next((kind for kind in ("beam", "shear-pair") if kind in _tables_of(path)), None)
-        if other is None:
-            raise
-        raise BadInput(f"{path}: a {other}, expected a plate: here others are not taken") from None
-
-
-def _tables_of(path: Path) -> dict[str, Any]:
-    """Of a file that may be none."""
-    try:
-        return tomllib.loads(read_text(path))
-    except (BadInput, ValueError, RecursionError):
-        return {}
+    return with_rows(read_document(path, SpecimenDocument), path.parent)
 
 
 def specimen_of(d: SpecimenDocument) -> Specimen:

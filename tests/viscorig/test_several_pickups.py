@@ -7,6 +7,7 @@ from timeless import timeless
 
 import viscorig as vr
 from instrument.errors import BadInput
+from instrument.files.new_file import write_new
 
 SECOND = "[[pickup]]\nx_mm = 240.0\ny_mm = 40.0\n\n"
 
@@ -66,6 +67,6 @@ def test_what_is_of_one_pickup_is_refused(loaded, keywords):
 
 def test_a_beam_is_refused_by_its_name(tmp_path):
     path = tmp_path / "beam.toml"
-    path.write_text("[beam]\nlength_mm = 200.0\n")
+    write_new("beam", path)
     with pytest.raises(BadInput, match=r"beam\.toml: a beam, expected a plate"):
         vr.load_specimen(path)
