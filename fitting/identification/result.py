@@ -1,5 +1,6 @@
 """The one result of an identification, whichever method found it."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,8 @@ from fitting.sweep import Sweep
 
 REFERENCE_FREQUENCIES_HZ = (20.0, 100.0, 280.0)
 """Where the band is always stated, as far as they lie inside the measured range."""
+BIASED, ASTRAY = "the law may be biased beyond its band", "the fit does not follow the"
+"""How a fit says that it lacks something: whoever passes a law on looks for it (`doubts_itself`)."""
 _BAND_POINTS = 41
 """Of the law that is given with its band: dense enough to draw it and to carry it on."""
 _STRONG_CORRELATION = 0.99
@@ -138,6 +141,11 @@ def law_band(sweep: Sweep, law: CoreLaw, uncertainty: Uncertainty, points: int =
     return LawBand(f, G, eta, *uncertainty.law_band(law, omega))
 
 
+def doubts_itself(warnings: Iterable[str]) -> bool:
+    """Whether a fit's own warnings say that its law may be wrong by more than is known of it."""
+    return any(BIASED in said or ASTRAY in said for said in warnings)
+
+
 def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: bool) -> list[str]:
     law, said = fit.law.plain, []
     data = len(sweep) * (2 if sweep.has_phase else 1)
@@ -152,16 +160,14 @@ def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: 
         said.append("the 5 % criterion is not met: some point differs by more than 5 %")
     off = rms(differences_percent(sweep, fit.velocity_m_s))
     if off > LOST_PERCENT:
-        said.append(
-            f"the fit does not follow the data (rms {written_out(off, 3)} %): check units, level and pickup"
-        )
+        said.append(f"{ASTRAY} data (rms {written_out(off, 3)} %): check units, level and pickup")
     pulled = sorted((one for one in fit.adjusted if abs(one.pull) > _PULLED), key=lambda one: -abs(one.pull))
     if pulled:
         named = ", ".join(f"{one.name} by {one.pull:+.1f}" for one in pulled)
         said.append(
             f"stated numbers had to be moved further than their tolerances say ({named} standard deviations, "
-            f"limit {_PULLED:g}): they are stated wrongly or the model lacks something, and the law may be "
-            "biased beyond its band; see 'viscorig diagnose'"
+            f"limit {_PULLED:g}): they are stated wrongly or the model lacks something, and {BIASED}; "
+            "see 'viscorig diagnose'"
         )
     else:
         said.extend(_together(fit))
@@ -169,7 +175,7 @@ def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: 
         said.append(
             f"the residual is {written_out(uncertainty.chi2_per_dof, 3)} times what the noise explains "
             "(chi-square per degree of freedom): the model lacks something, "
-            "and the law may be biased beyond its band"
+            f"and {BIASED}"
         )
     return [*said, *_law_warnings(fit.law, uncertainty)]
 
@@ -187,8 +193,7 @@ def _together(fit: Fit) -> list[str]:
     return [
         "stated numbers had to be moved together further than data as these move them (chi-square "
         f"{chi_square:.3g} of {directions} directions; most {named} standard deviations): one of them is "
-        "stated wrongly or the model lacks something, and the law may be biased beyond its band; see "
-        "'viscorig diagnose'"
+        f"stated wrongly or the model lacks something, and {BIASED}; see 'viscorig diagnose'"
     ]
 
 

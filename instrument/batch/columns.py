@@ -3,8 +3,8 @@
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from fitting.identification.result import doubts_itself
 from instrument.batch.run import BatchRow
-from instrument.material.found_law import DOUBT
 
 Cell = str | float | int | bool | None
 
@@ -40,7 +40,7 @@ NOT_DIAGNOSED = "not diagnosed"
 def is_doubted(row: BatchRow) -> bool:
     """Whether a law that nobody has diagnosed says of itself that it may be wrong."""
     o = row.outcome
-    return not o["failed"] and o["verdict"] is None and any(DOUBT in said for said in o["warnings"])
+    return not o["failed"] and o["verdict"] is None and doubts_itself(o["warnings"])
 
 
 def columns_of(rows: Iterable[BatchRow]) -> list[str]:

@@ -11,6 +11,7 @@ from scipy.interpolate import PchipInterpolator
 
 from fitting.arrays import Array, Complex
 from fitting.errors import FittingError
+from fitting.identification.result import doubts_itself
 from fitting.structures import AnySpecimen
 from fitting.structures.shear_pair import ShearPair
 from instrument.errors import BadInput
@@ -102,10 +103,6 @@ class _Diagnosed(BaseModel):
         if others:
             said += f", not told from {', '.join('no effect' if n == 'none' else n for n in others)}"
         return said
-
-
-DOUBT = "law may be biased beyond its band"
-"""In the remark of a fit that says of itself that it lacks something."""
 
 
 @dataclass(frozen=True)
@@ -240,7 +237,7 @@ def _identified(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
     if found is None:
         return None
     said = facts.get("warnings")
-    doubted = isinstance(said, list | tuple) and any(DOUBT in str(one) for one in said)
+    doubted = isinstance(said, list | tuple) and doubts_itself(map(str, said))
     return replace(found, posterior=posterior_of(facts), is_doubted=doubted)
 
 

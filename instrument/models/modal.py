@@ -17,6 +17,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.enriching import enriched, reach_over
 from fitting.effects.full_plate import FullPlate
 from fitting.errors import OutsideModel
+from fitting.identification.result import ASTRAY, BIASED
 from fitting.laws import CoreLaw
 from fitting.laws.constant import ConstantModulus
 from fitting.mode_tables.build import member_of, own_motions
@@ -164,7 +165,7 @@ def remark_on_fit(fit: ModalFit, tables: Sequence[ModalTable]) -> tuple[str, ...
     off_eta = np.concatenate(fit.predicted_loss) / np.concatenate([t.loss_factor for t in tables]) - 1
     if (rms_f := float(np.sqrt(np.mean(off_f**2)))) > _LOST:
         return (
-            f"the fit does not follow the modes (rms {written_out(100 * rms_f, 3)} % in frequency): check "
+            f"{ASTRAY} modes (rms {written_out(100 * rms_f, 3)} % in frequency): check "
             "mode numbers, specimen and unit",
         )
     chi2 = fit.uncertainty.chi2_per_dof
@@ -175,7 +176,7 @@ def remark_on_fit(fit: ModalFit, tables: Sequence[ModalTable]) -> tuple[str, ...
         f"{two_digits(100 * np.abs(off_f).max())} % in frequency and "
         f"{two_digits(100 * np.abs(off_eta).max())} % in loss factor: check mode numbers, "
         "and that loss factors are no damping ratios (half of them); else the model lacks something, and "
-        "the law may be biased beyond its band",
+        f"{BIASED}",
     )
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from fitting.identification.result import BIASED
 from instrument.batch.between import between_rows
 from instrument.batch.run import BatchRow
 from instrument.batch.task import BatchTask
@@ -58,7 +59,7 @@ def test_temperatures_are_apart_and_the_unmeasured_come_last():
     assert [(b.temperature_c, b.result.rows) for b in found] == [(20.0, 5), (40.0, 3), (None, 4)]
 
 
-DOUBTED = {"verdict": None, "warnings": ["numbers moved too far: the law may be biased beyond its band"]}
+DOUBTED = {"verdict": None, "warnings": [f"numbers moved too far, and {BIASED}"]}
 
 
 @pytest.mark.parametrize("outcome", [{"failed": "torn"}, {"verdict": "unknown"}, {"law": {}}, DOUBTED])
