@@ -23,6 +23,11 @@ _SOFTENED = np.array([-0.3, 0.0, 0.25, 0.5])
 Where little damps the plate its strain rises near a pole as one over the distance, and the pole moves as the
 core softens: times the distance it is smooth, in the frequency and in the share.
 """
+_GAINED = np.array([0.0, 0.3])
+"""The same of the loss modulus that it gains, in shares of sqrt(G' G''): a line through them serves.
+
+A rubber that loses a fifth of its modulus gains some 0.25.
+"""
 _KEPT = 8
 """Tables of the core's strain for unknowns just asked for; more are begun anew. A choice."""
 
@@ -39,14 +44,18 @@ class Reference:
 
 @dataclass(frozen=True)
 class _Table:
-    """Strain for a unit of what drives it, and the cores that it was read of, one a share."""
+    """Strain for a unit of what drives it, and the cores that it was read of, one a gain and share.
 
-    cubic: Array
-    """Of ln strain times the distance from the poles, in the softening. Shape (4, points)."""
+    Cubics in the softening, the first without any gain of loss, the second, where there is one, with the
+    largest.
+    """
+
+    cubics: Array
+    """Of ln strain times the distance from the poles. Shape (gains, 4, points)."""
     poles: Complex
-    """Of their squares, in the softening. Shape (4, poles)."""
+    """Of their squares. Shape (gains, 4, poles)."""
     away: Array
-    """From the poles, at the nodes of every share. Shape (4 nodes,)."""
+    """From the poles, at the nodes of every gain and share. Shape (gains 4 nodes,)."""
     core: StrainedCore
 
 
@@ -66,7 +75,7 @@ class Strains:
 
         Solved for when it is first asked for, and once: who looks for how far a core softens asks many times.
         """
-        return self._of(cache(lambda: self._table(law, key, changes)))
+        return self._of(lambda gains: self._table(law, key, changes, gains))
 
     def along(
         self, law: CoreLaw, key: bytes, changes: Changes, nearby: tuple[Change, Change, float], step: float
@@ -74,51 +83,64 @@ class Strains:
         """The same a `step` of an unknown further, to first order: `nearby` as `StrainedCore.by` takes it."""
 
         @cache
-        def slope() -> Array:
-            table = self._table(law, key, changes)
+        def further(gains: bool) -> Array:
+            table = self._table(law, key, changes, gains)
             # As a pole moves this changes as one over the distance, and as its conjugate's.
-            return self._cubic(table.core.by(nearby) * table.away**2)
+            return step * self._cubics(table.core.by(nearby) * table.away**2)
 
-        return self._of(cache(lambda: self._table(law, key, changes)), lambda: step * slope())
+        return self._of(lambda gains: self._table(law, key, changes, gains), further)
 
-    def _of(self, table: Callable[[], _Table], further: Callable[[], Array] | None = None) -> Strain:
-        """`further`: what ln strain changes by, times the square of the distance. Shape (4, points)."""
+    def _of(self, table: Callable[[bool], _Table], further: Callable[[bool], Array] | None = None) -> Strain:
+        """`further`: what ln strain changes by, times the square of the distance. Shape (gains, 4, points).
+
+        Both are asked whether the loss gains.
+        """
         points = self._problem.points
         drive = points.acceleration_m_s2 if points.force_n is None else points.force_n
+        of = cache(table)
 
-        def strain(softened: Array) -> Array:
-            known = table()
-            away = self._away(known.poles, softened)
-            logs_here = _at(known.cubic, softened)
+        def strain(softened: Array, gained: Array | None = None) -> Array:
+            gains = gained is not None
+            known, more = of(gains), np.zeros(len(softened)) if gained is None else gained
+            away = self._away(known.poles, softened, more)
+            logs_here = _at(known.cubics, softened, more)
             if further is not None:
-                logs_here = logs_here + _at(further(), softened) / away**2
+                logs_here = logs_here + _at(further(gains), softened, more) / away**2
             assert self._reference.strain is not None
             return np.asarray(np.exp(logs_here) / away * drive / self._reference.strain)
 
         return strain
 
-    def _away(self, poles: Complex, softened: Array) -> Array:
+    def _away(self, poles: Complex, softened: Array, gained: Array) -> Array:
         """From the poles, each point's core softened by its share. Shape (points,)."""
-        return self._problem.dense.away(lambda mine, at: _at(poles[:, mine, None], softened[at]))
+        return self._problem.dense.away(
+            lambda mine, at: _at(poles[:, :, mine, None], softened[at], gained[at])
+        )
 
-    def _table(self, law: CoreLaw, key: bytes, changes: Changes) -> _Table:
-        key = law.values.tobytes() + key
+    def _table(self, law: CoreLaw, key: bytes, changes: Changes, gains: bool) -> _Table:
+        key = law.values.tobytes() + key + bytes([gains])
         if key not in self._known:
             dense = self._problem.dense
             G, change = law.modulus(dense.omega), changes()
-            each = np.concatenate([G * (1 - s) for s in _SOFTENED])
-            core = StrainedCore(self._plate, np.tile(dense.omega, len(_SOFTENED)), each, change)
-            squares = np.array([self._poles(G * (1 - s), change) for s in _SOFTENED]) ** 2
+            moduli = [
+                G * (1 - s) + 1j * g * np.sqrt(G.real * G.imag)
+                for g in _GAINED[: 1 + gains]
+                for s in _SOFTENED
+            ]
+            core = StrainedCore(
+                self._plate, np.tile(dense.omega, len(moduli)), np.concatenate(moduli), change
+            )
+            squares: Complex = np.array([self._poles(each, change) for each in moduli]) ** 2
             away = np.concatenate([self._away_at_nodes(p) for p in squares])
-            poles = np.linalg.solve(np.vander(_SOFTENED), squares)
-            table = _Table(self._cubic(np.log(core.strain * away)), poles, away, core)
+            poles = _through(squares.reshape(1 + gains, len(_SOFTENED), *squares.shape[1:]))
+            table = _Table(self._cubics(np.log(core.strain * away)), poles, away, core)
             if len(self._known) > _KEPT:
                 self._known.clear()
             self._known[key] = table
             if self._reference.strain is None:
                 unit = PUBLISHED_G_M_S2 if self._problem.points.drive == "base" else 1.0
                 none = np.zeros(len(dense.points))
-                largest = np.exp(table.cubic[-1]) / self._away(table.poles, none)
+                largest = np.exp(table.cubics[0, -1]) / self._away(table.poles, none, none)
                 self._reference.strain = float(largest.max()) * unit
         return self._known[key]
 
@@ -135,12 +157,23 @@ class Strains:
         asked = Asked(self._plate, dense.omega, G, change, known, with_pitch=False)
         return known.followed(asked.matrices)[0]
 
-    def _cubic(self, values: Array) -> Array:
-        """Through values at the nodes, one share after the other. Shapes (4 nodes,) to (4, points)."""
-        each = values.reshape(len(_SOFTENED), -1) @ self._problem.dense.plain.T
-        return np.linalg.solve(np.vander(_SOFTENED), each).astype(float)
+    def _cubics(self, values: Array) -> Array:
+        """Through values at the nodes, share by share and gain by gain. To shape (gains, 4, points)."""
+        dense = self._problem.dense
+        each = values.reshape(-1, len(dense.omega)) @ dense.plain.T
+        return _through(each.reshape(-1, len(_SOFTENED), len(dense.points))).astype(float)
 
 
-def _at(cubic: A, x: Array) -> A:
-    """Cubics with coefficients of shape (4, ...) at some places; shape (...) joined with that of `x`."""
-    return ((cubic[0] * x + cubic[1]) * x + cubic[2]) * x + cubic[3]
+def _through(values: A) -> A:
+    """Coefficients of cubics in the share through values at `_SOFTENED`. Shape (gains, 4, ...), as given."""
+    return np.linalg.solve(np.vander(_SOFTENED), values)  # type: ignore[return-value]
+
+
+def _at(cubics: A, softened: Array, gained: Array) -> A:
+    """Cubics of shape (gains, 4, ...) at some places; shape (...) joined with that of `softened`."""
+
+    def at(cubic: A) -> A:
+        return ((cubic[0] * softened + cubic[1]) * softened + cubic[2]) * softened + cubic[3]
+
+    plain = at(cubics[0])
+    return plain if len(cubics) == 1 else plain + gained / _GAINED[-1] * (at(cubics[1]) - plain)

@@ -26,6 +26,8 @@ _ROUNDS = 3
 """As many grids at most: a bound on time."""
 _FAR = 0.02
 """Relative change of the modulus from which the grid is made anew for the new poles. A choice."""
+_FAR_OF_STRAIN = 0.002
+"""The same where softening is told for the strain under the law that its fit starts from."""
 _OPEN = 1e-9
 """A range of one value is none for a bounded fit."""
 
@@ -78,6 +80,7 @@ def polished(
 
     `u` of shape (unknowns,). `goal` as `refit` takes it.
     """
+    by_strain = any(span.name == "strain" for e in effects for span in e.spans)
     for _ in range(_ROUNDS):
         fitted = refit(response_of(problem.around(law), effects), evidence, law, u, goal=goal)
         if fitted.chi2_per_dof > SEARCH.hopeless or not fitted.may_reach(goal):
@@ -85,7 +88,7 @@ def polished(
         omega = problem.fine.nodes.omega
         moved = np.max(np.abs(fitted.law.modulus(omega) / law.modulus(omega) - 1))
         law, u = fitted.law, fitted.u
-        if moved < _FAR:
+        if moved < (_FAR_OF_STRAIN if by_strain else _FAR):
             break
     return fitted
 

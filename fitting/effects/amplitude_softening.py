@@ -10,11 +10,10 @@ from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter, ModulusAt, Points, Strain
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
+from fitting.effects.kraus import HALF, Kraus
 from fitting.effects.span import Span
 from fitting.element import core_shear_stiffness
 
-LEAST = 0.3
-"""Of the modulus; softening goes no further."""
 _LEVELS = 1.2
 """Of the largest force over the least: over less, strain is a function of frequency, as the law is."""
 _ITERATIONS = 60
@@ -28,6 +27,10 @@ _FULL = (0.25, 2.0)
 _K = EffectParameter("k", "1", -0.5, 0.8, 0.1, spread=0.15)
 _SATURATION = EffectParameter("saturation", "1", 0.0, 4.0, 0.3, spread=0.5)
 """Strain of the reference over that at which half of what can be lost is lost."""
+_LOSS = EffectParameter("loss", "1", -0.3, 0.6, 0.03, spread=0.1)
+"""Gained in loss modulus at the reference, over the mean, sqrt(G' G''), of what is not softened."""
+_EXPONENT = EffectParameter("exponent", "1", 0.2, 0.8, 0.52, neutral=HALF, spread=0.1)
+"""Kraus' m."""
 
 
 class CoreStrain(Span):
@@ -48,16 +51,16 @@ class CoreStrain(Span):
 
 
 class AmplitudeSofteningEffect(Effect):
-    """G times (1 - k (1 + c) s/(1 + c s)), s = strain / reference, the strain that of the softened plate.
+    """The core's modulus by `Kraus`, s = strain / reference, the strain that of the softened plate.
 
-    Without c, the saturation, it is first order in the strain: what little softening shows of.
+    Without saturation it is first order in the strain: what little softening shows of.
     """
 
     name = "amplitude_softening"
     enters = "level"
     source = (
-        "Payne, J. Appl. Polym. Sci. 6 (1962), first order in the strain amplitude; saturating: Kraus, "
-        "J. Appl. Polym. Sci., Appl. Polym. Symp. 39 (1984), his exponent a half"
+        "Payne, J. Appl. Polym. Sci. 6 (1962), first order in the strain amplitude; saturating, and with the "
+        "loss that it gains: Kraus, J. Appl. Polym. Sci., Appl. Polym. Symp. 39 (1984), his exponent a half"
     )
     parameters: tuple[EffectParameter, ...] = (_K,)
     spans = (CoreStrain(),)
@@ -65,17 +68,22 @@ class AmplitudeSofteningEffect(Effect):
     chance = 0.03
     discriminating_test = "another level"
 
-    def __init__(self, *, saturates: bool = False) -> None:
-        self.saturates = saturates
-        if saturates:
-            self.parameters = (_K, _SATURATION)
+    def __init__(self, *, saturates: bool = False, rubs: bool = False) -> None:
+        self.saturates, self.rubs = saturates, rubs
+        self.parameters = (
+            _K,
+            *[_SATURATION] * saturates,
+            *[_LOSS] * rubs,
+            *[_EXPONENT] * (saturates and rubs),
+        )
 
     def on(self, kind: str) -> Effect | None:
         own = {"shear-pair": PadSofteningEffect, "beam": BeamSofteningEffect}.get(kind)
         return own() if own else super().on(kind)
 
     def variants(self) -> tuple[Effect, ...]:
-        return (self, type(self)(saturates=True))
+        each = ((saturates, rubs) for rubs in (False, True) for saturates in (False, True))
+        return tuple(type(self)(saturates=saturates, rubs=rubs) for saturates, rubs in each)
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         if points.drive == "base":
@@ -87,14 +95,19 @@ class AmplitudeSofteningEffect(Effect):
         return None if several else "one size of the force does not tell softening from the law"
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:
-        c = float(u[1]) if self.saturates else 0.0
-        return np.asarray(G() * (1 - _softened(float(u[0]), c, G.strain, len(points.omega))))
+        curve = self._curve(u)
+        return curve.of(G(), _strained(curve, G.strain, len(points.omega)))
+
+    def _curve(self, u: Array) -> Kraus:
+        of = dict(zip((q.key for q in self.parameters), map(float, u), strict=True))
+        return Kraus(of["k"], of.get("saturation", 0.0), of.get("loss", 0.0), of.get("exponent", HALF))
 
     def story(self, u: Mapping[str, float]) -> str:
-        return (
+        told = (
             f"the core softens with strain, by {100 * u['k']:.2g} % at the largest strain of the sweep at 1 g"
             " (of a force: at 1 N)"
         )
+        return f"{told}, and {'gains' if u['loss'] > 0 else 'loses'} loss" if "loss" in u else told
 
 
 class BeamSofteningEffect(AmplitudeSofteningEffect):
@@ -117,21 +130,25 @@ class PadSofteningEffect(AmplitudeSofteningEffect):
 
 
 @lru_cache(maxsize=2)
-def _softened(k: float, c: float, strain: Strain, points: int) -> Array:
-    """Share by which the core softens at the strain that it then has. Shape (points,).
+def _strained(curve: Kraus, strain: Strain, points: int) -> Array:
+    """The strain over the reference that the core has as softened as it then is. Shape (points,).
 
     Kept: a derivative to the law asks once for each of its parameters, the strain being the same.
     """
-    softened, step, off = np.zeros(points), np.zeros(points), np.zeros(points)
+
+    def then(s: Array) -> Array:
+        return strain(curve.lost(s), curve.gained(s)) if curve.loss else strain(curve.lost(s))
+
+    s = then(np.zeros(points))
+    step, off = np.zeros(points), np.zeros(points)
     for _ in range(_ITERATIONS):
-        s = strain(softened)
-        before, off = off, np.clip(k * (1 + c) * s / (1 + c * s), -1.0, 1 - LEAST) - softened
+        before, off = off, then(s) - s
         # Half a step where nothing is known: where the strain falls with softening full ones may swing.
         fell = before - off
         known = (np.abs(fell) > _SMALL) & (step != 0)
         share = np.divide(step, fell, out=np.full(points, 0.5), where=known)
         step = off * np.clip(share, *_FULL)
-        softened = softened + step
+        s = np.maximum(s + step, 0.0)
         if np.max(np.abs(step)) < 1e-10:
             break
-    return softened
+    return s

@@ -9,7 +9,7 @@ by overriding some of the hooks; all others leave the response as it is.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Literal, NamedTuple, Protocol
 
@@ -320,8 +320,17 @@ class Effect:
         raise NotImplementedError
 
 
-Strain = Callable[[Array], Array]
-"""Fractions by which the modulus is softened, to the core's strain there, in shares of the largest at 1 g."""
+class Strain(Protocol):
+    """The core's strain at every point, in shares of the largest at 1 g of a core as it is."""
+
+    def __call__(self, softened: Array, gained: Array | None = None) -> Array:
+        """Of a core that is softened by fractions of its modulus, its loss modulus being larger by `gained`.
+
+        In shares of sqrt(G' G'') before it softens. Shape (points,) each.
+        """
+
+    def __hash__(self) -> int:
+        """By which it is known again."""
 
 
 @dataclass(frozen=True)

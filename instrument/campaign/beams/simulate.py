@@ -125,11 +125,11 @@ def _displacements(beam: BuiltBeam, Z: Complex, loads: Complex, G: Complex, sche
     """Relative motion. Shape (points, n). Raises `ArithmeticError` where softening does not settle."""
     K = beam.basis.K_core
 
-    def moved(factor: Array) -> Complex:
+    def moved(factor: Complex) -> Complex:
         core = np.tensordot(factor, K, axes=1)
         return np.asarray(np.linalg.solve(Z + G[:, None, None] * core, loads[:, :, None])[:, :, 0])
 
-    factor = np.ones((len(G), len(K)))
+    factor = np.ones((len(G), len(K)), complex)
     q = moved(factor)
     soft = next((h for h in beam.hidden if isinstance(h, HiddenAmplitudeSoftening)), None)
     if soft is None:

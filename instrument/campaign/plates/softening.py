@@ -46,7 +46,7 @@ def _settled(
     shaken: Shaken, G: Complex, soft: HiddenAmplitudeSoftening, level: Array, reference: float
 ) -> Complex:
     q = shaken.displacements(G)
-    factor = np.ones(G.shape)
+    factor = np.ones(G.shape, complex)
     moving = np.arange(len(level))
     for _ in range(_MOST_STEPS):
         goal = soft.factor(strains(shaken.plate, q[moving]) * level[moving, None], reference)

@@ -51,8 +51,11 @@ def with_mass(plate, mass):
     return CATALOGUE["added_mass"].change(plate, mass)
 
 
-def exact(plate, softened, change):
-    return StrainedCore(plate, OMEGA, LAW.modulus(OMEGA) * (1 - softened), change).strain
+def exact(plate, softened, change, gained=0.0):
+    G = LAW.modulus(OMEGA)
+    return StrainedCore(
+        plate, OMEGA, G * (1 - softened) + 1j * gained * np.sqrt(G.real * G.imag), change
+    ).strain
 
 
 @pytest.mark.parametrize("softened", [-0.2, 0.0, 0.1, 0.2, 0.4])
@@ -65,6 +68,22 @@ def test_strain_over_a_sharp_resonance_is_that_of_a_plate_solved_at_every_point(
     expected = exact(clamped.plate, softened, change)
     assert expected.max() > 5 * expected.min()
     np.testing.assert_allclose(found * reference.strain, expected, rtol=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("softened", "gained"), [(0.0, 0.0), (0.1, 0.1), (0.4, 0.2), (0.3, 0.4), (0.1, -0.1)]
+)
+@pytest.mark.parametrize("mass", [None, MASS], ids=["as it is", "with a mass"])
+def test_strain_of_a_core_that_gains_loss_is_less_near_resonance(clamped, softened, gained, mass):
+    change = Change() if mass is None else with_mass(clamped.plate, mass)
+    reference = Reference()
+    strain = Strains(clamped.problem, clamped.plate, reference).under(LAW, b"", lambda: change)
+    found = strain(np.full(len(F_HZ), softened), np.full(len(F_HZ), gained)) * reference.strain
+    expected = exact(clamped.plate, softened, change, gained)
+    np.testing.assert_allclose(found, expected, rtol=2e-2)
+    without = strain(np.full(len(F_HZ), softened)).max() * reference.strain
+    if gained:
+        assert abs(found.max() - expected.max()) < 0.05 * abs(without - expected.max())
 
 
 def test_strain_a_step_further_over_a_sharp_resonance_is_what_the_changed_plate_has(clamped):

@@ -68,9 +68,27 @@ def test_softening_that_saturates_takes_k_at_the_reference_and_less_beyond():
         assert saturating.modulus(G, p, np.array([0.2, 0.0])) == pytest.approx(
             first.modulus(G, p, np.array([0.2]))
         )
-    assert first.forms(p, None) == (first,)
+    assert [(f.saturates, f.rubs) for f in first.forms(p, None)] == [(False, False), (False, True)]
     levels = replace(p, acceleration_m_s2=np.array([9.81, 4.9, 2.45]))
-    assert [f.saturates for f in first.forms(levels, None)] == [False, True]
+    assert [(f.saturates, f.rubs) for f in first.forms(levels, None)] == [
+        (False, False),
+        (True, False),
+        (False, True),
+        (True, True),
+    ]
+
+
+def test_a_core_gains_loss_beside_the_modulus_that_it_loses_less_and_less():
+    p = points([0.0, 1.0, 2.0])
+    plain, rubbing = (AmplitudeSofteningEffect(saturates=True, rubs=rubs) for rubs in (False, True))
+    law = LAW.modulus(OMEGA)
+    for s in (0.3, 1.0, 3.0):
+        G = ModulusAt(LAW, p, lambda softened, gained=None, s=s: s + 0 * softened)
+        lost = 1 - plain.modulus(G, p, np.array([0.2, 0.5])).real / law.real
+        found = rubbing.modulus(G, p, np.array([0.2, 0.5, 0.1, 0.5]))
+        assert found.real == pytest.approx(law.real * (1 - lost))
+        gained = 0.1 * 1.5 * np.sqrt(s) / (1 + 0.5 * s) * np.sqrt(law.real * law.imag)
+        assert found.imag == pytest.approx(law.imag * (1 - lost) + gained)
 
 
 def test_a_core_warms_from_what_the_law_says_to_shorter_times():
@@ -85,12 +103,17 @@ def test_a_core_warms_from_what_the_law_says_to_shorter_times():
 
 
 @pytest.mark.parametrize(
-    ("effect", "u"), [(TemperatureDriftEffect(), [10.0, 600.0]), (AmplitudeSofteningEffect(), [0.2])]
+    ("effect", "u"),
+    [
+        (TemperatureDriftEffect(), [10.0, 600.0]),
+        (AmplitudeSofteningEffect(), [0.2]),
+        (AmplitudeSofteningEffect(rubs=True), [0.2, 0.1]),
+    ],
 )
 def test_of_many_laws_at_once_the_core_has_the_modulus_that_it_has_of_each(effect, u):
     p, logs = points([0.0, 300.0, 2000.0]), np.log(LAW.values) + np.array([[0.0], [0.01], [-0.02]])
 
-    def strain(softened):
+    def strain(softened, gained=None):
         return 0.5 + softened
 
     found = effect.modulus(ModulusAt(LAW, p, strain, logs), p, np.array(u))

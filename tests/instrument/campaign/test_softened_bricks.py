@@ -57,9 +57,10 @@ def test_a_brick_s_strain_is_that_of_its_energy():
     assert strains(hollow, q).tolist() == [[0.0]]
 
 
+@pytest.mark.parametrize("rubbing", [0.0, 0.2])
 @pytest.mark.parametrize("level", [0.1, 1.0])
-def test_every_point_settles_where_strain_and_modulus_agree(shaken, level):
-    soft = HiddenAmplitudeSoftening(0.2, 0.5)
+def test_every_point_settles_where_strain_and_modulus_agree(shaken, level, rubbing):
+    soft = HiddenAmplitudeSoftening(0.2, 0.5, rubbing=rubbing)
     q = softened(shaken, np.full(POINTS, G), soft, schedule(level))
     hard = shaken.displacements(np.full(POINTS, G))
     p, first = shaken.plate, slice(0, POINTS // 2)
@@ -67,7 +68,8 @@ def test_every_point_settles_where_strain_and_modulus_agree(shaken, level):
     reference = rms.max() * PUBLISHED_G_M_S2
     factor = soft.factor(strains(p, q) * level * PUBLISHED_G_M_S2, reference)
     np.testing.assert_allclose(shaken.displacements(factor * G), q, rtol=1e-4, atol=1e-7 * np.abs(q).max())
-    assert factor.min() < 0.99
+    assert factor.real.min() < 0.99
+    assert (factor.imag.max() > 0.01) == bool(rubbing)
     # Softer bricks move otherwise than hard ones, the more the higher the level.
     assert np.abs(q / hard - 1).max() > 0.02 * level
 
@@ -80,6 +82,13 @@ def test_bricks_that_soften_by_nothing_move_as_hard_ones_do(shaken):
 def test_at_the_reference_strain_so_much_is_lost_as_is_said():
     soft = HiddenAmplitudeSoftening(0.1, 0.5)
     assert soft.factor(np.array([0.0, 3.0, 1e9]), 3.0) == pytest.approx([1.0, 0.9, 0.5], abs=1e-6)
+
+
+def test_half_of_what_can_be_lost_being_lost_a_core_gains_most_loss():
+    soft = HiddenAmplitudeSoftening(0.25, 0.5, rubbing=0.2)
+    gained = soft.factor(np.geomspace(0.01, 100.0, 201), 1.0).imag
+    assert gained.max() == pytest.approx(gained[100])
+    assert gained[100] == pytest.approx(0.5 * 0.2)
 
 
 def test_what_finds_no_steady_state_is_refused(shaken):

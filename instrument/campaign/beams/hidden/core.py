@@ -12,7 +12,7 @@ from drivers.simulated.plant.solid_beam import BeamBuild
 from fitting.arrays import Array
 from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting
-from instrument.campaign.plates.hidden.base import draw_softening, either_sign, left_by_strain
+from instrument.campaign.plates.hidden.base import Softening, draw_softening, either_sign
 from instrument.campaign.plates.hidden.core import GAS_J_MOL_K
 
 _ROOM_K = 296.0
@@ -102,21 +102,11 @@ class HiddenTemperatureDrift(HiddenInBeam):
 
 
 @dataclass(frozen=True)
-class HiddenAmplitudeSoftening(HiddenInBeam):
-    """Each strip of the core softens with its own strain, as filled rubber does (Kraus).
-
-    G (1 - d r / (1 + r)), r a power of the strip's strain over that at which half of what can go is lost.
-    """
+class HiddenAmplitudeSoftening(Softening, HiddenInBeam):
+    """Each strip of the core softens with its own strain."""
 
     name: ClassVar[str] = "amplitude_softening"
     strips: ClassVar[int] = 8
-
-    k: float
-    """Lost at the core's largest rms strain of the first segment at full level."""
-    most: float
-    """What can be lost at all."""
-    power: float = 1.0
-    """Rubbers have 0.8 to 1.3."""
 
     @classmethod
     def able(cls, beam: TrueBeam) -> bool:
@@ -125,10 +115,3 @@ class HiddenAmplitudeSoftening(HiddenInBeam):
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAmplitudeSoftening":
         return cls(*draw_softening(rng))
-
-    def factor(self, strain: Array, reference: float) -> Array:
-        """On the modulus of strips of given strain; `reference` is that at which `k` is lost.
-
-        Shape of `strain`.
-        """
-        return left_by_strain(strain / reference, self.k, self.most, self.power)

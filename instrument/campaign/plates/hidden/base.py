@@ -40,18 +40,32 @@ def felt_kg(omega: Array, mass_kg: float, own_hz: float, loss_factor: float, pow
     return np.asarray(mass_kg * k / (k - omega**2))
 
 
-def draw_softening(rng: np.random.Generator) -> tuple[float, float, float]:
-    """k, most and power of `left_by_strain`, as filled rubbers have them."""
-    return log_uniform(rng, 0.05, 0.2), float(rng.uniform(0.4, 0.7)), float(rng.uniform(0.8, 1.3))
+def draw_softening(rng: np.random.Generator) -> tuple[float, float, float, float, float]:
+    """Numbers of `Softening`, as filled rubbers have them."""
+    lost = log_uniform(rng, 0.05, 0.2), float(rng.uniform(0.4, 0.7)), float(rng.uniform(0.8, 1.3))
+    return (*lost, float(rng.uniform(0.0, 0.25)), float(rng.uniform(0.4, 0.9)))
 
 
-def left_by_strain(strain: Array, k: float, most: float, power: float) -> Array:
-    """Of the modulus, by Kraus: 1 - most r/(1 + r), r as a power of the strain, k lost at a strain of one.
+@dataclass(frozen=True)
+class Softening:
+    """Of filled rubber with strain, as Kraus has it, exponents free: r is a power of the strain."""
 
-    Shape of `strain`.
-    """
-    r = strain**power * k / (most - k)
-    return np.asarray(1 - most * r / (1 + r))
+    k: float
+    """Lost at the reference strain."""
+    most: float
+    """What can be lost at all."""
+    power: float = 1.0
+    """Rubbers have 0.8 to 1.3."""
+    rubbing: float = 0.0
+    """Loss modulus gained where half of what can be lost is lost, over what can be: its largest."""
+    bend: float = 0.5
+    """How steeply that rises and falls: Kraus has a half."""
+
+    def factor(self, strain: Array, reference: float) -> Complex:
+        """On the modulus at a strain; `reference` is that at which `k` is lost. Shape of `strain`."""
+        r = (strain / reference) ** self.power * self.k / (self.most - self.k)
+        gained = self.rubbing * (4 * r / (1 + r) ** 2) ** self.bend
+        return np.asarray(1 - self.most * (r / (1 + r) - 1j * gained))
 
 
 @dataclass(frozen=True)

@@ -12,9 +12,9 @@ from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden.base import (
     Hidden,
     Setting,
+    Softening,
     draw_softening,
     either_sign,
-    left_by_strain,
     times,
 )
 from instrument.campaign.plates.solid import Build, Field
@@ -126,23 +126,13 @@ class HiddenTemperatureDrift(Hidden):
 
 
 @dataclass(frozen=True)
-class HiddenAmplitudeSoftening(Hidden):
-    """Each brick softens with its own strain, as filled rubber does (Kraus): G (1 - d r / (1 + r)).
-
-    r is a power of the brick's strain amplitude over a strain at which half of what can be lost is lost.
-    """
+class HiddenAmplitudeSoftening(Softening, Hidden):
+    """Each brick softens with its own strain."""
 
     name: ClassVar[str] = "amplitude_softening"
     place: ClassVar[str] = "core"
     groups: ClassVar[str] = "bricks"
     changes_solid: ClassVar[bool] = True
-
-    k: float
-    """Lost at the core's rms strain of the first resonance at 1 g."""
-    most: float
-    """What can be lost at all."""
-    power: float = 1.0
-    """Rubbers have 0.8 to 1.3."""
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAmplitudeSoftening":
@@ -151,10 +141,3 @@ class HiddenAmplitudeSoftening(Hidden):
     def stirred(self, true: TruePlate) -> tuple[Field, ...]:
         # Strain of the first mode is largest near the clamp, of the others in several places.
         return tuple(lambda x, y, n=n: np.cos(n * np.pi * x / true.length_m) + 0 * y for n in (1, 2))
-
-    def factor(self, strain: Array, reference: float) -> Array:
-        """On the modulus of bricks of given strain; `reference` is that at which `k` is lost.
-
-        Shape of `strain`.
-        """
-        return left_by_strain(strain / reference, self.k, self.most, self.power)
