@@ -88,6 +88,18 @@ def ask_word(owner: QWidget, title: str, question: str, yes: str, then: Callable
     return box
 
 
+def ask_unsaved(owner: QWidget, what: str, save: Callable[[], object], then: Callable[[], object]) -> None:
+    """Before changes to `what` are lost: kept first, lost, or neither; `then` comes after the first two."""
+    title = "Not saved"
+    box = QMessageBox(QMessageBox.Icon.Question, title, f"{what} was changed and is not saved.", parent=owner)
+    kept = box.addButton("Save", QMessageBox.ButtonRole.AcceptRole)
+    lost = box.addButton("Discard", QMessageBox.ButtonRole.DestructiveRole)
+    box.setDefaultButton(box.addButton(QMessageBox.StandardButton.Cancel))
+    kept.clicked.connect(save)
+    lost.clicked.connect(then)
+    show(box, owner, title)
+
+
 def tell(owner: QWidget, title: str, text: str) -> None:
     """Something to read."""
     box = QMessageBox(QMessageBox.Icon.NoIcon, title, text, parent=owner)

@@ -9,12 +9,14 @@ from gui.background_task import BackgroundTask, Progress
 from gui.feeds.feed import Feed
 from gui.feeds.live import LiveFeed
 from gui.feeds.recorded import RecordedFeed
+from gui.file_stamp import Stamp, stamp_of
 from gui.rediagnosis import Rediagnosis
 from gui.state import SessionState
 from gui.together import Together
 from instrument.engine import Engine, Order, Stopped
 from instrument.engine.client import ENGINE
 from instrument.engine.messages import Ended
+from instrument.files.experiment_file import other_kind
 from instrument.interchange.found import Found
 from instrument.interchange.read_session import read_session
 from instrument.interchange.readers import foreign_endings, read_foreign
@@ -71,6 +73,8 @@ class AppController(QObject):
         """Of the last run; None while one goes on."""
         self._opening: RecordedFeed | None = None
         self._reading: dict[Path, BackgroundTask[Found]] = {}
+        self._stamps: dict[Path, Stamp | None] = {}
+        """Of data laid beside, as they were read last."""
         self._starting: _Starting | None = None
 
     @property
@@ -111,7 +115,7 @@ class AppController(QObject):
         """A session, an experiment, or another program's data; returns at once."""
         ending = path.suffix.lower()
         if ending == EXPERIMENT_ENDING:
-            self.experiment_chosen.emit(path)
+            self._choose_experiment(path)
         elif ending in SESSION_ENDINGS:
             self._open_session(path)
         elif ending in foreign_endings():
@@ -119,6 +123,24 @@ class AppController(QObject):
         else:
             known = ", ".join((EXPERIMENT_ENDING, *SESSION_ENDINGS, *foreign_endings()))
             self.refused.emit(f"{path}: ending {path.suffix!r}, expected one of {known}")
+
+    def _choose_experiment(self, path: Path) -> None:
+        kind = other_kind(path)
+        if not kind:
+            self.experiment_chosen.emit(path)
+            return
+        then = "a new one (Ctrl+N) names it"
+        if kind == "a specimen":
+            then += "; Several files takes it where it is dropped on its data"
+        self.refused.emit(f"{path.name}: {kind}, expected an experiment: {then}")
+
+    def lay_aside(self, path: Path | None = None) -> None:
+        """Data laid beside the session are not wanted there; None: none of them."""
+        if path is None:
+            self.beside.clear()
+        else:
+            self.beside.pop(path, None)
+        self.beside_changed.emit()
 
     def compare(self, path: Path) -> None:
         """Lay another session beside this one: its law and its sweep. Returns at once."""
@@ -130,6 +152,7 @@ class AppController(QObject):
         if self.running:
             self.refused.emit("a run goes on: end it first")
             return
+        self.lay_aside()
         self._show(None)
 
     # A run
@@ -215,6 +238,8 @@ class AppController(QObject):
         feed.stopped.connect(self._stopped)
         self.ending = None
         work.deleteLater()
+        # Other data would lie on the points that come.
+        self.lay_aside()
         self._show(feed)
 
     def _not_started(self, message: str) -> None:
@@ -290,12 +315,16 @@ class AppController(QObject):
         assert isinstance(work, _ForeignReading)
         assert isinstance(found, Found)
         self._forget(work)
-        self.beside[work.path] = found
+        if self._stamps.get(work.path, work.stamp) != work.stamp:
+            self.rediagnosis.let_go_of(work.path)
+        self.beside[work.path], self._stamps[work.path] = found, work.stamp
         counts = ((len(found.sweeps), "sweep"), (len(found.frfs), "FRF"), (len(found.hits), "hit"))
         said = ", ".join(f"{n} {what}{'s' if n > 1 else ''}" for n, what in counts if n)
-        where = "laid beside the session"
+        where = "laid beside the session" if self.feed is not None else "read"
         if found.sweeps and all("force_re_n" in columns for columns in found.sweeps):
             where += "; over a force, so not drawn on Sweep: Diagnosis takes it"
+        elif found.sweeps and self.feed is None:
+            where += "; Diagnosis takes it with its specimen"
         self.said.emit(f"{work.path.name}: {said} {where}")
         self.beside_changed.emit()
 
@@ -327,7 +356,7 @@ class _ForeignReading(BackgroundTask[Found]):
 
     def __init__(self, path: Path, parent: QObject) -> None:
         super().__init__(self._read_file, parent)
-        self.path = path
+        self.path, self.stamp = path, stamp_of(path)
 
     def _read_file(self, _: Progress) -> Found:
         ours = self.path.suffix.lower() in SESSION_ENDINGS

@@ -1,5 +1,6 @@
 """What every page of the window is."""
 
+from collections.abc import Callable
 from typing import ClassVar
 
 from PySide6.QtGui import QShowEvent
@@ -39,6 +40,15 @@ class Page(QWidget):
 
     def clear(self) -> None:
         """There is no session (any more). Nothing by default."""
+
+    @property
+    def unsaved(self) -> bool:
+        """Whether a person's changes would be lost with the window. Nothing by default."""
+        return False
+
+    def before_lost(self, then: Callable[[], object]) -> None:
+        """Ask what becomes of them, and go on with `then` unless they are to stay."""
+        then()
 
     def news(self, *topics: Topic) -> bool:
         """Whether one of the topics changed since this was last asked; also true for another session."""

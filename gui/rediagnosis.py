@@ -137,6 +137,13 @@ class Rediagnosis(QObject):
         self.found = shown
         self.changed.emit()
 
+    def let_go_of(self, path: Path) -> None:
+        """A file that was written anew: what was found of it is another's."""
+        of = self._asked.files if self._asked is not None else ()
+        self._searched = {files: it for files, it in self._searched.items() if not _has(files, path)}
+        if _has(of, path) and (self.running or self.found is not None):
+            self.forget()
+
     def forget(self) -> None:
         """Back to what is recorded."""
         self._drop()
@@ -172,6 +179,10 @@ class Rediagnosis(QObject):
             command.disconnect(self)
             command.deleteLater()
         return command
+
+
+def _has(files: Sequence[PairedFile], path: Path) -> bool:
+    return any(one.data == path for one in files)
 
 
 def _recorded(state: SessionState | None) -> DiagnosisResult | None:

@@ -28,6 +28,8 @@ QPushButton#stop:hover { border-color: $stop_text; }
 QPushButton#stop:focus { border: 2px solid $text; }
 QPushButton#stop:pressed { background: $text; color: $base; }
 QPushButton#stop:disabled { background: $window; color: $faint; border-color: $grid; }
+QToolButton[popupMode="2"] { padding: 3px 18px 3px 4px; }
+QToolButton::menu-indicator { subcontrol-position: right center; subcontrol-origin: padding; right: 3px; }
 QToolButton:hover { background: $grid; border-radius: 4px; }
 QToolButton:focus { background: $grid; border: 2px solid $accent; border-radius: 4px; }
 QCheckBox::indicator:focus { border: 2px solid $accent; }

@@ -143,7 +143,10 @@ class Appearance(QObject):
         self.scale = scale
         font = self._application.font()
         font.setPointSizeF(self._points * scale)
+        # A style sheet keeps the type of widgets that are there: it is taken off meanwhile.
+        self._application.setStyleSheet("")
         self._application.setFont(font)
+        self._show()
 
     def _system_changed(self) -> None:
         self._show()

@@ -9,6 +9,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 
 from gui.background_task import BackgroundCommand
+from gui.file_stamp import Stamp, stamp_of
 from gui.pairing import PairedFile, arguments_of, fault_of, paired, with_specimen
 from gui.rediagnosis import DiagnosisAsked, Rediagnosis, ShownDiagnosis
 from instrument.facts.identification import IdentificationResult
@@ -47,6 +48,10 @@ class Together(QObject):
         self.diagnosed: ShownDiagnosis | None = None
         self.leads = False
         """Whether Material and Diagnosis show this."""
+        self._leads_then = False
+        """Whether what is being identified is to."""
+        self._stamps: dict[Path, Stamp | None] = {}
+        """Of the files that results are of, as they were looked at."""
         self._rediagnosis = rediagnosis
         self._then_diagnose = False
         self._command: BackgroundCommand | None = None
@@ -77,6 +82,19 @@ class Together(QObject):
     def add(self, data: Sequence[Path]) -> None:
         """More of them, each once, with the specimen that is likeliest."""
         self._choose(paired(data, self.files, self.known))
+        self.look_again()
+
+    def look_again(self) -> None:
+        """At files that were written anew: what was found of those before is not theirs."""
+        before, self._stamps = self._stamps, self._stamps_now()
+        anew = [path.name for path, stamp in self._stamps.items() if before.get(path, stamp) != stamp]
+        if anew:
+            self._let_go_of_found()
+            self.failed.emit(f"{', '.join(anew)}: written anew, what was found before is let go of")
+
+    def stamps(self, file: PairedFile) -> tuple[Stamp | None, ...]:
+        """Of data and specimen, as they were looked at last."""
+        return tuple(self._stamps.get(path) for path in (file.data, file.specimen) if path is not None)
 
     def pair(self, row: int | None, specimen: Path) -> None:
         """A specimen for one file, or for all."""
@@ -102,10 +120,12 @@ class Together(QObject):
 
     def identify(self) -> None:
         """One law of all of them."""
+        self.look_again()
         self._begin(then_diagnose=False)
 
     def diagnose(self) -> None:
         """What one law cannot explain; the law first, where it is not there yet."""
+        self.look_again()
         if self.identified is None:
             self._begin(then_diagnose=True)
         elif not fault_of(self.files):
@@ -130,8 +150,8 @@ class Together(QObject):
         self.changed.emit()
 
     def let_go(self) -> None:
-        """Another session is shown; what was found is kept here."""
-        self.leads = False
+        """Another session is shown; what was found, or is being looked for, is kept here."""
+        self.leads = self._leads_then = self._then_diagnose = False
         if self._diagnosing:
             self._rediagnosis.cancel()
             self.failed.emit("The diagnosis of several files was ended: another session is shown.")
@@ -158,17 +178,27 @@ class Together(QObject):
         if files == self.files:
             return
         self.cancel()
+        self.files = files
+        self._stamps = self._stamps_now()
+        self._let_go_of_found()
+
+    def _let_go_of_found(self) -> None:
+        self.cancel()
         led = self.leads
-        self.files, self.identified, self.diagnosed, self.leads = files, None, None, False
+        self.identified, self.diagnosed, self.leads = None, None, False
         if led:
             self._rediagnosis.forget()
         self.changed.emit()
+
+    def _stamps_now(self) -> dict[Path, Stamp | None]:
+        paths = (path for one in self.files for path in (one.data, one.specimen) if path is not None)
+        return {path: stamp_of(path) for path in paths}
 
     def _begin(self, *, then_diagnose: bool) -> None:
         if fault_of(self.files):
             return
         self.cancel()
-        self._then_diagnose = then_diagnose
+        self._then_diagnose, self._leads_then = then_diagnose, True
         results = (IdentificationResult, ModalResult)
         self._command = BackgroundCommand(["identify", *arguments_of(self.files)], results, self)
         self._command.done.connect(self._done)
@@ -183,9 +213,10 @@ class Together(QObject):
     def _done(self, found: object) -> None:
         assert isinstance(found, Fitted)
         self._let_go_of_command()
-        self.identified, self.diagnosed, self.leads = found, None, True
-        # What was shown is of other data, or of the law before this one.
-        self._rediagnosis.forget()
+        self.identified, self.diagnosed, self.leads = found, None, self._leads_then
+        if self.leads:
+            # What was shown is of other data, or of the law before this one.
+            self._rediagnosis.forget()
         if self._then_diagnose:
             self._then_diagnose = False
             self._diagnose()

@@ -60,7 +60,7 @@ class Window(Shell):
         self.replay = ReplayBar()
         self.log = LogPane()
         self._guard = StopGuard(self.bar.stop, self.controller.stop, self._escaped)
-        self._closing = False
+        self._closing = self._may_lose = False
         self._asked: QMessageBox | None = None
         """Whether to close although a run goes on."""
         self._undrawn = list(reversed(self._page_set.kinds))
@@ -156,12 +156,17 @@ class Window(Shell):
                 self.notice.refuse(f"{url.toString()}: not a file of this computer")
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        """A run is not ended without asking."""
+        """A run is not ended, and nothing unsaved lost, without asking."""
         if self.controller.running:
             # It closes by itself once the run has ended.
             event.ignore()
             if not self._closing:
                 self._asked = ask_word(self, "A run goes on", _LEAVE, "Stop and close", self._leave)
+            return
+        unsaved = next((page for page in self._page_set.made.values() if page.unsaved), None)
+        if unsaved is not None and not self._may_lose:
+            event.ignore()
+            unsaved.before_lost(self._lose)
             return
         self._timer.stop()
         self._first_drawing.stop()
@@ -311,6 +316,11 @@ class Window(Shell):
     def _busy(self, name: str) -> None:
         self.statusBar().setVisible(bool(name))
         self.statusBar().showMessage(f"reading {name} ..." if name else "")
+
+    def _lose(self) -> None:
+        """What was not saved is, or is not wanted."""
+        self._may_lose = True
+        self.close()
 
     def _leave(self) -> None:
         self._closing = True

@@ -141,9 +141,14 @@ def law_band(sweep: Sweep, law: CoreLaw, uncertainty: Uncertainty, points: int =
     return LawBand(f, G, eta, *uncertainty.law_band(law, omega))
 
 
+def doubts_of(warnings: Iterable[str]) -> list[str]:
+    """Those of a fit's own warnings that say its law may be wrong by more than is known of it."""
+    return [said for said in warnings if BIASED in said or ASTRAY in said]
+
+
 def doubts_itself(warnings: Iterable[str]) -> bool:
-    """Whether a fit's own warnings say that its law may be wrong by more than is known of it."""
-    return any(BIASED in said or ASTRAY in said for said in warnings)
+    """Whether there are such warnings."""
+    return bool(doubts_of(warnings))
 
 
 def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: bool) -> list[str]:

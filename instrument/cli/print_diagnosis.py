@@ -8,6 +8,7 @@ from instrument.cli.output import Output
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import (
     law_at,
+    percent_of,
     probability_words,
     resampling_words,
     set_aside_words,
@@ -81,9 +82,8 @@ def _print_unseen(out: Output, found: DiagnosisResult) -> None:
 
 def print_before_after(out: Output, found: DiagnosisResult) -> None:
     """The fit without and with the effects found."""
-    of = "amplitude" if found.modes is None else "frequency"
     rows = [
-        [f"rms difference in {of}/%", *(_two(s.rms_percent) for s in found.stages), ""],
+        [f"rms difference in {percent_of(found)}/%", *(_two(s.rms_percent) for s in found.stages), ""],
         ["largest difference/%", *(_two(s.max_percent) for s in found.stages), ""],
         ["chi-square per degree", *(_two(s.chi2_per_dof) for s in found.stages), "1"],
     ]

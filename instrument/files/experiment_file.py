@@ -278,18 +278,26 @@ def experiment_faults(path: Path) -> list[str]:
 
 def _refuse_another(path: Path) -> None:
     """Raise `BadInput` for a specimen's file or a rig's: it lacks all that an experiment has."""
+    found, more = other_kind(path), ""
+    if not found:
+        return
+    if found == "a rig":
+        more = "; 'viscorig doctor' asks a rig's instruments"
+    raise BadInput(
+        f"{path}: {found}, expected an experiment, which names its specimen and its rig (viscorig new "
+        f"experiment){more}"
+    )
+
+
+def other_kind(path: Path) -> Literal["a specimen", "a rig", ""]:
+    """What a TOML file is that is no experiment; empty for one, and for what cannot be read."""
     try:
         tables = tomllib.loads(read_text(path))
     except (BadInput, tomllib.TOMLDecodeError, RecursionError, ValueError):
         # What is wrong with it is said where it is read.
-        return
+        return ""
     if any(kind in tables for kind in _SPECIMENS) and "rig" not in tables:
-        raise BadInput(
-            f"{path}: a specimen, expected an experiment, which names its specimen and its rig "
-            "(viscorig new experiment)"
-        )
+        return "a specimen"
     if not isinstance(tables.get("rig"), str) and any(part in tables for part in _RIGS):
-        raise BadInput(
-            f"{path}: a rig, expected an experiment, which names its specimen and its rig (viscorig new "
-            "experiment); 'viscorig doctor' asks a rig's instruments"
-        )
+        return "a rig"
+    return ""

@@ -9,6 +9,7 @@ from instrument.report.blocks import Block, FigureBlock, ReportSection, Sentence
 from instrument.results.diagnosis_figures import evidence_figure, law_figure, residual_figure
 from instrument.results.diagnosis_words import (
     law_at,
+    percent_of,
     probability_words,
     resampling_words,
     set_aside_words,
@@ -99,7 +100,7 @@ def _unseen(found: DiagnosisResult) -> list[Block]:
 def _before_after(found: DiagnosisResult) -> TableBlock:
     before, after = found.stages
     said: tuple[tuple[str, float | None, float | None], ...] = (
-        ("rms difference in amplitude / %", before.rms_percent, after.rms_percent),
+        (f"rms difference in {percent_of(found)} / %", before.rms_percent, after.rms_percent),
         ("largest difference / %", before.max_percent, after.max_percent),
         ("chi² per degree of freedom", before.chi2_per_dof, after.chi2_per_dof),
         ("predicted from the others, rms / %", before.held_out_rms_percent, after.held_out_rms_percent),

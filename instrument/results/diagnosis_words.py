@@ -7,6 +7,7 @@ from math import isnan, nan
 from fitting.diagnosis.of_files import ALIKE, EACH, FILE
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.digits import two_digits
+from fitting.identification.result import doubts_itself
 from instrument.facts.diagnosis import CandidateFitted, DiagnosisResult, EffectFound, ParameterFound
 from instrument.facts.rows import LawRow, StretchSetAside
 from instrument.results.error_words import FLOOR_PERCENT, is_below_floor
@@ -17,6 +18,8 @@ _MOST_PARAMETERS = 4
 UNKNOWN = "verdict unknown"
 UNRELIABLE = f"{UNKNOWN}: no law here is to be relied on"
 """Said beside a law that stands although nothing explains the data."""
+DOUBTED = "in doubt"
+"""Of a law that its own fit says may be biased."""
 _LEAST = 1e-3
 """Probability below which, or above one less which, no digits are said."""
 _OUTSIDE_GROUP = 0.05
@@ -102,9 +105,16 @@ def _none(found: DiagnosisResult) -> float:
     return next((c.probability for c in found.candidates if c.name == "none"), nan)
 
 
+def percent_of(found: DiagnosisResult) -> str:
+    """What differences in percent are of: tables of modes have frequencies."""
+    return "amplitude" if found.modes is None else "frequency"
+
+
 def with_verdict(title: str, found: DiagnosisResult) -> str:
     """The title of what shows a diagnosis's law: it says so where nothing explains the data."""
-    return f"{title} ({UNKNOWN})" if found.verdict == "unknown" else title
+    if found.verdict == "unknown":
+        return f"{title} ({UNKNOWN})"
+    return f"{title} ({DOUBTED})" if doubts_itself(found.warnings) else title
 
 
 def probability_words(candidate: CandidateFitted, found: DiagnosisResult) -> str:

@@ -6,7 +6,7 @@ from math import isfinite
 
 from fitting.digits import written_out
 from fitting.gravity import STANDARD_GRAVITY_M_S2
-from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
+from fitting.identification.result import BIASED, REFERENCE_FREQUENCIES_HZ, doubts_itself
 from fitting.sweep import Sweep
 from instrument.facts.diagnosis import DiagnosisResult, StageFitted
 from instrument.facts.identification import IdentificationResult
@@ -110,6 +110,15 @@ def _ended_early(contents: Contents) -> str:
     )
 
 
+def _doubt(fit: IdentificationResult | StageFitted, diagnosed: DiagnosisResult | None) -> str:
+    """What is to be said beside the law; empty where nothing is doubted."""
+    if diagnosed is not None and diagnosed.verdict == "unknown":
+        return _DOUBT
+    said = diagnosed if diagnosed is not None else fit
+    doubted = isinstance(said, DiagnosisResult | IdentificationResult) and doubts_itself(said.warnings)
+    return f"{BIASED}: see the notes" if doubted else ""
+
+
 def _said(
     standing: Standing,
     fit: IdentificationResult | StageFitted,
@@ -127,7 +136,7 @@ def _said(
         f"{points} of {conditions.points} points" if points < conditions.points else "",
         f"rms {written_out(fit.rms_percent, 3)} %",
         verdict,
-        _DOUBT if diagnosed is not None and diagnosed.verdict == "unknown" else "",
+        _doubt(fit, diagnosed),
     ]
     level, temperature = conditions.level_m_s2, conditions.temperature_c
     return SessionResult(

@@ -7,7 +7,7 @@ import pytest
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QKeyEvent, QShowEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QDialog, QPushButton
+from PySide6.QtWidgets import QDialog, QLabel, QPushButton, QWidget
 
 from gui.feeds import feed
 from gui.log_pane import LogPane
@@ -20,7 +20,7 @@ from gui.stop_button import StopButton
 from gui.stop_guard import StopGuard
 from gui.style_sheet import PRIMARY, style_sheet
 from gui.tables import Cell, ReadTable
-from gui.theme import DARK, LIGHT
+from gui.theme import DARK, LIGHT, Appearance
 from gui.top_bar import duration
 from gui.widgets import button, hint, tool
 
@@ -35,6 +35,20 @@ def test_a_line_in_a_colour_shows_signs_as_they_are(made):
     assert LIGHT.color("bad").name() in mark.text()
     mark.say("", "bad")
     assert mark.text() == ""
+
+
+def test_larger_type_reaches_widgets_that_are_there_and_dressed(qtbot, qapp):
+    appearance = Appearance(qapp, "light")
+    whole = QWidget()
+    qtbot.addWidget(whole)
+    label, press = QLabel("a line", whole), QPushButton("Start", whole)
+    whole.show()
+    usual = [one.fontMetrics().height() for one in (label, press)]
+    appearance.resize(1.5)
+    larger = [one.fontMetrics().height() for one in (label, press)]
+    appearance.resize(1.0)
+    assert all(b > 1.3 * a for a, b in zip(usual, larger, strict=True))
+    qapp.setStyleSheet("")
 
 
 def test_a_sign_without_words_has_them_for_whoever_cannot_see_it(made):

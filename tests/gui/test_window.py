@@ -1,12 +1,13 @@
 import pytest
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent, QPalette
-from PySide6.QtWidgets import QFileDialog, QHeaderView, QToolButton, QTreeView
+from PySide6.QtWidgets import QFileDialog, QHeaderView, QMessageBox, QToolButton, QTreeView
 from session_cases import SyntheticSession, configuration
 
 from gui.asking import SIGNS, ask_open
 from gui.icons import Sign
 from gui.window import TURN_MS, Window
+from instrument.simulated_case import write_case
 
 
 def drop(window, path):
@@ -110,6 +111,50 @@ def test_a_bad_file_gives_one_message_and_leaves_the_session(qtbot, kept, tmp_pa
     assert name in opened.notice.text
     assert opened.controller.feed is before
     assert opened.controller.state is not None
+
+
+def test_a_specimen_is_no_experiment_and_leaves_everything_as_it_was(qtbot, kept, tmp_path):
+    specimen = tmp_path / "specimen.toml"
+    specimen.write_text("[beam]\nlength_mm = -200.0\n")
+    before = kept.controller.feed
+    kept.open(specimen)
+    assert kept.notice.text.startswith("specimen.toml: a specimen, expected an experiment")
+    assert kept.controller.feed is before
+
+
+def test_data_laid_beside_go_as_they_came(qtbot, opened, tmp_path):
+    for name in ("one.csv", "two.csv"):
+        path = tmp_path / name
+        rows = "".join(f"{f},{0.01 * f},0.002\n" for f in range(15, 25))
+        path.write_text("frequency_hz,velocity_re_m_s,velocity_im_m_s\n" + rows)
+        opened.open(path)
+    qtbot.waitUntil(lambda: len(opened.controller.beside) == 2)
+    opened.show_page("sweep")
+    sweep = opened.tabs.currentWidget()
+    assert sweep.response.take_away.isVisible()
+    sweep.response.take_away.click()
+    assert not opened.controller.beside
+    assert not sweep.response.take_away.isVisible()
+
+
+def test_changes_that_are_not_saved_are_asked_about_before_they_are_lost(qtbot, window, tmp_path):
+    path = write_case(tmp_path)
+    window.open(path)
+    run = window.pages[0]
+    qtbot.waitUntil(lambda: run.files.path == path)
+    run.files.forms["experiment"].type_into(("title",), "another")
+    assert run.unsaved
+    window.close()
+    assert window.isVisible()
+    box = run.files.findChild(QMessageBox, "Not saved")
+    box.button(QMessageBox.StandardButton.Cancel).click()
+    assert window.isVisible()
+    window.close()
+    box = run.files.findChildren(QMessageBox, "Not saved")[-1]
+    save = next(b for b in box.buttons() if b.text() == "Save")
+    save.click()
+    qtbot.waitUntil(lambda: not window.isVisible())
+    assert 'title = "another"' in path.read_text()
 
 
 def test_a_session_cut_short_is_refused(qtbot, window, session_path, tmp_path):

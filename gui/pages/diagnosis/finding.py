@@ -6,11 +6,12 @@ from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
+from fitting.identification.result import doubts_of
 from gui.mark import Mark
 from gui.rediagnosis import ShownDiagnosis
 from gui.theme import Role, current_theme
 from instrument.results.diagnosis_words import verdict_line
-from instrument.results.typeset import capitalised, typeset
+from instrument.results.typeset import capitalised, note, typeset
 
 _EDGE_PX = 5
 _GAP_PX = 12
@@ -57,6 +58,9 @@ class Finding(QWidget):
         """In words."""
         accepted = shown.asked is not None and shown.asked.accept is not None
         role, meaning = _BY_HAND if accepted else _MEANINGS[shown.found.verdict]
+        doubts = doubts_of(shown.found.warnings)
+        if accepted and doubts:
+            role, meaning = "bad", " ".join(map(note, doubts))
         self.verdict.say(headline(shown), role, bold=True)
         self.verdict.setToolTip(meaning)
         made_here = shown.asked is not None

@@ -40,6 +40,7 @@ _HERE = (
     "Here will be what the model of the specimen lacks: the residual of the best law, the effects that "
     "may explain it, ranked by evidence, and what each does to the material."
 )
+_OTHERS = "Diagnose other data"
 _WHAT_TO_DO = (
     "Open a session (Ctrl+O) or run an experiment; or drop a sweep of another program (.csv, .uff, .mat) "
     "and diagnose it here."
@@ -140,6 +141,10 @@ class DiagnosisPage(Page):
     def _why_nothing(self) -> tuple[str, str]:
         """In large, and what there will be."""
         state = self.controller.state
+        if state is None and (foreign := self._foreign):
+            named = foreign[0].name if len(foreign) == 1 else f"{len(foreign)} files"
+            then = f"Next: {_OTHERS}, on the right; its specimen is asked for."
+            return f"No diagnosis of {named} yet", f"{_HERE}\n\n{then}"
         if state is None:
             return "No diagnosis", f"{_HERE}\n\n{_WHAT_TO_DO}"
         if state.run.state == "diagnosing":
@@ -240,7 +245,7 @@ class DiagnosisPage(Page):
         self.candidates.recompute.connect(self._recompute)
 
     def _arrange(self) -> None:
-        self.others.setText("Diagnose other data")
+        self.others.setText(_OTHERS)
         self.others.setToolTip("A sweep laid beside the session; its specimen is asked for")
         self.others.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.others.setMenu(QMenu(self.others))

@@ -22,8 +22,9 @@ from gui.pages.diagnosis.residual import NAMES, Panel, limit, panel, quantities,
 from gui.plots import Axis, Plot
 from gui.plots.curve import Symbol
 from gui.theme import Role, current_theme
+from gui.widgets import hint
 from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageName
-from instrument.results.diagnosis_words import segment_place
+from instrument.results.diagnosis_words import percent_of, segment_place
 from instrument.results.numbers import format_number
 from instrument.results.set_aside import NAME
 from instrument.results.standing import law_words, one_fit_words, stages_apart
@@ -42,6 +43,7 @@ _FOOT = -0.93
 _SHARE_OF_TYPE = 0.38
 """Size of a point to that of type."""
 _ALL = "all"
+_NO_POINTS = "No points: of tables of modes, what the fit leaves of each mode is on Several files, Fit."
 
 
 class ResidualPlots(QWidget):
@@ -62,7 +64,7 @@ class ResidualPlots(QWidget):
         self._waiting: list[tuple[int, StageName]] = []
         self._timer = QTimer(self)
         self._timer.timeout.connect(self._draw_next)
-        self._before, self._after = QLabel(), QLabel()
+        self._before, self._after, self.nothing = QLabel(), QLabel(), hint(_NO_POINTS)
         self._inside = QWidget()
         self._grid = QGridLayout(self._inside)
         self._grid.setContentsMargins(0, 0, 0, 0)
@@ -98,9 +100,10 @@ class ResidualPlots(QWidget):
 
     def _draw(self) -> None:
         found, chosen = self._found, self.segment.currentData()
-        if found is None or chosen is None:
+        if found is None:
             return
         self._numbers = [n for n in segments(found) if chosen in (_ALL, n)]
+        self.nothing.setVisible(not self._numbers)
         stages = stages_apart(found)
         for (n, stage), plot in self.plots.items():
             plot.setVisible(n in self._numbers and stage in stages)
@@ -169,6 +172,7 @@ class ResidualPlots(QWidget):
         column.setContentsMargins(4, 4, 4, 0)
         column.addLayout(above)
         column.addLayout(titles)
+        column.addWidget(self.nothing)
         column.addWidget(area, 1)
 
 
@@ -228,7 +232,7 @@ def _title(found: DiagnosisResult, stage: StageName) -> str:
         said = f"without any effect: {one_fit_words(found)}"
     chi2, rms = found.stage(stage).chi2_per_dof, found.stage(stage).rms_percent
     noise = "" if chi2 is None else f", chi² per degree {format_number(chi2, 3)}"
-    return f"<b>{said}</b><br>{two_digits(rms)} % rms in amplitude{noise}"
+    return f"<b>{said}</b><br>{two_digits(rms)} % rms in {percent_of(found)}{noise}"
 
 
 def _offer(box: QComboBox, choices: dict[str, object]) -> None:

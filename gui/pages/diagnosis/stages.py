@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from gui.pages.law.curve import LawCurve
 from instrument.facts.diagnosis import DiagnosisResult
+from instrument.results.diagnosis_words import percent_of
 from instrument.results.foretelling import is_foretold
 
 
@@ -39,7 +40,8 @@ def compared(found: DiagnosisResult) -> list[ComparedMeasure]:
         rows.append(
             ComparedMeasure("each point, predicted from the others", "% rms", one, other, held_out=True)
         )
-    whole, largest = "difference in amplitude, all points fitted", "largest difference in amplitude"
+    of, all_of = percent_of(found), "points" if found.modes is None else "modes"
+    whole, largest = f"difference in {of}, all {all_of} fitted", f"largest difference in {of}"
     chi2 = "chi² per degree of freedom"
     return [
         *rows,

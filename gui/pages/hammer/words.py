@@ -66,7 +66,7 @@ def prompt_of(run: Run, hits: tuple[RecordedHit, ...], *, live: bool) -> str:
         said = run.next_words
         return f"{said[:1].upper()}{said[1:]}."
     if not hits:
-        return "No blow was caught so far."
+        return "This session has no hammer test." if run.over else "No blow was caught so far."
     used = sum(h.accepted for h in hits)
     return f"{used} of {len(hits)} hits used. Accept or reject here to see what if: nothing is recorded."
 

@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSplitter, QTabWidget, QTextBrowser, QVBoxLayout
 
+from fitting.identification.result import doubts_of
 from gui.controller import AppController
 from gui.mark import Mark
 from gui.page import Page
@@ -22,7 +23,7 @@ from gui.together import Fitted
 from instrument.facts.diagnosis import StageFitted
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.session_result import SessionResult
-from instrument.results.diagnosis_words import UNKNOWN, UNRELIABLE, with_verdict
+from instrument.results.diagnosis_words import DOUBTED, UNKNOWN, UNRELIABLE, with_verdict
 from instrument.results.session_result import (
     BEFORE_DIAGNOSIS,
     Conditions,
@@ -30,7 +31,7 @@ from instrument.results.session_result import (
     result_of,
 )
 from instrument.results.standing import law_words, stage_before
-from instrument.results.typeset import capitalised, note, typeset
+from instrument.results.typeset import note, typeset
 from instrument.stream.derived import FitUpdated
 
 _NOTHING = (
@@ -97,8 +98,7 @@ class MaterialPage(Page):
         resonances = self._resonances
         rows = places(_curve(stands), resonances, _curve(before)) if stands is not None else []
         self.places.show_places(rows, with_before=before is not None)
-        of_session = state is not None and self._together is None
-        start = state.contents.specimen.core if state is not None and of_session else None
+        start = state.contents.specimen.core if state is not None and self._is_of_session else None
         law = start.law if start is not None else None
         correlations = result.correlations if result is not None and shown is None else {}
         self.parameters.show_parameters(
@@ -121,10 +121,10 @@ class MaterialPage(Page):
         if shown is not None:
             lines += diagnosed_lines(shown)
         elif self._together is not None:
-            name = f"identified, {count_of(self._together)} files"
+            name = f"identified, {count_of(self._together)} files{self._in_doubt}"
             lines.append(LawLine(name, LawCurve.of(self._together.law), "model"))
         elif fits:
-            lines.append(LawLine("identified", self._curve(fits[-1]), "model"))
+            lines.append(LawLine(f"identified{self._in_doubt}", self._curve(fits[-1]), "model"))
         lines += self.comparison.lines
         self.plots.show_lines(lines, list(self._resonances.values()))
 
@@ -136,8 +136,9 @@ class MaterialPage(Page):
             )
         self.notes.setPlainText("\n\n".join(map(note, notes)) or "Nothing to note.")
         self.tabs.setTabText(self.tabs.indexOf(self.notes), f"Notes ({len(notes)})" if notes else "Notes")
-        self.doubt.say(f"{capitalised(UNRELIABLE)}." if self._is_unknown else "", "bad", bold=True)
-        self.doubt.setVisible(self._is_unknown)
+        doubts = [UNRELIABLE] if self._is_unknown else self._doubts
+        self.doubt.say(" ".join(map(note, doubts)), "bad", bold=True)
+        self.doubt.setVisible(bool(doubts))
         made_here = shown is not None and shown.asked is not None
         said = f"● diagnosis {shown.origin}" if shown and made_here else ""
         if self._together is not None and shown is None:
@@ -158,10 +159,28 @@ class MaterialPage(Page):
         return headline(state.fits, state.fit_running) or empty
 
     @property
+    def _doubts(self) -> list[str]:
+        """What the law that stands says against itself."""
+        shown, result = self._shown, self._fitted
+        if shown is not None:
+            return doubts_of(shown.found.warnings)
+        return doubts_of(result.warnings) if result is not None else []
+
+    @property
+    def _in_doubt(self) -> str:
+        return f" ({DOUBTED})" if self._doubts else ""
+
+    @property
+    def _is_of_session(self) -> bool:
+        """Whether what is shown is of the session that is open, and not of other data."""
+        shown = self._shown
+        return self._together is None and (shown is None or shown.asked is None or shown.asked.of_session)
+
+    @property
     def _fits(self) -> list[FitUpdated]:
-        """Those that gave a law."""
+        """The session's that gave a law; none where what is shown is of other data."""
         state = self.controller.state
-        if state is None or self._together is not None:
+        if state is None or not self._is_of_session:
             return []
         return [fit for fit in state.fits if fit.result is not None]
 
@@ -209,7 +228,8 @@ class MaterialPage(Page):
         return self._curves[fit.number]
 
     def _arrange(self) -> None:
-        self.said.setWordWrap(True)
+        for label in (self.said, self.doubt):
+            label.setWordWrap(True)
         self.tabs = QTabWidget()
         for view, name, tip in (
             (

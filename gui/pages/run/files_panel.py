@@ -14,7 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from gui.asking import ask_open, ask_save, show
+from gui.asking import ask_open, ask_save, ask_unsaved, show
 from gui.background_task import BackgroundTask, Progress
 from gui.form.draft import Drafts
 from gui.form.form import Form
@@ -55,6 +55,7 @@ class FilesPanel(QWidget):
         self.forms: dict[str, Form] = {}
         self._work: BackgroundTask[object] | None = None
         self._named: tuple[object, object] = (None, None)
+        self._after_saving: Callable[[], object] | None = None
         self.name = QLabel()
         self.name.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.open_button = button("Open...", "An experiment file (Ctrl+O)", "open")
@@ -94,7 +95,19 @@ class FilesPanel(QWidget):
 
     def open(self, path: Path) -> None:
         """Read an experiment and the files it names."""
-        self._begin(partial(_read, path), self._take)
+        self.before_lost(partial(self._begin, partial(_read, path), self._take))
+
+    def before_lost(self, then: Callable[[], object]) -> None:
+        """Go on with `then`; where changes are not saved a person is asked first."""
+        if self.drafts is None or not self.changed:
+            then()
+            return
+        self._after_saving = None
+        ask_unsaved(self, self.drafts.experiment.path.name, partial(self._save_first, then), then)
+
+    def _save_first(self, then: Callable[[], object]) -> None:
+        self._after_saving = then
+        self.save()
 
     def make(self, folder: Path, effect: str | None, seed: int, specimen: str = "plate") -> None:
         """Write the files of a new experiment and open them; without an `effect` of a real rig."""
@@ -158,7 +171,10 @@ class FilesPanel(QWidget):
         self.said.emit(f"saved {path}")
         self._say()
         self.saved.emit()
-        if self._names_given() != self._named:
+        then, self._after_saving = self._after_saving, None
+        if then is not None:
+            then()
+        elif self._names_given() != self._named:
             self.open(path)
 
     def _names_given(self) -> tuple[object, object]:

@@ -1,5 +1,6 @@
 """The page of the experiment and its run: files on the left, what is run and how it stands on the right."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -77,6 +78,15 @@ class RunPage(Page):
         self._drawn_of = None
         if self.files.drafts is None:
             self.drawing.show_drafts(None)
+
+    @property
+    def unsaved(self) -> bool:
+        """The experiment, or a file that it names."""
+        return self.files.changed
+
+    def before_lost(self, then: Callable[[], object]) -> None:
+        """Save, discard or neither."""
+        self.files.before_lost(then)
 
     # What a person does
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from gui.pages.sweep.curve import STANDARD_ERRORS, CurveStretch, joined
-from gui.pages.sweep.panes import BESIDE, CHOSEN, Pointed
+from gui.pages.sweep.panes import CHOSEN, Pointed, beside_look
 from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis
 
@@ -21,10 +21,10 @@ def draw_amplitude(plot: Pointed, seen: PaneContents) -> None:
     for group in seen.points.groups(seen.wanted):
         plot.show_points(group, seen.points.frequency_hz[group.index], np.abs(seen.shown[group.index]))
         names.append(group.name)
-    for one in seen.beside:
+    for k, one in enumerate(seen.beside):
         mine = one.inside(seen.band_hz)
         size = np.abs(one.over_base_s[mine]) * way.factor(one.level_m_s2[mine])
-        plot.points(one.name, one.frequency_hz[mine], size, **BESIDE)
+        plot.points(one.name, one.frequency_hz[mine], size, **beside_look(k))
         names.append(one.name)
     plot.keep((*names, CHOSEN))
     at = seen.chosen_here
@@ -53,10 +53,12 @@ def draw_phase(plot: Pointed, seen: PaneContents) -> None:
     for group in p.groups(seen.wanted):
         plot.show_points(group, p.frequency_hz[group.index], p.phase_deg[group.index])
         names.append(group.name)
-    for one in (one for one in seen.beside if one.has_phase):
+    for k, one in enumerate(seen.beside):
+        if not one.has_phase:
+            continue
         mine = one.inside(seen.band_hz)
         phase = np.unwrap(np.degrees(np.angle(one.over_base_s[mine])), period=360.0)
-        plot.points(one.name, one.frequency_hz[mine], phase, **BESIDE)
+        plot.points(one.name, one.frequency_hz[mine], phase, **beside_look(k))
         names.append(one.name)
     plot.keep((*names, CHOSEN))
     at = seen.chosen_here

@@ -4,7 +4,7 @@ import numpy as np
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from gui.pages.sweep.panes import BESIDE, CHOSEN, SIGNS, Key, Pointed, keyed
+from gui.pages.sweep.panes import CHOSEN, SIGNS, Key, Pointed, beside_key, beside_look, keyed
 from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis
 from gui.theme import Role
@@ -32,18 +32,17 @@ class NyquistPane(QWidget):
         response, groups = seen.shown, seen.points.groups(seen.wanted)
         model: list[tuple[str, Role, str]] = [(name, "model", "\u2500") for name in names]
         drawn: list[tuple[str, Role, str]] = [(g.name, g.role, SIGNS[g.symbol]) for g in groups]
-        others: list[tuple[str, Role, str]] = [
-            (one.name, "third", "\u25c7") for one in seen.beside if one.has_phase
-        ]
+        keys = beside_key(one.name for one in seen.beside)
+        others = [key for key, one in zip(keys, seen.beside, strict=True) if one.has_phase]
         self.key.show_key([*model, *drawn, *others])
         for group in groups:
             z = response[group.index]
             self.plot.show_points(group, z.real, z.imag)
             names.append(group.name)
-        for one in seen.beside:
+        for k, one in enumerate(seen.beside):
             z = (one.over_base_s * seen.way.factor(one.level_m_s2))[one.inside(seen.band_hz)]
             if one.has_phase:
-                self.plot.points(one.name, z.real, z.imag, **BESIDE)
+                self.plot.points(one.name, z.real, z.imag, **beside_look(k))
                 names.append(one.name)
         self.plot.keep((*names, CHOSEN))
         at = response[seen.chosen] if seen.chosen is not None else None

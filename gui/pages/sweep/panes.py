@@ -26,8 +26,24 @@ class _Look(TypedDict):
     hollow: bool
 
 
-BESIDE: _Look = {"role": "third", "symbol": "d", "hollow": True}
-"""How sweeps of other files are drawn."""
+_BESIDE: tuple[_Look, ...] = (
+    {"role": "third", "symbol": "d", "hollow": True},
+    {"role": "fourth", "symbol": "t1", "hollow": True},
+    {"role": "second", "symbol": "s", "hollow": True},
+    {"role": "third", "symbol": "star", "hollow": True},
+)
+_HOLLOW = {"d": "\u25c7", "t1": "\u25b3", "s": "\u25a1", "star": "\u2606"}
+
+
+def beside_look(number: int) -> _Look:
+    """How sweeps of other files are drawn, by their number from 0."""
+    return _BESIDE[number % len(_BESIDE)]
+
+
+def beside_key(names: Iterable[str]) -> list[tuple[str, Role, str]]:
+    """Of a key: name, colour and sign of each."""
+    looks = ((name, beside_look(k)) for k, name in enumerate(names))
+    return [(name, look["role"], _HOLLOW[look["symbol"]]) for name, look in looks]
 
 
 class Pointed(Plot):

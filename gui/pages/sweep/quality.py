@@ -30,6 +30,10 @@ _LEVEL = (
 _SETTLING = "From the last change of drive until the response had come to rest"
 
 
+_LEAST_LINES = 4.5
+"""Of each plot: four stand one above the other."""
+
+
 class QualityPane(QWidget):
     """Noise, distortion, level, settling."""
 
@@ -41,6 +45,8 @@ class QualityPane(QWidget):
         self.distortion = Pointed(_FREQUENCY, Axis("Distortion", "%"), legend=False)
         self.level = Pointed(_FREQUENCY, Axis("Level error", "%"), legend=False)
         self.settling = Pointed(_FREQUENCY, Axis("Settling", "s"), legend=False)
+        for plot in (self.noise, self.distortion, self.level, self.settling):
+            plot.need_lines(_LEAST_LINES)
         self.channels, self.qualities = Key(), Key()
         tips = (_NOISE, _DISTORTION, _LEVEL, _SETTLING)
         self._plots = (self.noise, self.distortion, self.level, self.settling)

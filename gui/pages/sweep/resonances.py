@@ -6,7 +6,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QGridLayout, QPushButton, QVBoxLayout, QWidget
 
 from gui.pages.sweep.drawing import FORESEEN, FREQUENCY, draw_amplitude
-from gui.pages.sweep.panes import SIGNS, Key, Pointed
+from gui.pages.sweep.panes import SIGNS, Key, Pointed, beside_key
 from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis
 from gui.theme import Role
@@ -56,7 +56,7 @@ class ResonancePanes(QWidget):
             entries.append((seen.fit_name, "model", "\u2500"))
         if seen.foreseen is not None:
             entries.append((FORESEEN, "faint", "- -"))
-        entries += [(one.name, "third", "\u25c7") for one in seen.beside]
+        entries += beside_key(one.name for one in seen.beside)
         self.key.show_key(entries)
 
     def _lay_out(self, regions: tuple[Region, ...]) -> None:

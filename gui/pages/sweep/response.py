@@ -18,6 +18,7 @@ from gui.pages.sweep.panes import Pointed, align
 from gui.pages.sweep.resonances import ResonancePanes
 from gui.pages.sweep.seen import PaneContents, Quantity, Way
 from gui.plots import Axis
+from gui.widgets import tool
 
 _LEAST_PX = 80
 _SHOWN: dict[str, Quantity] = {
@@ -32,6 +33,7 @@ class ResponsePane(QWidget):
     chosen = Signal(int)
     segment_wanted = Signal(int)
     way_changed = Signal()
+    others_unwanted = Signal()
 
     def __init__(self) -> None:
         super().__init__()
@@ -63,6 +65,8 @@ class ResponsePane(QWidget):
         self.phase = Pointed(FREQUENCY, Axis("Phase of v/a", "\u00b0"), legend=False)
         self.phase.setXLink(self.amplitude)
         self.quantity.currentTextChanged.connect(self._changed)
+        self.take_away = tool("close", "Take the data of other files away")
+        self.take_away.clicked.connect(self.others_unwanted)
         for box in (self.log_amplitude, self.log_frequency, self.apart, self.others):
             box.toggled.connect(self._changed)
         for plot in (self.amplitude, self.phase):
@@ -80,7 +84,8 @@ class ResponsePane(QWidget):
 
     def show_seen(self, seen: PaneContents) -> None:
         """Draw."""
-        self.others.setVisible(bool(seen.beside))
+        for one in (self.others, self.take_away):
+            one.setVisible(bool(seen.beside))
         if not self.others.isChecked():
             seen = seen.but(beside=())
         if seen.segment is None and len(seen.regions) > 1 and self.apart.isChecked():
@@ -105,6 +110,7 @@ class ResponsePane(QWidget):
         row.addWidget(self.log_frequency)
         row.addWidget(self.apart)
         row.addWidget(self.others)
+        row.addWidget(self.take_away)
         row.addStretch(1)
         self._both = QSplitter(Qt.Orientation.Vertical)
         self._both.addWidget(self.amplitude)

@@ -8,6 +8,7 @@ from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from gui.background_task import BackgroundTask, Progress
+from gui.file_stamp import Stamp
 from gui.mark import Mark
 from gui.pages.together.looked import Looked, look
 from gui.pairing import SPECIMEN_ENDING, PairedFile, fault_of
@@ -23,6 +24,8 @@ _COLUMNS = {
     "specimen": "What it was measured on; double click or Enter: another one",
     "holds": "What both files say of themselves",
 }
+_As = tuple[PairedFile, tuple[Stamp | None, ...]]
+"""A file as it was written last."""
 _OWN = "its own"
 _FAULTY = "\u2716 "
 
@@ -50,8 +53,8 @@ class ChosenFiles(QWidget):
         self.remove = button("Remove", "Take the selected file away (Del)")
         self.fault = Mark()
         self.fault.setWordWrap(True)
-        self._looked: dict[PairedFile, Looked | str] = {}
-        self._looking: dict[PairedFile, _Look] = {}
+        self._looked: dict[_As, Looked | str] = {}
+        self._looking: dict[_As, _Look] = {}
         self._owned: dict[int, list[str]] = {}
         self._arrange()
         self.add.clicked.connect(self._ask_files)
@@ -69,8 +72,9 @@ class ChosenFiles(QWidget):
         """Those chosen; of each file, from 1, the effects that belong to it alone."""
         self._owned = owned
         for file in self.together.files:
-            if file not in self._looked and file not in self._looking and not _lacks(file):
-                self._look(file)
+            it = self._as_it_is(file)
+            if it not in self._looked and it not in self._looking and not _lacks(file):
+                self._look(it)
         self._show_rows()
 
     def take(self, paths: list[Path]) -> None:
@@ -82,8 +86,11 @@ class ChosenFiles(QWidget):
             if path not in data and self.together.files:
                 self.together.pair(self.table.selected, path)
 
-    def _look(self, file: PairedFile) -> None:
-        self._looking[file] = work = _Look(file, self)
+    def _as_it_is(self, file: PairedFile) -> _As:
+        return file, self.together.stamps(file)
+
+    def _look(self, it: _As) -> None:
+        self._looking[it] = work = _Look(it, self)
         work.done.connect(self._seen)
         work.failed.connect(self._not_seen)
         work.start()
@@ -97,8 +104,8 @@ class ChosenFiles(QWidget):
 
     def _keep(self, work: QObject, found: Looked | str) -> None:
         assert isinstance(work, _Look)
-        self._looking.pop(work.file, None)
-        self._looked[work.file] = found
+        self._looking.pop(work.it, None)
+        self._looked[work.it] = found
         work.deleteLater()
         self._show_rows()
 
@@ -115,11 +122,12 @@ class ChosenFiles(QWidget):
 
     def _first_fault(self) -> str:
         """Of what was looked at, in whole: in the table there is room for some words only."""
-        found = ((k, self._looked.get(file)) for k, file in enumerate(self.together.files, start=1))
+        files = enumerate(self.together.files, start=1)
+        found = ((k, self._looked.get(self._as_it_is(file))) for k, file in files)
         return next((f"File {k}: {said}" for k, said in found if isinstance(said, str)), "")
 
     def _cells(self, number: int, file: PairedFile) -> list[Cell]:
-        looked = self._looked.get(file, "" if _lacks(file) else "...")
+        looked = self._looked.get(self._as_it_is(file), "" if _lacks(file) else "...")
         effects = self._owned.get(number, [])
         named = file.specimen.name if file.specimen is not None else "" if _lacks(file) else _OWN
         if isinstance(looked, Looked):
@@ -183,9 +191,9 @@ class ChosenFiles(QWidget):
 class _Look(BackgroundTask[Looked]):
     """At a file and its specimen."""
 
-    def __init__(self, file: PairedFile, parent: QObject) -> None:
-        super().__init__(partial(_look, file), parent)
-        self.file = file
+    def __init__(self, it: _As, parent: QObject) -> None:
+        super().__init__(partial(_look, it[0]), parent)
+        self.it = it
 
 
 def _look(file: PairedFile, _: Progress) -> Looked:

@@ -67,6 +67,7 @@ class FitPlot(QWidget):
                 self.file.addItems(titles)
                 self.file.setCurrentIndex(max(0, self.file.findText(before)))
         self.said.setText(_OF_MODES if of_modes else _OF_SWEEPS)
+        self.quantity.setItemText(0, "loss factor" if of_modes else "amplitude")
         self._draw()
 
     def _draw(self) -> None:

@@ -16,7 +16,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from fitting.identification.result import doubts_of
 from gui.controller import AppController
+from gui.mark import Mark
 from gui.page import Page
 from gui.pages.diagnosis.finding import Finding
 from gui.pages.together.chosen import ChosenFiles
@@ -62,6 +64,8 @@ class TogetherPage(Page):
         super().__init__(controller)
         self.together = controller.together
         self.chosen, self.finding, self.law = ChosenFiles(self.together), Finding(), QLabel()
+        self.doubt = Mark()
+        self.doubt.setWordWrap(True)
         self.fit, self.numbers, self.left, self.notes = FitPlot(), NumbersTable(), LeftTable(), QTextBrowser()
         self.candidates, self.stage = CandidatesTable(), QComboBox()
         self.identify = button("Identify", "One law of all files (Ctrl+I)", "material", primary=True)
@@ -88,6 +92,7 @@ class TogetherPage(Page):
     def showEvent(self, event: QShowEvent) -> None:
         """What came while the page was not seen."""
         super().showEvent(event)
+        self.together.look_again()
         self._show()
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
@@ -115,6 +120,7 @@ class TogetherPage(Page):
         self.law.setVisible(found is not None)
         for one in (self.finding, self.candidates):
             one.setVisible(shown is not None)
+        self.doubt.hide()
         if shown is not None:
             self.finding.show_diagnosis(shown)
             self.finding.show_followed(owner_lines(shown.found))
@@ -122,6 +128,9 @@ class TogetherPage(Page):
         if found is None:
             return
         self.law.setText(headline(found))
+        doubts = doubts_of(found.warnings) if shown is None else []
+        self.doubt.say(" ".join(map(note, doubts)), "bad", bold=True)
+        self.doubt.setVisible(bool(doubts))
         self._offer_stages(diagnosed)
         notes = list(dict.fromkeys((*found.warnings, *(diagnosed.warnings if diagnosed is not None else ()))))
         self.notes.setPlainText("\n\n".join(map(note, notes)) or "Nothing to note.")
@@ -264,6 +273,7 @@ class TogetherPage(Page):
         column.addWidget(self.chosen, 1)
         column.addLayout(actions)
         column.addWidget(self.law)
+        column.addWidget(self.doubt)
         column.addWidget(self.candidates, 1)
         column.addLayout(results)
         right = QWidget()

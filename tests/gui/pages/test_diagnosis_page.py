@@ -169,7 +169,8 @@ def test_an_effect_accepted_by_hand_is_fitted_and_the_material_follows(qtbot, wi
     assert page.candidates.table.texts(0)[0] == "added_mass"
     material = page_of(window, MaterialPage)
     window.tabs.setCurrentWidget(material)
-    assert "result: with spot_offset, by hand" in material.plots.names
+    assert "result: with spot_offset, by hand (in doubt)" in material.plots.names
+    assert "spot_offset, your word, leaves" in material.doubt.said
     assert "not recorded" in material.origin.said
     window.tabs.setCurrentWidget(page)
     qtbot.mouseClick(page.back, LEFT)
@@ -251,6 +252,58 @@ def test_other_data_can_be_diagnosed_without_a_session(qtbot, window, tmp_path):
     with qtbot.waitSignal(window.controller.refused, timeout=LONG_MS) as refused:
         window.controller.rediagnosis.start(DiagnosisAsked(sweep, tmp_path / "none.toml"))
     assert "none.toml" in refused.args[0]
+
+
+def test_a_sweep_without_a_session_says_what_is_next(qtbot, window, tmp_path):
+    page = page_of(window, DiagnosisPage)
+    window.tabs.setCurrentWidget(page)
+    window.open(written(tmp_path / "sweep.csv"))
+    qtbot.waitUntil(page.others.isVisible)
+    assert page.finding.verdict.said == "No diagnosis of sweep.csv yet"
+    assert "Next: Diagnose other data" in page.empty.text()
+
+
+def test_data_written_anew_have_no_diagnosis_any_more(qtbot, window, page, tmp_path):
+    controller, path = window.controller, written(tmp_path / "sweep.csv")
+    window.open(path)
+    qtbot.waitUntil(lambda: path in controller.beside)
+    asked = DiagnosisAsked(path, tmp_path / "specimen.toml")
+    controller.rediagnosis.start(asked)
+    controller.rediagnosis.show(ShownDiagnosis(diagnosis(), "made here of sweep.csv", asked))
+    window.open(path)
+    qtbot.waitUntil(lambda: not controller._reading)
+    assert controller.rediagnosis.found is not None
+    written(path, points=12)
+    window.open(path)
+    qtbot.waitUntil(lambda: not controller._reading)
+    assert controller.rediagnosis.found is None
+
+
+def test_material_of_other_data_has_nothing_of_the_session(window, page, tmp_path):
+    asked = DiagnosisAsked(tmp_path / "other.csv", tmp_path / "specimen.toml")
+    shown = ShownDiagnosis(diagnosis(), "made here of other.csv, not recorded", asked)
+    window.controller.rediagnosis.show(shown)
+    material = page_of(window, MaterialPage)
+    window.tabs.setCurrentWidget(material)
+    assert material.plots.names == ("before the diagnosis", "result: with added_mass")
+    assert not [text for text in material.places.texts(1) if "peak" in text]
+    assert material.notes.toPlainText() == "The points carry no time."
+    assert material.correlations.table.model().rowCount() == 0
+
+
+def test_tables_of_modes_leave_no_residual_of_other_data(page):
+    page.views.setCurrentWidget(page.residual)
+    assert not page.residual.nothing.isVisible()
+    page.residual.show_diagnosis(diagnosis().but(points=(), modes=()))
+    assert page.residual.nothing.isVisible()
+    assert not [plot for plot in page.residual.plots.values() if plot.isVisible()]
+    assert "in frequency" in page.residual._after.text()
+
+
+def written(path, points=10):
+    rows = "".join(f"{f},{0.01 * f},0.002\n" for f in range(15, 15 + points))
+    path.write_text("frequency_hz,velocity_re_m_s,velocity_im_m_s\n" + rows)
+    return path
 
 
 def test_closing_ends_what_is_computed(qtbot, window, page):

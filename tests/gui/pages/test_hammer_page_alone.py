@@ -73,6 +73,7 @@ class Doing(SimpleNamespace):
     """What a run does."""
 
     next_words = "strike the plate"
+    over = False
     strikes = property(lambda self: self.state in ("hammer", "struck"))
 
 

@@ -117,8 +117,38 @@ def test_identified_by_the_button_it_shows_points_lines_and_the_law(qtbot, chose
     qtbot.mouseClick(chosen.material, LEFT)
     material = chosen.window().tabs.currentWidget()
     assert isinstance(material, MaterialPage)
-    assert material.plots.names == ("identified, 2 files",)
+    assert material.plots.names == ("identified, 2 files (in doubt)",)
+    assert "may be biased beyond its band" in material.doubt.said
+    assert chosen.doubt.said == material.doubt.said
     assert "identified here of 2 files" in material.origin.said
+
+
+def test_a_file_that_is_written_anew_has_no_results_any_more(qtbot, chosen, results):
+    together, said = chosen.together, []
+    together.failed.connect(said.append)
+    together.identified, together.leads = results["identified"], True
+    together.look_again()
+    assert together.identified is not None
+    (heavy,) = (one for one in together.files if one.data.name == "heavy.csv")
+    content = heavy.data.read_text()
+    try:
+        heavy.data.write_text("\n".join(content.splitlines()[:-4]) + "\n")
+        together.add([heavy.data])
+        assert together.identified is None
+        assert not together.leads
+        assert said == ["heavy.csv: written anew, what was found before is let go of"]
+        qtbot.waitUntil(lambda: "20 points" in chosen.chosen.table.texts(3)[1])
+    finally:
+        heavy.data.write_text(content)
+
+
+def test_what_is_identified_while_another_session_is_opened_does_not_take_its_place(qtbot, chosen):
+    together = chosen.together
+    together.identify()
+    together.let_go()
+    qtbot.waitUntil(lambda: together.identified is not None)
+    assert not together.leads
+    assert together.shown is None
 
 
 def test_where_nothing_is_left_unexplained_it_says_so(diagnosed):
