@@ -48,6 +48,7 @@ class LawPlots(QWidget):
         self.above.addStretch(1)
         self.above.addWidget(QLabel("shaded"))
         self.above.addWidget(self.bands)
+        self.loss.getViewBox().sigResized.connect(self._place_legend)
         both = QSplitter(Qt.Orientation.Horizontal)
         for plot in (self.storage, self.loss):
             both.addWidget(plot)
@@ -75,7 +76,14 @@ class LawPlots(QWidget):
             shown |= self._draw_line(line, factor)
         for plot in (self.storage, self.loss):
             plot.keep(shown)
-        self.loss.getPlotItem().legend.setOffset(emptiest_corner(self._losses(factor)))
+        self._place_legend()
+
+    def _place_legend(self) -> None:
+        legend, room = self.loss.getPlotItem().legend, self.loss.getViewBox().width()
+        across, up = emptiest_corner(self._losses(float(self.bands.currentData())))
+        legend.updateSize()
+        # Where there is too little room, ends of names are cut and not the signs before them.
+        legend.setOffset((abs(across) if legend.width() + abs(across) > room else across, up))
 
     def _losses(self, factor: float) -> list[tuple[Array, Array]]:
         """What is drawn of them: the lines, and the edges of their bands where they have some."""
