@@ -49,8 +49,10 @@ def with_specimen(files: Sequence[PairedFile], row: int | None, specimen: Path) 
 
 def fault_of(files: Sequence[PairedFile]) -> str:
     """Why these cannot be fitted together, in a line; empty where they can be tried."""
-    if len(files) < 2:
-        return "Add two files or more of one core."
+    if not files:
+        return "Add a file, or several of one core."
+    if len(files) == 1 and files[0].specimen is None and is_session(files[0].data):
+        return "A session by itself is opened (Ctrl+O): add others, or choose a specimen for it."
     for k, one in enumerate(files, start=1):
         if one.specimen is None and not is_session(one.data):
             return f"File {k}, {one.data.name}: no specimen, expected one: choose it."

@@ -46,8 +46,8 @@ def test_a_specimen_chosen_for_one_file_is_given_to_all_that_lack_one():
 @pytest.mark.parametrize(
     ("files", "said"),
     [
-        ((), "Add two files or more"),
-        ((PairedFile(A, ONE),), "Add two files or more"),
+        ((), "Add a file"),
+        ((PairedFile(S),), "A session by itself is opened"),
         ((PairedFile(A, ONE), PairedFile(B)), "File 2, b.csv: no specimen"),
         ((PairedFile(A, ONE), PairedFile(S)), "File 2: a session with its own specimen beside chosen ones"),
         ((PairedFile(A, ONE), PairedFile(B, TWO)), ""),

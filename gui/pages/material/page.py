@@ -121,7 +121,7 @@ class MaterialPage(Page):
         if shown is not None:
             lines += diagnosed_lines(shown)
         elif self._together is not None:
-            name = f"identified, {count_of(self._together)} files{self._in_doubt}"
+            name = f"identified, {count_of(self._together)}{self._in_doubt}"
             lines.append(LawLine(name, LawCurve.of(self._together.law), "model"))
         elif fits:
             lines.append(LawLine(f"identified{self._in_doubt}", self._curve(fits[-1]), "model"))
@@ -142,7 +142,7 @@ class MaterialPage(Page):
         made_here = shown is not None and shown.asked is not None
         said = f"● diagnosis {shown.origin}" if shown and made_here else ""
         if self._together is not None and shown is None:
-            said = f"● identified here of {count_of(self._together)} files, not recorded"
+            said = f"● identified here of {count_of(self._together)}, not recorded"
         self.origin.say(said, "fair", bold=True)
 
     def _headline(self, state: SessionState | None) -> str:

@@ -100,9 +100,10 @@ def left_rows(
     return rows
 
 
-def count_of(fit: Fitted) -> int:
-    """How many files it is of."""
-    return len(fit.files or ("",))
+def count_of(fit: Fitted) -> str:
+    """How many files it is of, in words."""
+    count = len(fit.files or ("",))
+    return f"{count} file" + ("s" if count > 1 else "")
 
 
 def headline(fit: Fitted) -> str:
@@ -110,7 +111,7 @@ def headline(fit: Fitted) -> str:
     counted = f"{len(fit.modes)} modes" if isinstance(fit, ModalResult) else f"{len(fit.points)} points"
     of = "frequency" if isinstance(fit, ModalResult) else "amplitude"
     said = [
-        f"{fit.law_kind} law of {count_of(fit)} files, {counted}",
+        f"{fit.law_kind} law of {count_of(fit)}, {counted}",
         f"rms {format_number(fit.rms_percent, 2)} % in {of}",
     ]
     if fit.chi2_per_dof is not None:

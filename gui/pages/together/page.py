@@ -46,9 +46,9 @@ from instrument.results.typeset import note
 _PERCENT = 100
 _NOTHING = (
     "Several files of one core follow one law: masses measured one after the other on the same pads, beams "
-    "of several lengths, a plate in several files. Add two or more (Ctrl+Shift+O, or drop them here), each "
-    "with its specimen; one specimen serves all unless you choose others.\n\nIdentify gives the one law with "
-    "its band. Diagnose says what one law cannot explain, and of which file that is."
+    "of several lengths, a plate in several files. Add them (Ctrl+Shift+O, or drop them here), or one alone, "
+    "each with its specimen; one specimen serves all unless you choose others.\n\nIdentify gives the one law "
+    "with its band. Diagnose says what one law cannot explain, and of which file that is."
 )
 _NOT_JUDGED = "Points are judged one by one where a diagnosis was made: it weighs each of them."
 _NOTHING_LEFT = "Nothing: nothing is set aside, and no point is further than 3 standard deviations off."

@@ -155,7 +155,8 @@ def test_the_law_of_all_files_is_said_in_a_line():
     assert headline(modes()).startswith(
         "constant law of 2 files, 2 modes, rms 1 % in frequency, chi² per degree"
     )
-    assert count_of(FIT) == 2
+    assert count_of(FIT) == "2 files"
+    assert count_of(FIT.but(files=None)) == "1 file"
 
 
 @pytest.mark.parametrize(

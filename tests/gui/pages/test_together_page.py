@@ -84,8 +84,8 @@ def diagnosed(chosen, results):
 
 def test_a_page_without_files_says_what_to_do(page):
     assert isinstance(page, TogetherPage)
-    assert "two or more" in page.empty.text()
-    assert page.chosen.fault.said == "Add two files or more of one core."
+    assert "or one alone" in page.empty.text()
+    assert page.chosen.fault.said == "Add a file, or several of one core."
     assert not page.identify.isEnabled()
 
 
@@ -121,6 +121,15 @@ def test_identified_by_the_button_it_shows_points_lines_and_the_law(qtbot, chose
     assert "may be biased beyond its band" in material.doubt.said
     assert chosen.doubt.said == material.doubt.said
     assert "identified here of 2 files" in material.origin.said
+
+
+def test_one_file_alone_is_identified_too(qtbot, page, masses):
+    page.together.add(masses[:1])
+    qtbot.waitUntil(lambda: "..." not in page.chosen.table.texts(3))
+    qtbot.mouseClick(page.identify, LEFT)
+    qtbot.waitUntil(lambda: not page.together.running)
+    assert page.law.text().startswith("fractional-zener law of 1 file, 24 points")
+    assert set(page.fit.plot.names) == {"1 light.csv", "1 light.csv, fitted"}
 
 
 def test_a_file_that_is_written_anew_has_no_results_any_more(qtbot, chosen, results):
