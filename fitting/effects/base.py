@@ -115,6 +115,8 @@ class Points:
     """Number of the segment each is of; None where nothing is known of segments."""
     at_rest: NDArray[np.bool_] | None = None
     """Which points have a base at rest, a force driving them; None where `drive` says it of all."""
+    mass_kg: float | None = None
+    """Of a shear pair: what its pads carry, as stated."""
 
     @property
     def levels(self) -> int:

@@ -1,8 +1,10 @@
-"""A cable hangs on the plate: a spring, with losses, from a point of it to the floor.
+"""A cable hangs on the plate, or a magnet pulls at it: a spring with losses, from a point to the floor.
+
+The nearer a magnet, the harder it pulls: its spring is negative.
 
 The floor stands still: the spring feels the plate's motion relative to the base and the base's own,
 
-    force = -k (1 + i loss) (w + w_base),   w_base = -a / omega^2
+    force = -(k + i |k| loss) (w + w_base),   w_base = -a / omega^2
 """
 
 from collections.abc import Mapping
@@ -25,20 +27,20 @@ _START_N_M = 50.0
 
 
 class TetherEffect(Effect):
-    """A spring k (1 + i loss) at (x, y)."""
+    """A spring k + i |k| loss at (x, y)."""
 
     name = "tether"
     enters = "stiffness"
     source = "cable stiffness and damping, Ewins, Modal Testing (2000), section 3.5"
     parameters: tuple[EffectParameter, ...] = (
-        EffectParameter("k", "N/m", 0.0, 2e3, _START_N_M, spread=100.0),
-        EffectParameter("loss_factor", "1", 0.0, 2.0, _LOSS, neutral=None),
+        EffectParameter("k", "N/m", -2e3, 2e3, _START_N_M, spread=100.0, below=0.2),
+        EffectParameter("loss_factor", "1", 0.0, 2.0, _LOSS, spread=0.5),
         *PLACE,
     )
     spans: tuple[Span, ...] = (PointMass(),)
     unexplained_share = 0.003
     chance = 0.015
-    discriminating_test = "a look at the plate; the cable taped down elsewhere, or taken off"
+    discriminating_test = "a look at the plate; the cable taped down elsewhere, the cable or magnet taken off"
 
     def on(self, kind: str) -> Effect | None:
         return TetherOfBeamEffect() if kind == "beam" else super().on(kind)
@@ -56,11 +58,12 @@ class TetherEffect(Effect):
         return lower, np.minimum(upper, [np.inf, np.inf, plate.length_m, plate.width_m])
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
-        w, k = plate.row(u[2], u[3]), u[0] * (1 + 1j * u[1])
+        w, k = plate.row(u[2], u[3]), u[0] + 1j * abs(u[0]) * u[1]
         return Change(K=k * np.outer(w, w), travel_load=-k * w)
 
     def story(self, u: Mapping[str, float]) -> str:
-        return f"a cable pulls at the plate {near(u)} ({u['k']:.2g} N/m, loss factor {u['loss_factor']:.2g})"
+        spring = f"{u['k']:.2g} N/m, loss factor {u['loss_factor']:.2g}"
+        return f"{_puller(u)} pulls at the plate {near(u)} ({spring})"
 
 
 class TetherOfBeamEffect(TetherEffect):
@@ -69,7 +72,7 @@ class TetherOfBeamEffect(TetherEffect):
     parameters = TetherEffect.parameters[:3]
     spans = ()
     needs = ONE_PIECE
-    discriminating_test = "a look at the beam; the cable taped down elsewhere, or taken off"
+    discriminating_test = "a look at the beam; the cable taped down elsewhere, the cable or magnet taken off"
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.array([_START_N_M, _LOSS, x * plate.length_m]) for x in _ALONG]
@@ -83,6 +86,10 @@ class TetherOfBeamEffect(TetherEffect):
 
     def story(self, u: Mapping[str, float]) -> str:
         return (
-            f"a cable pulls at the beam at {1e3 * u['x']:.0f} mm "
+            f"{_puller(u)} pulls at the beam at {1e3 * u['x']:.0f} mm "
             f"({u['k']:.2g} N/m, loss factor {u['loss_factor']:.2g})"
         )
+
+
+def _puller(u: Mapping[str, float]) -> str:
+    return "a cable" if u["k"] >= 0 else "a magnet"

@@ -266,7 +266,8 @@ def _asked_for(section: BeamSection) -> dict[str, Array]:
     s, L = section.shapes, section.length_m
     x, weight = gauss(2 * ORDER)
     w = s.rows("w", x)
-    found = {"air.M": _air_kg_m(section) * L * np.asarray((w * weight) @ w.T)}
+    moving = L * np.asarray((w * weight) @ w.T)
+    found = {"air.M": _air_kg_m(section) * moving, "air.film": section.copies * section.width_m * moving}
     if s.held_ends:
         found |= {f"root.{axis}": A for axis, A in _root_springs(section).items()}
     if not section.is_sandwich:

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.linalg import eigh
 from scipy.optimize import brentq
 
 from fitting.effects import CATALOGUE
@@ -47,6 +48,29 @@ def test_a_mass_at_the_tip_lowers_every_mode_as_it_must():
         return 1 + np.cos(x) * np.cosh(x) + x * mu * (np.cos(x) * np.sinh(x) - np.sin(x) * np.cosh(x))
 
     assert frequencies(BARE, "added_mass", [3e-3, L]) == pytest.approx(roots(free_with_mass, 3), rel=1e-3)
+
+
+def test_a_magnet_s_pull_is_a_negative_spring_and_what_it_loses_is_lost():
+    tether = CATALOGUE["tether"].standing_on(SANDWICH)
+    plate = widened_system_of(SANDWICH, SANDWICH.parts()).take(tether.spans)
+    cable, magnet = (tether.change(plate, np.array([k, 0.1, L])).K for k in (70.0, -70.0))
+    np.testing.assert_allclose(magnet.real, -cable.real)
+    np.testing.assert_allclose(magnet.imag, cable.imag)
+    assert "a magnet pulls" in tether.story({"k": -70.0, "loss_factor": 0.1, "x": L})
+    assert frequencies(BARE, "tether", [-20.0, 0.0, L])[0] < frequencies(BARE, "tether", [0.0, 0.0, L])[0]
+
+
+def test_what_damps_a_beam_from_outside_damps_it_by_its_face():
+    """A mode of unit mass is damped by c over the mass per area, whichever it is."""
+    effect = CATALOGUE["outside_damping"].standing_on(BARE)
+    plate = widened_system_of(BARE, BARE.parts()).take(effect.spans)
+    C = effect.change(plate, np.array([7.0])).C
+    _, modes = eigh(plate.K_0.real, plate.M)
+    damped = modes[:, :4].T @ C @ modes[:, :4]
+    # What a slender beam's mass turns about its middle counts for little.
+    assert np.diag(damped) == pytest.approx(7.0 * B / PER_LENGTH, rel=2e-3)
+    assert np.abs(damped - np.diag(np.diag(damped))).max() < 2e-3 * damped[0, 0]
+    assert CATALOGUE["outside_damping"].on("plate") is None
 
 
 def test_a_loose_part_at_the_tip_adds_a_mode_and_moves_the_others_as_it_must():

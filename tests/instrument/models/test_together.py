@@ -252,6 +252,27 @@ def test_where_a_fixture_resonates_the_rest_is_worth_less_too(mass_kg, at_hz):
     assert np.abs(pull).max() < 3
 
 
+@among(
+    "added_mass", "gain_error", "channel_delay", "sensor_lowpass", "sensor_mounting", "temperature_difference"
+)
+@pytest.mark.parametrize("on_base", [True, False])
+def test_a_sensor_on_wax_is_not_taken_for_the_core(without, on_base):
+    """Its resonance lies at twice what is measured, and shows by its square."""
+    f_0, given = 2600.0, []
+    for file in files(HEAVIER_KG, points=120):
+        rises = 1 / (1 - (file.sweep.frequency_hz / f_0) ** 2)
+        factor = 1 / rises if on_base else rises
+        given.append(replace(file, sweep=replace(file.sweep, velocity_m_s=factor * file.sweep.velocity_m_s)))
+    found = diagnose_together(given, without=without).found.result
+    assert found.verdict == "effect"
+    (effect,) = found.effects
+    assert effect.name == "sensor_mounting"
+    assert effect.parameters["on_base"].value == on_base
+    frequency = effect.parameters["frequency"]
+    assert abs(frequency.value - f_0) < 3 * frequency.standard_error < 0.3 * f_0
+    assert law_error(found.after.law).max() < 0.03
+
+
 def test_one_file_is_not_spoken_of_as_several():
     (said,) = [one for one in _misfit([0.2533]) if "taken for the error" in one]
     assert "files" not in said
