@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 from fitting.effects import CATALOGUE
 from fitting.effects.layer_density import SUBSTRATE
 from fitting.effects.number_off import NumberOffEffect, moved
+from fitting.effects.outside_damping import OutsideDampingEffect
 from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Core, Face
 from fitting.structures import Beam
@@ -62,7 +63,7 @@ def test_a_magnet_s_pull_is_a_negative_spring_and_what_it_loses_is_lost():
 
 def test_what_damps_a_beam_from_outside_damps_it_by_its_face():
     """A mode of unit mass is damped by c over the mass per area, whichever it is."""
-    effect = CATALOGUE["outside_damping"].standing_on(BARE)
+    effect = OutsideDampingEffect().standing_on(BARE)
     plate = widened_system_of(BARE, BARE.parts()).take(effect.spans)
     C = effect.change(plate, np.array([7.0])).C
     _, modes = eigh(plate.K_0.real, plate.M)
@@ -70,7 +71,7 @@ def test_what_damps_a_beam_from_outside_damps_it_by_its_face():
     # What a slender beam's mass turns about its middle counts for little.
     assert np.diag(damped) == pytest.approx(7.0 * B / PER_LENGTH, rel=2e-3)
     assert np.abs(damped - np.diag(np.diag(damped))).max() < 2e-3 * damped[0, 0]
-    assert CATALOGUE["outside_damping"].on("plate") is None
+    assert OutsideDampingEffect().on("plate") is None
 
 
 def test_a_loose_part_at_the_tip_adds_a_mode_and_moves_the_others_as_it_must():
