@@ -17,7 +17,7 @@ from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import refit
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
-from fitting.diagnosis.stand_in import stands_in, too_large
+from fitting.diagnosis.stand_in import stands_in, too_large, unsized
 from fitting.diagnosis.thresholds import SEARCH, VERDICT
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
@@ -42,6 +42,8 @@ class ScoredFit:
     """Why it may stand in for a cause that is in no catalogue (`stand_in`); empty where it does not."""
     too_large: str = ""
     """Which effect would be larger than is plausible; empty where none would."""
+    unsized: bool = False
+    """Whether one of two effects has no size that the data tell from nothing (`stand_in`)."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -106,7 +108,7 @@ class Search:
             (name,) = (e.name for e in fitted.effects)
             self._alone[name] = min(fitted.chi2, self._alone.get(name, np.inf))
         large = too_large(fitted, self.problem.plate)
-        return ScoredFit(fitted, cost(fitted, self.problem.plate), found, doubt, large)
+        return ScoredFit(fitted, cost(fitted, self.problem.plate), found, doubt, large, unsized(fitted))
 
     def tempered(self, scored_fits: Sequence[ScoredFit]) -> tuple[ScoredFit, list[ScoredFit]]:
         """None and the others with what they are worth where the best explains far more than noise."""

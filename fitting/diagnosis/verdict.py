@@ -115,7 +115,8 @@ def judge(
     alone = all(set(best.names) <= set(t.names) for t, _ in group)
     sure = len(best.names) < 2 or held_out(best) < held_out(none)
     # Beside another, what stands in for something leaves room for anything, refused or not.
-    firm = (len(best.names) < 2 or not best.stands_in) and best.strains is None and not best.too_large
+    doubtful = best.stands_in or best.unsized
+    firm = (len(best.names) < 2 or not doubtful) and best.strains is None and not best.too_large
     return judgement("effect" if alone and sure and firm else "ambiguous", best, confirmed=sure)
 
 

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fitting.diagnosis.stand_in import asks_for_more, stands_in, too_large
+from fitting.diagnosis.stand_in import asks_for_more, stands_in, too_large, unsized
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Points
 
@@ -45,6 +45,29 @@ def test_an_explanation_says_why_it_may_stand_in(effects, why):
     assert said.startswith(why) or why in said
     assert too_large(fitted(**effects), PLATE) == ("viscous_damping" if "larger" in why else "")
     assert bool(said) == bool(why)
+
+
+@pytest.mark.parametrize(
+    ("mass_error", "factor_error", "nothing"),
+    [(1e-3, 1e-3, False), (6e-3, 1e-3, True), (1e-3, 0.05, True), (np.nan, 1e-3, False)],
+)
+def test_of_two_effects_each_is_of_a_size_or_one_may_be_what_the_other_lacks(
+    mass_error, factor_error, nothing
+):
+    mass, gain = CATALOGUE["added_mass"], CATALOGUE["gain_error"]
+    # A place that is well known says nothing of what is there.
+    errors = np.array([mass_error, 1e-3, 1e-3, factor_error])
+    both = SimpleNamespace(
+        effects=(mass, gain),
+        u=np.array([0.3, 5e-3, 0.1, 0.1, 1.04]),
+        stated=1,
+        free=np.array([False, True, True, True, True]),
+        law=SimpleNamespace(names=("g_pa", "loss")),
+        covariance=np.diag(np.concatenate([[1e8, 1e-4], errors**2])),
+    )
+    assert unsized(both) == nothing
+    alone = SimpleNamespace(**vars(both) | {"effects": (gain,)})
+    assert not unsized(alone)
 
 
 @pytest.mark.parametrize("name", sorted(n for n, e in CATALOGUE.items() if e.parameters))

@@ -20,10 +20,10 @@ EVEN = 2 * np.log(VERDICT.credible / (1 - VERDICT.credible))
 """In cost: so far below another, an explanation has just the probability that is asked for."""
 
 
-def scored(*names, cost, fails=False, stands_in="", too_large="", tolerances=0.5):
+def scored(*names, cost, fails=False, stands_in="", too_large="", tolerances=0.5, unsized=False):
     fitted = SimpleNamespace(effects=tuple(CATALOGUE[name] for name in names))
     checks = {"size": 0.5, "tolerances": tolerances, "signs": 0.1 * VERDICT.check_level if fails else 0.5}
-    return ScoredFit(fitted, cost, checks, stands_in, too_large)
+    return ScoredFit(fitted, cost, checks, stands_in, too_large, unsized)
 
 
 def judged(none, *scored_fits, hidden=(), off=None):
@@ -338,3 +338,11 @@ def test_what_has_stated_numbers_further_off_than_they_are_is_not_certain(p, ver
     assert said.verdict == verdict
     if verdict == "ambiguous":
         assert said.equivalent == {"spot_offset": ("spot_offset",)}
+
+
+@pytest.mark.parametrize(("unsized", "verdict"), [(False, "effect"), (True, "ambiguous")])
+def test_two_effects_of_which_one_has_no_size_are_not_sure(unsized, verdict):
+    pair = scored("loose_part", "phase_scale", cost=0.0, unsized=unsized)
+    found = judged(POOR_NONE, pair, off={(): 9.0})
+    assert found.verdict == verdict
+    assert found.accepted is pair
