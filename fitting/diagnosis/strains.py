@@ -14,6 +14,7 @@ from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.effects.base import Strain
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.kraus import strained
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
 
@@ -122,11 +123,7 @@ class Strains:
         if key not in self._known:
             dense = self._problem.dense
             G, change = law.modulus(dense.omega), changes()
-            moduli = [
-                G * (1 - s) + 1j * g * np.sqrt(G.real * G.imag)
-                for g in _GAINED[: 1 + gains]
-                for s in _SOFTENED
-            ]
+            moduli = [strained(G, s, g) for g in _GAINED[: 1 + gains] for s in _SOFTENED]
             core = StrainedCore(
                 self._plate, np.tile(dense.omega, len(moduli)), np.concatenate(moduli), change
             )

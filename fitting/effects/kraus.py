@@ -47,4 +47,12 @@ class Kraus:
 
     def of(self, G: Complex, s: Array) -> Complex:
         """Modulus under strains `s`, in the unit of `G`, that of none. Shape (..., points), `s` (points,)."""
-        return np.asarray(G * (1 - self.lost(s)) + 1j * self.gained(s) * np.sqrt(G.real * G.imag))
+        return strained(G, self.lost(s), self.gained(s))
+
+
+def strained(G: Complex, lost: Array | float, gained: Array | float) -> Complex:
+    """A modulus less the share `lost`, and `gained` in loss modulus over its own sqrt(G' G'').
+
+    Shape of `G`.
+    """
+    return np.asarray(G * (1 - lost) + 1j * gained * np.sqrt(G.real * G.imag))
