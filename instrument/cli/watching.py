@@ -5,8 +5,10 @@ from collections.abc import Callable
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from fitting.identification.result import doubts_itself
+from instrument.facts.identification import IdentificationResult
 from instrument.files.acceleration import shown_quantity
-from instrument.results.diagnosis_words import verdict_line
+from instrument.results.diagnosis_words import DOUBTED, verdict_line
 from instrument.results.next_words import apart_words
 from instrument.results.numbers import with_error
 from instrument.stepped_sine.soak import Soak
@@ -155,5 +157,13 @@ def _fit_said(event: FitUpdated) -> str:
     return (
         f"fit {event.number}, {len(event.result.points)} points: at {middle.frequency_hz:.4g} Hz "
         f"G' {with_error(g, s, sign='+-')} MPa, eta {with_error(eta, e, sign='+-')}; "
-        f"rms {event.result.rms_percent:.2f} %"
+        f"rms {event.result.rms_percent:.2f} %{_doubt(event.result)}"
     )
+
+
+def _doubt(fit: IdentificationResult) -> str:
+    """Said where the error stated beside a law is not all that is wrong with it."""
+    if not doubts_itself(fit.warnings):
+        return ""
+    left = f", chi-square per degree {fit.chi2_per_dof:.3g}" if fit.chi2_per_dof is not None else ""
+    return f"; {DOUBTED}{left}"
