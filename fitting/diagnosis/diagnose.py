@@ -20,8 +20,7 @@ from fitting.diagnosis.singles import Singles
 from fitting.diagnosis.stage import few_of_law, found_effects, mixed_band, stage_of
 from fitting.diagnosis.structure import roughness
 from fitting.diagnosis.thresholds import SEARCH, VERDICT
-from fitting.diagnosis.verdict import Judgement, in_light_of, judge, told
-from fitting.digits import two_digits
+from fitting.diagnosis.verdict import Judgement, against_by_checks, in_light_of, judge, told
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
 from fitting.identification.result import BIASED
@@ -266,10 +265,7 @@ def _warnings(problem: DiagnosisProblem, judgement: Judgement) -> tuple[str, ...
     if "temperature_drift" in names and not problem.points.timed:
         said.append("the points carry no time: the drift assumes an even sweep upwards in frequency")
     by_hand = judgement.group[0][0] if judgement.by_hand else None
-    if by_hand is not None and by_hand.fails:
-        what = f"{' and '.join(by_hand.names)}, your word, leaves" if by_hand.names else "no effect leaves"
-        said.append(
-            f"{what} {two_digits(by_hand.fitted.chi2_per_dof)} times what noise and model error explain "
-            f"(chi-square per degree): something else is missing, and {BIASED}"
-        )
+    if by_hand is not None and (why := against_by_checks(by_hand)):
+        what = f"{' and '.join(by_hand.names)}, your word," if by_hand.names else "no effect"
+        said.append(f"{what} {why}: something else is missing, and {BIASED}")
     return tuple(said)

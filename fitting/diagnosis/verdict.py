@@ -210,11 +210,18 @@ def _for(name: str, other: Sequence[str], alone: Mapping[str, set[str]]) -> set[
     return {p[name] for p in fitting} or set(other)
 
 
+def against_by_checks(best: ScoredFit) -> str:
+    """What the weakest of its checks says against an explanation, after its name; empty for nothing."""
+    worst = weakest(best.checks)
+    if worst is None or worst[1] >= VERDICT.check_level:
+        return ""
+    return f"would leave such data once in {1 / max(worst[1], 1e-99):.2g} times ({worst[0]})"
+
+
 def _against(none: ScoredFit, best: ScoredFit, held_out: Callable[[ScoredFit], float]) -> str:
     """Why an explanation is none; empty where nothing speaks against it."""
-    worst = weakest(best.checks)
-    if worst is not None and worst[1] < VERDICT.check_level:
-        return f"would leave such data once in {1 / max(worst[1], 1e-99):.2g} times ({worst[0]})"
+    if why := against_by_checks(best):
+        return why
     if best.too_large and len(best.names) > 1:
         # One of two that goes as far as it may is what a third would be, that is in no catalogue.
         return f"has more of {best.too_large} than is plausible"

@@ -170,7 +170,7 @@ def test_an_effect_accepted_by_hand_is_fitted_and_the_material_follows(qtbot, wi
     material = page_of(window, MaterialPage)
     window.tabs.setCurrentWidget(material)
     assert "result: with spot_offset, by hand (in doubt)" in material.plots.names
-    assert "spot_offset, your word, leaves" in material.doubt.said
+    assert "spot_offset, your word, would leave such data once in" in material.doubt.said
     assert "not recorded" in material.origin.said
     window.tabs.setCurrentWidget(page)
     qtbot.mouseClick(page.back, LEFT)
@@ -271,11 +271,11 @@ def test_data_written_anew_have_no_diagnosis_any_more(qtbot, window, page, tmp_p
     controller.rediagnosis.start(asked)
     controller.rediagnosis.show(ShownDiagnosis(diagnosis(), "made here of sweep.csv", asked))
     window.open(path)
-    qtbot.waitUntil(lambda: not controller._reading)
+    qtbot.waitUntil(lambda: not controller.data_beside.reading)
     assert controller.rediagnosis.found is not None
     written(path, points=12)
     window.open(path)
-    qtbot.waitUntil(lambda: not controller._reading)
+    qtbot.waitUntil(lambda: not controller.data_beside.reading)
     assert controller.rediagnosis.found is None
 
 
