@@ -6,10 +6,10 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 
 from gui.background_task import BackgroundTask, Progress
+from gui.data_beside import DataBeside
 from gui.feeds.feed import Feed
 from gui.feeds.live import LiveFeed
 from gui.feeds.recorded import RecordedFeed
-from gui.file_stamp import Stamp, stamp_of
 from gui.rediagnosis import Rediagnosis
 from gui.state import SessionState
 from gui.together import Together
@@ -18,12 +18,11 @@ from instrument.engine.client import ENGINE
 from instrument.engine.messages import Ended
 from instrument.files.experiment_file import other_kind
 from instrument.interchange.found import Found
-from instrument.interchange.read_session import read_session
-from instrument.interchange.readers import foreign_endings, read_foreign
+from instrument.interchange.given import SESSION_ENDINGS, is_session
+from instrument.interchange.readers import foreign_endings
 from instrument.session.configuration import Configuration, read_whole_experiment
 
 EXPERIMENT_ENDING = ".toml"
-SESSION_ENDINGS = (".h5", ".hdf5")
 
 
 class AppController(QObject):
@@ -63,8 +62,7 @@ class AppController(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.feed: Feed | None = None
-        self.beside: dict[Path, Found] = {}
-        """Other programs' data and other sessions' sweeps, to be drawn beside the session's."""
+        self.data_beside = DataBeside(self)
         self.rediagnosis = Rediagnosis(self)
         self.together = Together(self.rediagnosis, self)
         self.changed.connect(self.together.let_go)
@@ -72,10 +70,17 @@ class AppController(QObject):
         self.ending: Ended | None = None
         """Of the last run; None while one goes on."""
         self._opening: RecordedFeed | None = None
-        self._reading: dict[Path, BackgroundTask[Found]] = {}
-        self._stamps: dict[Path, Stamp | None] = {}
-        """Of data laid beside, as they were read last."""
         self._starting: _Starting | None = None
+        self.data_beside.changed.connect(self.beside_changed)
+        self.data_beside.renewed.connect(self.rediagnosis.let_go_of)
+        self.data_beside.read.connect(self._laid)
+        self.data_beside.failed.connect(self.refused)
+        self.data_beside.busy.connect(self.busy)
+
+    @property
+    def beside(self) -> dict[Path, Found]:
+        """Other programs' data and other sessions' sweeps, to be drawn beside the session's."""
+        return self.data_beside.files
 
     @property
     def state(self) -> SessionState | None:
@@ -116,10 +121,10 @@ class AppController(QObject):
         ending = path.suffix.lower()
         if ending == EXPERIMENT_ENDING:
             self._choose_experiment(path)
-        elif ending in SESSION_ENDINGS:
+        elif is_session(path):
             self._open_session(path)
         elif ending in foreign_endings():
-            self._read_beside(path)
+            self.data_beside.lay(path)
         else:
             known = ", ".join((EXPERIMENT_ENDING, *SESSION_ENDINGS, *foreign_endings()))
             self.refused.emit(f"{path}: ending {path.suffix!r}, expected one of {known}")
@@ -134,25 +139,17 @@ class AppController(QObject):
             then += "; Several files takes it where it is dropped on its data"
         self.refused.emit(f"{path.name}: {kind}, expected an experiment: {then}")
 
-    def lay_aside(self, path: Path | None = None) -> None:
-        """Data laid beside the session are not wanted there; None: none of them."""
-        if path is None:
-            self.beside.clear()
-        else:
-            self.beside.pop(path, None)
-        self.beside_changed.emit()
-
     def compare(self, path: Path) -> None:
         """Lay another session beside this one: its law and its sweep. Returns at once."""
         self.comparison_wanted.emit(path)
-        self._read_beside(path)
+        self.data_beside.lay(path)
 
     def leave(self) -> None:
         """Close the session shown."""
         if self.running:
             self.refused.emit("a run goes on: end it first")
             return
-        self.lay_aside()
+        self.data_beside.take_away()
         self._show(None)
 
     # A run
@@ -218,8 +215,7 @@ class AppController(QObject):
         """Let go of everything."""
         self.together.close()
         self.rediagnosis.close()
-        for work in self._reading.values():
-            work.close()
+        self.data_beside.close()
         if self._starting is not None:
             self._starting.close()
         for feed in (self._opening, self.feed):
@@ -239,7 +235,7 @@ class AppController(QObject):
         self.ending = None
         work.deleteLater()
         # Other data would lie on the points that come.
-        self.lay_aside()
+        self.data_beside.take_away()
         self._show(feed)
 
     def _not_started(self, message: str) -> None:
@@ -302,42 +298,15 @@ class AppController(QObject):
             old.deleteLater()
         self.changed.emit()
 
-    def _read_beside(self, path: Path) -> None:
-        self.busy.emit(path.name)
-        work = _ForeignReading(path, self)
-        self._reading[path] = work
-        work.done.connect(self._read)
-        work.failed.connect(self._not_read)
-        work.start()
-
-    def _read(self, found: object) -> None:
-        work = self.sender()
-        assert isinstance(work, _ForeignReading)
-        assert isinstance(found, Found)
-        self._forget(work)
-        if self._stamps.get(work.path, work.stamp) != work.stamp:
-            self.rediagnosis.let_go_of(work.path)
-        self.beside[work.path], self._stamps[work.path] = found, work.stamp
-        counts = ((len(found.sweeps), "sweep"), (len(found.frfs), "FRF"), (len(found.hits), "hit"))
-        said = ", ".join(f"{n} {what}{'s' if n > 1 else ''}" for n, what in counts if n)
+    def _laid(self, path: Path, what: str) -> None:
+        """Says where they are to be found."""
+        sweeps = self.beside[path].sweeps
         where = "laid beside the session" if self.feed is not None else "read"
-        if found.sweeps and all("force_re_n" in columns for columns in found.sweeps):
+        if sweeps and all("force_re_n" in columns for columns in sweeps):
             where += "; over a force, so not drawn on Sweep: Diagnosis takes it"
-        elif found.sweeps and self.feed is None:
+        elif sweeps and self.feed is None:
             where += "; Diagnosis takes it with its specimen"
-        self.said.emit(f"{work.path.name}: {said} {where}")
-        self.beside_changed.emit()
-
-    def _not_read(self, message: str) -> None:
-        work = self.sender()
-        assert isinstance(work, _ForeignReading)
-        self._forget(work)
-        self.refused.emit(message)
-
-    def _forget(self, work: "_ForeignReading") -> None:
-        self._reading.pop(work.path, None)
-        self.busy.emit("")
-        work.deleteLater()
+        self.said.emit(f"{path.name}: {what} {where}")
 
 
 class _Starting(BackgroundTask[Configuration]):
@@ -349,15 +318,3 @@ class _Starting(BackgroundTask[Configuration]):
 
     def _read_files(self, _: Progress) -> Configuration:
         return read_whole_experiment(self.order.experiment).configuration(self.order.experiment.stem, "")
-
-
-class _ForeignReading(BackgroundTask[Found]):
-    """Of another program's file, or another session."""
-
-    def __init__(self, path: Path, parent: QObject) -> None:
-        super().__init__(self._read_file, parent)
-        self.path, self.stamp = path, stamp_of(path)
-
-    def _read_file(self, _: Progress) -> Found:
-        ours = self.path.suffix.lower() in SESSION_ENDINGS
-        return read_session(self.path) if ours else read_foreign(self.path)

@@ -8,7 +8,7 @@ from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMenu
 
 from gui.asking import ask_open, tell
-from gui.controller import EXPERIMENT_ENDING, SESSION_ENDINGS
+from gui.controller import EXPERIMENT_ENDING
 from gui.export import Export
 from gui.page_set import key_of
 from gui.printing import Printing
@@ -16,6 +16,7 @@ from gui.shell import Shell
 from gui.taking_together import TOGETHER, ask_together
 from gui.theme import SCALES, Mode
 from instrument.files.acceleration import UNITS, acceleration_unit
+from instrument.interchange.given import SESSION_ENDINGS
 from instrument.interchange.readers import foreign_endings
 
 _KEYS = """

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import QMessageBox, QTabWidget, QVBoxLayout, QWidget
 from fitting.plugins import told
 from gui.asking import ask_open_many, ask_word
 from gui.background_task import BackgroundCommand, BackgroundTask
-from gui.controller import SESSION_ENDINGS, AppController
+from gui.controller import AppController
 from gui.form.form import Form
 from gui.log_pane import LogPane
 from gui.menus import Menus
@@ -33,6 +33,7 @@ from gui.tab_order import neighbour
 from gui.theme import Appearance
 from gui.top_bar import TopBar
 from instrument.files.acceleration import show_acceleration_in
+from instrument.interchange.given import SESSION_ENDINGS
 
 TURN_MS = 33
 """Between two looks at what has come: 30 a second."""

@@ -7,6 +7,7 @@ from session_cases import SyntheticSession, configuration
 from gui.asking import SIGNS, ask_open
 from gui.icons import Sign
 from gui.window import TURN_MS, Window
+from instrument.errors import BadInput
 from instrument.simulated_case import write_case
 
 
@@ -155,6 +156,26 @@ def test_changes_that_are_not_saved_are_asked_about_before_they_are_lost(qtbot, 
     save.click()
     qtbot.waitUntil(lambda: not window.isVisible())
     assert 'title = "another"' in path.read_text()
+
+
+def test_a_save_by_hand_after_one_that_failed_closes_nothing(qtbot, window, tmp_path, monkeypatch):
+    path = write_case(tmp_path)
+    window.open(path)
+    files = window.pages[0].files
+    qtbot.waitUntil(lambda: files.path == path)
+    files.forms["experiment"].type_into(("title",), "another")
+    window.close()
+    with monkeypatch.context() as patch:
+        patch.setattr(type(files.drafts), "save", refuse)
+        with qtbot.waitSignal(files.failed):
+            next(b for b in files.findChild(QMessageBox, "Not saved").buttons() if b.text() == "Save").click()
+    with qtbot.waitSignal(files.saved):
+        files.save()
+    assert window.isVisible()
+
+
+def refuse(*_):
+    raise BadInput("read-only")
 
 
 def test_a_session_cut_short_is_refused(qtbot, window, session_path, tmp_path):

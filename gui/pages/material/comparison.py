@@ -8,12 +8,12 @@ from PySide6.QtWidgets import QCheckBox, QGridLayout, QVBoxLayout, QWidget
 
 from gui.asking import ask_open_many
 from gui.background_task import BackgroundTask, Progress
-from gui.controller import SESSION_ENDINGS
 from gui.pages.law.plots import LawLine
 from gui.pages.material.compared import PAPER, ComparedLaw, paper_law, recorded_laws
 from gui.tables import Cell, ReadTable
 from gui.theme import Role
 from gui.widgets import button, hint
+from instrument.interchange.given import SESSION_ENDINGS
 
 _LOOKS: tuple[tuple[Role, bool], ...] = (
     ("second", False),

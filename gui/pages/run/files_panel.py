@@ -102,12 +102,11 @@ class FilesPanel(QWidget):
         if self.drafts is None or not self.changed:
             then()
             return
-        self._after_saving = None
         ask_unsaved(self, self.drafts.experiment.path.name, partial(self._save_first, then), then)
 
     def _save_first(self, then: Callable[[], object]) -> None:
-        self._after_saving = then
         self.save()
+        self._after_saving = then
 
     def make(self, folder: Path, effect: str | None, seed: int, specimen: str = "plate") -> None:
         """Write the files of a new experiment and open them; without an `effect` of a real rig."""
@@ -115,12 +114,14 @@ class FilesPanel(QWidget):
 
     def save(self) -> None:
         """Every changed file."""
+        self._after_saving = None
         drafts = self.drafts
         if drafts is not None:
             self._begin(partial(_save, drafts, None), self._saved)
 
     def save_as(self, path: Path) -> None:
         """All files, the others beside the experiment."""
+        self._after_saving = None
         drafts = self.drafts
         if drafts is not None:
             self._begin(partial(_save, drafts, path), self._saved)

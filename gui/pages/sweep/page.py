@@ -293,7 +293,7 @@ class SweepPage(Page):
         self.controller.beside_changed.connect(self._beside_changed)
         self.chooser.chosen.connect(self._segment_chosen)
         self.response.way_changed.connect(self._way_changed)
-        self.response.others_unwanted.connect(self.controller.lay_aside)
+        self.response.others_unwanted.connect(self.controller.data_beside.take_away)
         self.record.stepped.connect(self.walk)
         for curve in (self.model, self.foreseen):
             curve.changed.connect(self._model_changed)
