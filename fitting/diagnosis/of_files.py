@@ -35,9 +35,9 @@ class OfFiles(Effect):
     """`inner` in every file (`file` 0) or in one, counted from 1; the forms are tried apart.
 
     With `spots` also at one of them in every file (`pickup`, -1 for all), what moves the reading at the
-    first spot of the first file alone too. What comes of a mounting is also tried with a size of its own in
-    each file (`file` -1): those of further files have their number behind, and lie about the first one's as
-    one mounting lies about another (`EffectParameter.mounting`).
+    first spot of the first file alone too. What comes of a mounting, or anew with every file, is also tried
+    with a size of its own in each (`file` -1): those of further files have their number behind, and lie about
+    the first one's as one mounting lies about another (`EffectParameter.mounting`).
     """
 
     def __init__(
@@ -158,7 +158,7 @@ class OfFiles(Effect):
         forms, own = self.inner.variants(), self.own
         several = len(own) > 1
         numbers = [ALIKE, *own] if several and self.apart else [ALIKE]
-        if several and self.needs_mounting:
+        if several and (self.needs_mounting or self.inner.anew):
             numbers.append(EACH)
         elif not several and 0 in self.mounted:
             # It has a meaning there alone: that is its only form.

@@ -82,8 +82,9 @@ class EffectParameter:
     below: float = 0.5
     """How likely it is to lie below its neutral value, where it may lie on both sides."""
     mounting: float | None = None
-    """Standard deviation of how much it differs once the specimen was clamped anew with another torque: in
-    its logarithm, or in `unit`. None for what a mounting leaves as it is.
+    """Standard deviation of how much it differs once the specimen was clamped anew with another torque, or
+    was measured another time (`Effect.anew`): in its logarithm, or in `unit`. None for what that leaves as
+    it is.
     """
 
 
@@ -183,6 +184,9 @@ class Effect:
 
     Its plate has a motion more too (`EnrichedReducedPlate.with_part`).
     """
+
+    anew: ClassVar[bool] = False
+    """Whether it takes another course in every file: what goes with time does."""
 
     of_a_segment: ClassVar[bool] = False
     """Whether it is in one segment of a sweep alone: the others cannot foretell it."""

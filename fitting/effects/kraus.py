@@ -53,6 +53,7 @@ class Kraus:
 def strained(G: Complex, lost: Array | float, gained: Array | float) -> Complex:
     """A modulus less the share `lost`, and `gained` in loss modulus over its own sqrt(G' G'').
 
-    Shape of `G`.
+    Shape of `G`. Where a law that is tried has no loss, or less, nothing is gained.
     """
-    return np.asarray(G * (1 - lost) + 1j * gained * np.sqrt(G.real * G.imag))
+    mean = np.sqrt(np.maximum(G.real * G.imag, 0.0))
+    return np.asarray(G * (1 - lost) + 1j * gained * mean)

@@ -1,4 +1,4 @@
-"""The core warms during the sweep: its times shorten as the sweep goes on."""
+"""The core warms during the sweep, or its temperature comes and goes with the room's: its times shorten."""
 
 from collections.abc import Mapping
 
@@ -11,6 +11,20 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 C_1, C_2_K = 9.0, 120.0
 """Of a damping polymer well above its glass transition; another pair scales the kelvins found."""
 
+_CYCLES = (
+    EffectParameter("swing_sine", "K", -8.0, 8.0, 0.3, spread=1.0, mounting=1.4),
+    EffectParameter("swing_cosine", "K", -8.0, 8.0, 0.3, spread=1.0, mounting=1.4),
+    EffectParameter("period", "s", 100.0, 7200.0, 900.0, logarithmic=True, neutral=None, mounting=0.1),
+)
+"""Of a room whose air conditioning goes on and off: every few minutes to an hour or two. A choice."""
+_UNEVEN = (
+    EffectParameter("uneven_sine", "K", -2.0, 2.0, 0.1, spread=0.2, mounting=0.3),
+    EffectParameter("uneven_cosine", "K", -2.0, 2.0, 0.1, spread=0.2, mounting=0.3),
+)
+"""Twice in a period: it warms in a third of it and cools in two, say. A choice."""
+_LEAST_CYCLES, _MOST_CYCLES, _STEP = 0.75, 12.0, 0.5
+"""Looked for in a sweep: fewer are what settles; a step apart a linear one finds those between."""
+
 
 def time_scale(warmer_k: Array | float) -> Array:
     """a_T: what a core's times shorten by where it is so much warmer. Of the shape of `warmer_k`."""
@@ -18,18 +32,25 @@ def time_scale(warmer_k: Array | float) -> Array:
 
 
 class TemperatureDriftEffect(Effect):
-    """tau times a_T, log10 a_T = -C_1 T / (C_2 + T), T = warming (1 - exp(-t / time_constant))."""
+    """tau times a_T, log10 a_T = -C_1 T / (C_2 + T), T = warming (1 - exp(-t / time_constant)).
+
+    The law is that of the first point.
+    """
 
     name = "temperature_drift"
     enters = "time"
     source = "Williams, Landel and Ferry, J. Am. Chem. Soc. 77 (1955)"
     structures = EVERY_STRUCTURE
-    parameters = (
-        EffectParameter("warming", "K", -25.0, 25.0, 2.0, spread=5.0),
-        EffectParameter("time_constant", "s", 20.0, 1e5, 600.0, logarithmic=True, neutral=None),
+    parameters: tuple[EffectParameter, ...] = (
+        EffectParameter("warming", "K", -25.0, 25.0, 2.0, spread=5.0, mounting=4.0),
+        EffectParameter("time_constant", "s", 20.0, 1e5, 600.0, logarithmic=True, neutral=None, mounting=0.3),
     )
     chance = 0.04
+    anew = True
     discriminating_test = "the first segment repeated at the end, or the order of the segments reversed"
+
+    def variants(self) -> tuple[Effect, ...]:
+        return TemperatureDriftEffect(), TemperatureCycleEffect(), TemperatureCycleEffect(uneven=True)
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         if not points.timed and len(points.omega) > 30:
@@ -41,8 +62,46 @@ class TemperatureDriftEffect(Effect):
         return [np.array([2.0, share * duration]) for share in (0.2, 0.6, 3.0)]
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:
-        kelvin = -u[0] * np.expm1(-points.time_s / u[1])
-        return G(time_scale(kelvin))
+        return G(time_scale(self.kelvin(points.time_s, u)))
+
+    def kelvin(self, time_s: Array, u: Array) -> Array:
+        """Warmer than the temperature of the law. Shape of `time_s`."""
+        return np.asarray(-u[0] * np.expm1(-time_s / u[1]))
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"the core warms by {u['warming']:.2g} K in the end, within {u['time_constant'] / 60:.2g} min"
+
+
+class TemperatureCycleEffect(TemperatureDriftEffect):
+    """The same about a mean, that of the law: the room's air conditioning goes on and off.
+
+    T = swing_sine sin(w t) + swing_cosine cos(w t), w = 2 pi / period; `uneven`: and the same of 2 w.
+    """
+
+    def __init__(self, *, uneven: bool = False) -> None:
+        self.parameters = (*_CYCLES, *_UNEVEN) if uneven else _CYCLES
+
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
+        if not points.timed or np.ptp(points.time_s) < self._shortest_s * _LEAST_CYCLES:
+            return "the sweep is too short for a room to cycle"
+        return super().objection(points, plate)
+
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
+        duration = float(np.ptp(points.time_s))
+        most = min(_MOST_CYCLES, duration / self._shortest_s)
+        typical = np.array([q.typical for q in self.parameters])
+        each = np.arange(_LEAST_CYCLES, most + 1e-9, _STEP)
+        return [np.concatenate([typical[:2], [duration / n], typical[3:]]) for n in each]
+
+    @property
+    def _shortest_s(self) -> float:
+        return self.parameters[2].lower
+
+    def kelvin(self, time_s: Array, u: Array) -> Array:
+        turned = 2 * np.pi * time_s / u[2]
+        uneven = u[3] * np.sin(2 * turned) + u[4] * np.cos(2 * turned) if len(u) > 3 else 0.0
+        return np.asarray(u[0] * np.sin(turned) + u[1] * np.cos(turned) + uneven)
+
+    def story(self, u: Mapping[str, float]) -> str:
+        swing, minutes = np.hypot(u["swing_sine"], u["swing_cosine"]), u["period"] / 60
+        return f"the core's temperature swings by {swing:.2g} K about its mean, every {minutes:.2g} min"

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from instrument.campaign.beams.cases import KINDS, NONE, BeamCase, draw_case
+from instrument.campaign.beams.hidden import ON_REQUEST
 from instrument.campaign.plates.answers import (
     Answer,
     Band,
@@ -25,7 +26,7 @@ from instrument.campaign.tables import markdown
 from instrument.progress import Progress, quiet
 
 SUMMARY = "summary.md"
-ROTATION = (*KINDS, *(NONE,) * 5)
+ROTATION = (*(kind for kind in KINDS if kind not in ON_REQUEST), *(NONE,) * 5)
 """Kinds of successive cases: each effect once, clean ones six times."""
 
 Identify = Callable[[BeamCase], Band]

@@ -10,12 +10,13 @@ from typing import Any
 
 from instrument.campaign.plates.answers import Answer, Band, judged, outcome_from
 from instrument.campaign.plates.cases import KINDS, NONE, PAIR, PlateCase, draw_case
+from instrument.campaign.plates.hidden import ON_REQUEST
 from instrument.campaign.plates.tables import summary
 from instrument.campaign.run import Job, in_rotation, run_campaign
 from instrument.progress import Progress, quiet
 
 SUMMARY = "summary.md"
-ROTATION = (*KINDS, *(NONE,) * 8, *(PAIR,) * 4)
+ROTATION = (*(kind for kind in KINDS if kind not in ON_REQUEST), *(NONE,) * 8, *(PAIR,) * 4)
 """Kinds of successive cases: each effect once, clean ones nine times, pairs five."""
 
 Identify = Callable[[PlateCase], Band]

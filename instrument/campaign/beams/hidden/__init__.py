@@ -23,8 +23,11 @@ _CLASSES: tuple[type[HiddenInBeam], ...] = (
     layers.HiddenSubstrateStiffness,
     layers.HiddenConstrainingStiffness,
     layers.HiddenConstrainingThickness,
+    core.HiddenRoomCycles,
 )
 HIDDEN: dict[str, type[HiddenInBeam]] = {h.name: h for h in _CLASSES}
 """Every effect by its name."""
+ON_REQUEST = tuple(h.name for h in _CLASSES if h.on_request)
+"""What no rotation of kinds has."""
 
-__all__ = ["HIDDEN", "HiddenInBeam", "Setting"]
+__all__ = ["HIDDEN", "ON_REQUEST", "HiddenInBeam", "Setting"]

@@ -45,6 +45,8 @@ class HiddenInBeam:
     near: ClassVar[tuple[str, ...]] = ()
     """Other names of the catalogue that would not be wrong."""
     in_catalogue: ClassVar[bool] = True
+    on_request: ClassVar[bool] = False
+    """Whether a campaign hides it only where it is asked for by name."""
     strips: ClassVar[int] = 1
     """Of the core, that may differ in time."""
 

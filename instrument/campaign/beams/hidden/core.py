@@ -13,9 +13,7 @@ from fitting.arrays import Array
 from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting
 from instrument.campaign.plates.hidden.base import Softening, draw_softening, either_sign
-from instrument.campaign.plates.hidden.core import GAS_J_MOL_K
-
-_ROOM_K = 296.0
+from instrument.campaign.room import RoomCycles, arrhenius, draw_cycles
 
 
 def _times(build: BeamBuild, factor: Callable[[Array], Array]) -> BeamBuild:
@@ -98,7 +96,19 @@ class HiddenTemperatureDrift(HiddenInBeam):
 
     def frequency_factor(self, time_s: Array) -> Array | None:
         kelvin = -self.kelvin * np.expm1(-time_s / self.time_constant_s)
-        return np.exp(self.activation_j_mol / GAS_J_MOL_K * (1 / (_ROOM_K + kelvin) - 1 / _ROOM_K))
+        return arrhenius(kelvin, self.activation_j_mol)
+
+
+@dataclass(frozen=True)
+class HiddenRoomCycles(RoomCycles, HiddenInBeam):
+    """All of the core follows the room."""
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenRoomCycles":
+        return cls(*draw_cycles(rng, at.duration_s))
+
+    def frequency_factor(self, time_s: Array) -> Array | None:
+        return arrhenius(self.kelvin(time_s), self.activation_j_mol)
 
 
 @dataclass(frozen=True)

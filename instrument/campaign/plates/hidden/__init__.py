@@ -41,11 +41,14 @@ _CLASSES: tuple[type[Hidden], ...] = (
     strange.HiddenWrinkledConstraining,
     strange.HiddenStiffener,
     strange.HiddenBlister,
+    core.HiddenRoomCycles,
 )
 HIDDEN: dict[str, type[Hidden]] = {h.name: h for h in _CLASSES}
 """Every effect by its name; those of the diagnosis's catalogue first."""
 STRANGE = tuple(h.name for h in _CLASSES if not h.in_catalogue)
 """What no catalogue has."""
+ON_REQUEST = tuple(h.name for h in _CLASSES if h.on_request)
+"""What no rotation of kinds has."""
 
 
 def names_of(kind: str, rng: np.random.Generator) -> tuple[str, ...]:

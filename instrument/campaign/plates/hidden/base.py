@@ -107,6 +107,8 @@ class Hidden:
     near: ClassVar[tuple[str, ...]] = ()
     """Other names of the catalogue that would not be wrong."""
     in_catalogue: ClassVar[bool] = True
+    on_request: ClassVar[bool] = False
+    """Whether a campaign hides it only where it is asked for by name."""
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "Hidden":

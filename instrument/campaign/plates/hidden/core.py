@@ -18,9 +18,7 @@ from instrument.campaign.plates.hidden.base import (
     times,
 )
 from instrument.campaign.plates.solid import Build, Field
-
-GAS_J_MOL_K = 8.314
-_ROOM_K = 296.0
+from instrument.campaign.room import RoomCycles, arrhenius, draw_cycles
 
 
 @dataclass(frozen=True)
@@ -121,8 +119,21 @@ class HiddenTemperatureDrift(Hidden):
     def frequency_factor(self, time_s: Array, x: Array, length_m: float) -> Array | None:
         share = 1 + self.gradient * (0.5 - x / length_m)
         kelvin = -self.kelvin * np.expm1(-time_s / self.time_constant_s)[:, None] * share
-        shift = self.activation_j_mol / GAS_J_MOL_K * (1 / (_ROOM_K + kelvin) - 1 / _ROOM_K)
-        return np.asarray(np.exp(shift))
+        return arrhenius(kelvin, self.activation_j_mol)
+
+
+@dataclass(frozen=True)
+class HiddenRoomCycles(RoomCycles, Hidden):
+    """All of the core follows the room."""
+
+    place: ClassVar[str] = "core"
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenRoomCycles":
+        return cls(*draw_cycles(rng, at.duration_s))
+
+    def frequency_factor(self, time_s: Array, x: Array, length_m: float) -> Array | None:
+        return arrhenius(self.kelvin(time_s)[:, None] + 0 * x, self.activation_j_mol)
 
 
 @dataclass(frozen=True)
