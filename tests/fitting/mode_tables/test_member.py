@@ -73,6 +73,16 @@ def test_derivatives_of_what_is_read_are_central_differences(read):
         np.testing.assert_allclose(by[k], expected, atol=within * np.abs(expected).max())
 
 
+@pytest.mark.parametrize("g_pa", [1e6, 3e8])
+def test_derivatives_to_stated_numbers_are_central_differences_of_a_soft_core_and_of_a_glassy_one(g_pa):
+    law, h = ConstantModulus(g_pa, 0.02), 1e-3
+    z = np.resize([2.0, -3.0, 1.0], len(STATED))
+    _, by = MEMBER.with_derivatives(law, z, (), ())
+    for row, step in zip(by[len(law.names) :], h * np.eye(len(STATED)), strict=True):
+        expected = (MEMBER.logs(law, z + step) - MEMBER.logs(law, z - step)) / (2 * h)
+        np.testing.assert_allclose(row, expected, atol=1e-6 + 2e-3 * np.abs(expected).max())
+
+
 def test_a_steep_core_is_read_lossier_than_it_is():
     f, eta = MEMBER.reads_otherwise(ZENER, STATED, "half-power")
     assert np.all(eta > 0)
