@@ -26,8 +26,6 @@ from fitting.specimen import StatedSpecimen
 
 _STILL = 1e-9
 """A reading below this reads nothing but rounding."""
-_WIDE, _STEP = 0.1, 1e-3
-"""Relative tolerance beyond which derivatives are taken where a number is, and their step in tolerances."""
 
 
 @dataclass(frozen=True)
@@ -125,17 +123,6 @@ class SmallNuisances(Nuisances):
     def _coefficients(self, z: Array) -> Array:
         by = {self.each[k].name: float(self._sigma[k] * z[k]) for k in self._of_plate}
         return np.asarray(_real_where_it_is(self.specimen.coefficients(by)))
-
-    def _by_coefficients(self, z: Array) -> Array:
-        found = super()._by_coefficients(z)
-        for k in self._of_plate:
-            # A number that may be off by much is no longer nearly linear.
-            if self._sigma[k] > _WIDE and self.each[k].unit == "1":
-                found = found.copy()
-                up, down = z.copy(), z.copy()
-                up[k], down[k] = z[k] + _STEP, z[k] - _STEP
-                found[k] = (self._coefficients(up) - self._coefficients(down)) / (2 * _STEP)
-        return found
 
     def _load(self, plate: EnrichedReducedPlate, c: Array) -> Array:
         # Their sign is in the parts.

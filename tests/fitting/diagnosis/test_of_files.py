@@ -23,6 +23,21 @@ def test_a_clamp_may_be_another_one_in_each_file():
     assert each.holds(Place(2))
 
 
+def test_what_goes_with_time_goes_otherwise_in_every_file():
+    forms = among(CATALOGUE["temperature_drift"], 2, ()).variants()
+    # What settles, what cycles, and what cycles unevenly.
+    assert [f.file for f in forms] == [f for f in (0, 1, 2, EACH) for _ in range(3)]
+    each = forms[-3]
+    assert [q.key for q in each.parameters] == [
+        "warming",
+        "time_constant",
+        "warming_2",
+        "time_constant_2",
+        "file",
+    ]
+    assert [(t.first, t.other) for t in each.ties] == [(0, 2), (1, 3)]
+
+
 def test_a_clamp_line_hardly_moves_from_file_to_file_and_a_clamps_stiffness_does():
     line, clamp = OfFiles(LINE, 3, EACH), OfFiles(CLAMP, 3, EACH)
     assert [(t.first, t.other) for t in line.ties] == [(0, 2), (0, 4)]

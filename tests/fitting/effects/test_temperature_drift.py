@@ -1,0 +1,71 @@
+"""A core that warms, and one whose room comes and goes."""
+
+import numpy as np
+import pytest
+from shear_pair_cases import LAW
+
+from fitting.effects import CATALOGUE
+from fitting.effects.base import ModulusAt, Points
+from fitting.effects.temperature_drift import TemperatureCycleEffect, time_scale
+
+SETTLES, CYCLES, UNEVEN = CATALOGUE["temperature_drift"].variants()
+TIME_S = np.linspace(0, 1200, 61)
+OMEGA = 2 * np.pi * np.geomspace(20, 400, 61)
+
+
+def points(time_s=TIME_S, *, timed=True):
+    return Points(OMEGA, np.ones(61), time_s, timed, True, "absolute")
+
+
+def modulus(effect, *u):
+    return effect.modulus(ModulusAt(LAW, points(), None), points(), np.array(u))
+
+
+def test_a_warm_core_is_as_at_lower_frequencies():
+    # log10 a_T = -9 * 2 / (120 + 2), Williams, Landel and Ferry.
+    assert time_scale(2.0) == pytest.approx(10 ** (-18 / 122))
+    late = modulus(SETTLES, 2.0, 20.0)[-1]
+    assert late == pytest.approx(LAW.modulus(OMEGA[-1:] * time_scale(2.0))[0])
+
+
+@pytest.mark.parametrize("effect", [CYCLES, UNEVEN])
+def test_a_cycle_is_about_the_temperature_of_the_law(effect):
+    u = np.array([0.5, -0.3, 400.0, 0.1, 0.05][: len(effect.parameters)])
+    kelvin = effect.kelvin(TIME_S, u)
+    # Three periods of 400 s, the last point the first one again.
+    assert kelvin[:-1].mean() == pytest.approx(0.0, abs=1e-12)
+    np.testing.assert_allclose(kelvin[20:], kelvin[:-20], atol=1e-12)
+    np.testing.assert_allclose(modulus(effect, *u), LAW.modulus(OMEGA * time_scale(kelvin)))
+
+
+def test_an_uneven_cycle_contains_the_even_one():
+    np.testing.assert_array_equal(modulus(UNEVEN, 0.5, 0.2, 300.0, 0, 0), modulus(CYCLES, 0.5, 0.2, 300.0))
+
+
+def test_periods_are_looked_for_half_a_cycle_apart():
+    cycles = 1200 / np.array([u[2] for u in CYCLES.starts(None, points())])
+    assert cycles[0] == 0.75
+    np.testing.assert_allclose(np.diff(cycles), 0.5)
+    assert cycles[-1] <= 12
+
+
+@pytest.mark.parametrize(
+    ("seen", "why"),
+    [
+        (points(timed=False), "too short for a room to cycle"),
+        (points(TIME_S / 20), "too short for a room to cycle"),
+    ],
+)
+def test_a_short_sweep_shows_no_cycle(seen, why):
+    assert why in CYCLES.objection(seen, None)
+
+
+def test_each_file_has_a_course_of_its_own():
+    assert SETTLES.anew
+    assert CYCLES.anew
+    assert all(q.mounting is not None for form in (SETTLES, CYCLES, UNEVEN) for q in form.parameters)
+
+
+def test_it_says_how_far_and_how_often():
+    said = TemperatureCycleEffect().story({"swing_sine": 0.3, "swing_cosine": -0.4, "period": 900.0})
+    assert said == "the core's temperature swings by 0.5 K about its mean, every 15 min"
