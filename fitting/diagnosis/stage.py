@@ -124,7 +124,8 @@ def found_effects(
             if q.logarithmic:
                 error *= value
             reach = 1e-6 * (upper[k] - lower[k]) if np.isfinite(upper[k]) else 0.0
-            if not q.fixed and (value - lower[k] <= reach or upper[k] - value <= reach):
+            at_limit = not q.fixed and (value - lower[k] <= reach or upper[k] - value <= reach)
+            if at_limit or error > upper[k] - lower[k]:
                 error = float("nan")
             parameters[q.key] = ParameterEstimate(value, error, q.unit)
         if effect.replaces_law:

@@ -130,6 +130,8 @@ class PartialDebondEffect(Effect):
 class DebondOfBeamEffect(PartialDebondEffect):
     """A strip across a beam: there is none along it."""
 
+    discriminating_test = "a tap test or ultrasound along the beam; a second spot"
+
     def variants(self) -> tuple[Effect, ...]:
         return tuple(DebondOfBeamEffect(at_edge=e) for e in (False, True))
 

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.digits import two_digits
 from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter, ModulusAt, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
@@ -69,7 +70,8 @@ class TemperatureDriftEffect(Effect):
         return np.asarray(-u[0] * np.expm1(-time_s / u[1]))
 
     def story(self, u: Mapping[str, float]) -> str:
-        return f"the core warms by {u['warming']:.2g} K in the end, within {u['time_constant'] / 60:.2g} min"
+        warming, minutes = two_digits(u["warming"]), two_digits(u["time_constant"] / 60)
+        return f"the core warms by {warming} K in the end, within {minutes} min"
 
 
 class TemperatureCycleEffect(TemperatureDriftEffect):
@@ -104,4 +106,6 @@ class TemperatureCycleEffect(TemperatureDriftEffect):
 
     def story(self, u: Mapping[str, float]) -> str:
         swing, minutes = np.hypot(u["swing_sine"], u["swing_cosine"]), u["period"] / 60
-        return f"the core's temperature swings by {swing:.2g} K about its mean, every {minutes:.2g} min"
+        return (
+            f"the core's temperature swings by {swing:.2g} K about its mean, every {two_digits(minutes)} min"
+        )

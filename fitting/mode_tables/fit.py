@@ -40,6 +40,8 @@ class ModalFit:
     uncertainty: Uncertainty
     predicted_hz: tuple[Array, ...]
     predicted_loss: tuple[Array, ...]
+    as_stated_hz: tuple[Array, ...]
+    """What the law found makes of the specimens as they are stated."""
     adjusted: tuple[Adjusted, ...]
     iterations: int
     evaluations: int
@@ -157,11 +159,13 @@ def modal_fit_of(begun: BegunModal, fitted: Refitted | None = None) -> ModalFit:
     logs = fitted.velocity_m_s
     kappa = np.concatenate([m.kappa for m in problem.members])
     f, eta = np.exp(logs.real), np.exp(logs.imag / kappa)
+    as_stated = problem.response().velocity(fitted.law, np.zeros(fitted.stated))
     return ModalFit(
         fitted.law,
         Uncertainty(C[:n, :n], limits_reached(fitted.law), fitted.chi2_per_dof),
         tuple(f[part] for part in problem.parts),
         tuple(eta[part] for part in problem.parts),
+        tuple(np.exp(as_stated.real[part]) for part in problem.parts),
         problem.adjusted(fitted.z, errors),
         fitted.iterations,
         fitted.evaluations,

@@ -146,6 +146,9 @@ def _corrected(A: ModalMatrices, modulus: Callable[[float], complex], mode: Comp
         y = np.asarray(np.linalg.solve(K - value * (1 + _BESIDE) * A.M, A.M @ y), complex)
         y /= np.sqrt(y @ (A.M @ y))
         new = complex(y @ (K @ y))
+        if new.real <= 0:
+            # Numbers far off leave no stiffness in some column: a fit comes back from there.
+            return mode
         settled = abs(new / value - 1) < _CORRECTED
         value = new
         if settled:

@@ -71,7 +71,7 @@ def question_modes(
     question_temperatures(
         [None if t.temperature_c is None else float(t.temperature_c.mean()) for t in tables], paths
     )
-    question_modes_at(tables, np.concatenate(fit.predicted_hz), paths)
+    question_modes_at(tables, np.concatenate(fit.as_stated_hz), paths)
     if specimens:
         _ask(table_doubt(tables, specimens, fit.uncertainty.chi2_per_dof, progress), paths)
 

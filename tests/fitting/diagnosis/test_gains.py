@@ -94,6 +94,9 @@ def test_effects_are_told_with_errors_unless_they_end_at_a_limit():
         effects=(gain_error, tether),
     )
     first, second = found_effects(fitted, plate, scale=4.0)
+    # An error wider than where it may be at all says nothing either.
+    wide = SimpleNamespace(**{**vars(fitted), "covariance": np.diag(np.append(1.0, (1e4 * errors) ** 2))})
+    assert np.isnan(found_effects(wide, plate)[1].parameters["x"].standard_error)
     assert (first.name, second.name) == (gain_error.name, "tether")
     assert second.parameters["k"].standard_error == pytest.approx(10.0)
     assert second.parameters["k"].unit == "N/m"

@@ -25,7 +25,7 @@ def tables_and_fit(measured_hz, loss_factor=0.2, std=None, temperature_c=None):
         SimpleNamespace(frequency_hz=part, loss_factor=eta, loss_factor_std=spread, temperature_c=warm)
         for part in np.split(measured_hz, 2)
     ]
-    return tables, SimpleNamespace(predicted_hz=tuple(np.split(HZ, 2)))
+    return tables, SimpleNamespace(as_stated_hz=tuple(np.split(HZ, 2)))
 
 
 def test_modes_are_asked_about_with_all_their_files():
