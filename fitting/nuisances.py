@@ -23,6 +23,8 @@ from fitting.tolerances import PLATE, moved
 
 _H = 1e-2
 """Step of differences, in standard deviations."""
+_FELT = 0.3
+"""Standard deviations from which a plate's derivatives to stated numbers are taken to vary."""
 _TREATMENT = ("constraining", "core", "glue", "patch")
 Spot = Literal["pickup", "force"]
 
@@ -132,9 +134,34 @@ class Nuisances:
         return self._kept.get("c", z, lambda: self._coefficients(z) - self._stated)
 
     def by_coefficients(self, z: Array) -> Array:
-        """Their derivatives to z. Shape (count, parts + 1)."""
-        # Of a stiff core the parts cancel by a factor of thousands: derivatives near by will not do.
-        return self._kept_differences.get("dc", z, lambda: self._differences(z))
+        """Their derivatives to z, as far as these vary linearly with each. Shape (count, parts + 1).
+
+        Good to 2 % of a plate with a soft core, and dear to have exactly at every step of a sweep's fit.
+        """
+        return self._kept.get("dc", z, lambda: self._nearly_by_coefficients(z))
+
+    def by_coefficients_there(self, z: Array) -> Array:
+        """The same at the very place: of a stiff core the parts cancel by thousands."""
+        return self._kept.get("dc there", z, lambda: self._differences(z))
+
+    def _nearly_by_coefficients(self, z: Array) -> Array:
+        found = self._as_stated
+        for k in self._of_plate:
+            if abs(z[k]) > _FELT:
+                found = found + z[k] * self._second(k)
+        return found
+
+    @cached_property
+    def _as_stated(self) -> Array:
+        return self._differences(np.zeros(len(self)))
+
+    def _second(self, k: int) -> Array:
+        """How derivatives vary with one number."""
+        step = np.zeros(len(self))
+        step[k] = 1.0
+        return self._kept_differences.get(
+            "ddc", step, lambda: (self._differences(step) - self._differences(-step)) / 2
+        )
 
     def _differences(self, z: Array) -> Array:
         found = np.zeros((len(self), len(self._stated)), self._stated.dtype)

@@ -92,7 +92,9 @@ class TemperatureCycleEffect(TemperatureDriftEffect):
         duration = float(np.ptp(points.time_s))
         most = min(_MOST_CYCLES, duration / self._shortest_s)
         typical = np.array([q.typical for q in self.parameters])
-        each = np.arange(_LEAST_CYCLES, most + 1e-9, _STEP)
+        # What is uneven is within reach of its even part.
+        step = _STEP if len(self.parameters) == len(_CYCLES) else 2 * _STEP
+        each = np.arange(_LEAST_CYCLES, most + 1e-9, step)
         return [np.concatenate([typical[:2], [duration / n], typical[3:]]) for n in each]
 
     @property

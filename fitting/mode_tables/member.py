@@ -159,7 +159,7 @@ class Member:
         energy = np.array([_energy(P, Y) for P in system.parts])
         energy[n_0 : n_0 + n_1] *= G
         energy[n_0 + n_1 :] *= -value
-        found = list(self.stated.by_coefficients(z)[:, : n_0 + n_1 + n_M] @ energy)
+        found = list(self.stated.by_coefficients_there(z)[:, : n_0 + n_1 + n_M] @ energy)
         omega = np.sqrt(value.real)
         for k, (mode, by) in self.stated.by_damping(len(system.d), z).items():
             found[k] = found[k] + 1j * omega * by * system.d[mode] * (Y @ system.U[:, mode]) ** 2
