@@ -48,7 +48,9 @@ class TemperatureDriftEffect(Effect):
     )
     chance = 0.04
     anew = True
-    discriminating_test = "the first segment repeated at the end, or the order of the segments reversed"
+    discriminating_test = (
+        "the first segment repeated at the end, or the order of the segments reversed, beside a thermometer"
+    )
 
     def variants(self) -> tuple[Effect, ...]:
         return TemperatureDriftEffect(), TemperatureCycleEffect(), TemperatureCycleEffect(uneven=True)
@@ -80,7 +82,12 @@ class TemperatureCycleEffect(TemperatureDriftEffect):
     T = swing_sine sin(w t) + swing_cosine cos(w t), w = 2 pi / period; `uneven`: and the same of 2 w.
     """
 
+    discriminating_test = (
+        "a thermometer at the core; the sweep once more, begun at another moment of the cycle"
+    )
+
     def __init__(self, *, uneven: bool = False) -> None:
+        self.uneven = uneven
         self.parameters = (*_CYCLES, *_UNEVEN) if uneven else _CYCLES
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
@@ -93,7 +100,7 @@ class TemperatureCycleEffect(TemperatureDriftEffect):
         most = min(_MOST_CYCLES, duration / self._shortest_s)
         typical = np.array([q.typical for q in self.parameters])
         # What is uneven is within reach of its even part.
-        step = _STEP if len(self.parameters) == len(_CYCLES) else 2 * _STEP
+        step = 2 * _STEP if self.uneven else _STEP
         each = np.arange(_LEAST_CYCLES, most + 1e-9, step)
         return [np.concatenate([typical[:2], [duration / n], typical[3:]]) for n in each]
 
@@ -103,7 +110,7 @@ class TemperatureCycleEffect(TemperatureDriftEffect):
 
     def kelvin(self, time_s: Array, u: Array) -> Array:
         turned = 2 * np.pi * time_s / u[2]
-        uneven = u[3] * np.sin(2 * turned) + u[4] * np.cos(2 * turned) if len(u) > 3 else 0.0
+        uneven = u[3] * np.sin(2 * turned) + u[4] * np.cos(2 * turned) if self.uneven else 0.0
         return np.asarray(u[0] * np.sin(turned) + u[1] * np.cos(turned) + uneven)
 
     def story(self, u: Mapping[str, float]) -> str:
