@@ -352,17 +352,6 @@ class CandidateFits:
         """A fit followed to its very end."""
         return followed(self.problem, self.evidence, fitted)
 
-    def beside(self, one: tuple[Refitted, Effect, float, float]) -> Refitted | None:
-        """An effect beside a rough fit: the best one in wide valleys, followed as `ended` does.
-
-        None where it leaves more than `most` there.
-        """
-        rough, effect, goal, most = one
-        before = whole(self.problem, self.evidence, rough)
-        candidate = CandidateFit(self.problem, self.evidence, before, effect)
-        begun = candidate.far[0]
-        return candidate.finished(begun, goal) if begun.chi2 < most else None
-
 
 def _best_first(fits: list[tuple[A, Refitted]]) -> list[tuple[A, Refitted]]:
     return sorted(fits, key=lambda one: one[1].chi2)

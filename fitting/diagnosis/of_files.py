@@ -77,6 +77,7 @@ class OfFiles(Effect):
             chance=inner.chance * (_ALONE if alone else 1.0),
             unexplained_share=inner.unexplained_share,
             sharp=inner.sharp,
+            beside_others=inner.beside_others,
             discriminating_test=inner.discriminating_test,
             parameters=(*inner.parameters, *further, *where),
             spans=inner.spans,

@@ -1,7 +1,6 @@
 """Two effects together, where one does not suffice."""
 
 from collections.abc import Callable, Sequence
-from itertools import permutations
 from typing import TypeVar
 
 import numpy as np
@@ -67,10 +66,8 @@ class Pairs:
         found = sorted((search.judged(f) for f in fits), key=_cost)
         if wide and found and not self._will_do([*leaders[:1], *found]):
             # The best may only have begun from the wrong place, or not have looked promising.
-            most = self._most_left([*(t for t in singles if _plainly(t)), *found])
-            found += self._begun_again(found[: SEARCH.retried], most)
-            if not self._will_do(found):
-                found += self._every_second([t for t in singles if _plainly(t)], found, most)
+            plain = [t for t in singles if _plainly(t)]
+            found += self._every_second(plain, found, self._most_left([*plain, *found]))
         report(0.9)
         if found and min(t.cost for t in found) < singles[0].cost:
             found += self._improved(found)
@@ -105,22 +102,6 @@ class Pairs:
         left = self._search.executor.each(work.left_in_wide_valley, [t.fitted for t in best])
         return SEARCH.leaves * max(work.noise_in_wide_valleys, min(left, default=np.inf))
 
-    def _begun_again(self, pairs: Sequence[ScoredFit], most: float) -> list[ScoredFit]:
-        """Each effect of some pairs beside the other one fitted alone, in wide valleys.
-
-        What leaves no more there than `most` goes on as the readings are.
-        """
-        search, work, each = self._search, self._search.work, self._search.executor.each
-        plain = [t.fitted.effects for t in pairs if len(_plainly(t)) == 2]
-        search.fit_plainly(sorted({e.name for effects in plain for e in effects}))
-        asked = [
-            (rough, second, self._goal(pairs[0], effects), most)
-            for effects in plain
-            for first, second in permutations(effects)
-            for rough in work.candidates[first.name][0].plain
-        ]
-        return [search.judged(f) for f in each(work.beside, asked) if f is not None]
-
     def _will_do(self, scored_fits: Sequence[ScoredFit]) -> bool:
         """Whether any, the law being of the stated kind, leaves little and fails no check."""
         plain = (t for t in scored_fits if len(_plainly(t)) == len(t.names))
@@ -138,25 +119,27 @@ class Pairs:
             (e.name, number)
             for e in self._search.effects
             if e.name not in names and not e.replaces_law
-            for number in range(len(self._search.work.candidates[e.name]))
+            for number, candidate in enumerate(self._search.work.candidates[e.name])
+            if candidate.effect.beside_others
         ]
 
     def _every_second(
         self, leaders: Sequence[ScoredFit], pairs: Sequence[ScoredFit], most: float
     ) -> list[ScoredFit]:
-        """Every effect beside the leading ones; the best pairs that are new to the end.
+        """Every effect beside the leading ones; the best pairs to the end.
 
         All begin where a leading one alone has come to in its wide valley. Those that do well go on there;
         what leaves no more than `most` there goes on as the readings are, then to the end.
         """
         search, work, each = self._search, self._search.work, self._search.executor.each
-        known = {frozenset(t.names) for t in pairs}
         order = [
             *(t.names[0] for t in leaders[: SEARCH.every_second]),
             *search.order_of_plain()[: SEARCH.every_second],
         ]
-        first = sorted(set(order) & {e.name for e in search.effects})
-        others = [[f for f in self._others([name]) if {name, f[0]} not in known] for name in first]
+        # Two of a kind and another one are three causes, which are never named (decision 57).
+        single = {e.name: e.extends if e.twice and e.extends else e.name for e in search.effects}
+        first = sorted({single[name] for name in order if name in single} & single.keys())
+        others = [self._others([name]) for name in first]
         before = [work.candidates[name][0].plain[0] for name in first]
         starts = self._looks(work.look_wide, list(zip(before, others, strict=True)))
         beside = [(fitted, form) for fitted, forms in zip(before, others, strict=True) for form in forms]

@@ -56,6 +56,11 @@ class ScoredFit:
         return not passes(self.checks)
 
     @property
+    def past_help(self) -> bool:
+        """Whether it is refused so plainly that no further steps of its fit will mend it."""
+        return any(p < SEARCH.past_help for p in self.checks.values())
+
+    @property
     def strains(self) -> float | None:
         """How improbable it is that the stated numbers are where it has them; None where that is no doubt."""
         p = self.checks.get(TOLERANCES, 1.0)
@@ -171,9 +176,15 @@ class Search:
         return [self._at_its_end(t) for t in scored_fits]
 
     def moving(self, scored_fits: Sequence[ScoredFit], best: ScoredFit) -> list[Refitted]:
-        """What may be in one group with `best`, and nobody has followed to its very end."""
+        """What may be in one group with `best`, and nobody has followed to its very end.
+
+        Nothing where all of that is past help: where exactly they end is then nobody's concern.
+        """
         within = best.cost + SEARCH.reported * self.temper(best)
-        return [t.fitted for t in scored_fits if t.cost < within and t.fitted not in self._ends]
+        group = [t for t in scored_fits if t.cost < within]
+        if all(t.past_help for t in group):
+            return []
+        return [t.fitted for t in group if t.fitted not in self._ends]
 
     def rested(self, fits: Sequence[Refitted], ends: Iterable[Refitted]) -> None:
         """Where some fits end."""

@@ -108,6 +108,9 @@ class SearchThresholds:
     reported: float = 12.0
     """In cost above the best, tempered: up to there (one in 400) fits are followed to their very end."""
 
+    past_help: float = 1e-12
+    """Tail probability of a check that no further steps of a fit will mend. A choice."""
+
     # How many
 
     leaders: int = 5
@@ -123,14 +126,12 @@ class SearchThresholds:
     """Pairs fitted in full ..."""
     pairs_a_leader: int = 5
     """... and of those, with one leader: each has its say."""
-    retried: int = 3
-    """Pairs begun again from other places where none of them will do."""
     exchanges: int = 6
     """Effects of pairs near the best that are kept while the other one is exchanged ..."""
     exchanged: int = 4
     """... and others that are fitted beside each that is kept."""
     every_second: int = 2
-    """Leaders beside which every other effect is then begun ..."""
+    """Leaders beside which every other effect is begun in wide valleys where no pair will do ..."""
     wide: int = 32
     """... pairs of those that are followed in wide valleys, `pairs_a_leader` of each among them ..."""
     measured: int = 3

@@ -197,6 +197,10 @@ class Effect:
     Law and stated numbers may have found a valley of their own to do its work.
     """
 
+    beside_others: bool = True
+    """Whether it is looked for beside another effect; a form that only says more of what another form finds
+    need not be."""
+
     extends: ClassVar[str | None] = None
     """A simpler effect that this one contains."""
 

@@ -88,6 +88,7 @@ class TemperatureCycleEffect(TemperatureDriftEffect):
 
     def __init__(self, *, uneven: bool = False) -> None:
         self.uneven = uneven
+        self.beside_others = not uneven
         self.parameters = (*_CYCLES, *_UNEVEN) if uneven else _CYCLES
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:

@@ -31,7 +31,7 @@ class World:
         self.effects = [effect(n) for n in names]
         self.chi2 = {frozenset(two.split("_")): value for two, value in chi2.items()}
         self.work, self.kept, self.goals, self.laws = self, [], [], []
-        self.candidates = {n: [SimpleNamespace()] for n in names}
+        self.candidates = {e.name: [SimpleNamespace(effect=e)] for e in self.effects}
 
     def fit(self, *effects):
         chi2 = self.chi2.get(frozenset(e.name for e in effects), NOTHING)
@@ -226,9 +226,7 @@ class Wanting(World):
 
     def __init__(self, names, **chi2):
         super().__init__(names, **chi2)
-        self.candidates = {
-            n: [SimpleNamespace(plain=[self.fit(e)])] for n, e in zip(names, self.effects, strict=True)
-        }
+        self.candidates = {e.name: [SimpleNamespace(effect=e, plain=[self.fit(e)])] for e in self.effects}
         self.followed, self.went_on = [], []
 
     def judged(self, fitted):
@@ -266,9 +264,6 @@ class Wanting(World):
     def order_of_plain(self):
         return [e.name for e in self.effects]
 
-    def beside(self, one):
-        return self.fit(*one[0].effects, one[1])
-
 
 def wanting(monkeypatch, wide, names, **chi2):
     few = replace(SEARCH, leaders=1, pairs=1, pairs_a_leader=1, wide=wide, every_second=3)
@@ -294,6 +289,33 @@ def test_what_leaves_far_more_in_its_wide_valley_than_is_known_goes_no_further(m
     world = wanting(monkeypatch, 4, "wabc", w=200.0, w_c=150.0, w_b=610.0, b_c=300.0)
     world.found("w", wide=True)
     assert sorted(world.went_on) == [("b", "c"), ("w", "c")]
+
+
+def test_in_wide_valleys_none_begins_beside_two_of_a_kind_but_beside_the_one(monkeypatch):
+    world = wanting(monkeypatch, 9, "wabc", w=200.0, w_c=150.0)
+    twice = world.effects[0]
+    type(twice).twice, type(twice).extends = True, "a"
+    world.found("w", wide=True)
+    assert {two[0] for two in world.followed} == {"a", "b"}
+
+
+def test_a_form_that_only_says_more_of_what_another_finds_stands_beside_no_effect():
+    world = World("wab", w=200.0, w_a=150.0, w_b=160.0)
+    world.candidates["a"][0].effect.beside_others = False
+    assert world.found("w") == [{"w", "b"}]
+
+
+@pytest.mark.parametrize(("refused", "followed"), [(1e-9, ["a", "b"]), (1e-40, [])])
+def test_nobody_follows_to_its_very_end_what_is_past_help_however_it_ends(refused, followed):
+    fits = {name: SimpleNamespace(effects=(effect(name),)) for name in "abc"}
+    scored = [
+        ScoredFit(fits["a"], 200.0, {"memory": 1e-20}),
+        ScoredFit(fits["b"], 203.0, {"memory": refused}),
+        ScoredFit(fits["c"], 300.0, {"memory": 0.5}),
+    ]
+    search = SimpleNamespace(temper=lambda best: 1.0, _ends=[])
+    moving = Search.moving(search, scored, scored[0])
+    assert moving == [fits[name] for name in followed]
 
 
 @pytest.mark.parametrize("wide", [False, True])
