@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from functools import lru_cache
+from itertools import product
 
 import numpy as np
 import scipy.sparse as sp
@@ -10,7 +11,7 @@ from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter, ModulusAt, Points, Strain
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
-from fitting.effects.kraus import HALF, Kraus
+from fitting.effects.kraus import HALF, Kraus, strained
 from fitting.effects.span import Span
 from fitting.element import core_shear_stiffness
 
@@ -29,6 +30,8 @@ _SATURATION = EffectParameter("saturation", "1", 0.0, 4.0, 0.3, spread=0.5)
 """Strain of the reference over that at which half of what can be lost is lost."""
 _LOSS = EffectParameter("loss", "1", -0.3, 0.6, 0.03, spread=0.1)
 """Gained in loss modulus at the reference, over the mean, sqrt(G' G''), of what is not softened."""
+_KEPT = EffectParameter("kept", "1", 0.0, 1.0, 0.7, complete=True, spread=0.5)
+"""Of what is lost, the share that the largest strain so far has taken and that does not come back."""
 _EXPONENT = EffectParameter("exponent", "1", 0.2, 0.8, 0.52, neutral=HALF, spread=0.1)
 """Kraus' m."""
 
@@ -53,14 +56,16 @@ class CoreStrain(Span):
 class AmplitudeSofteningEffect(Effect):
     """The core's modulus by `Kraus`, s = strain / reference, the strain that of the softened plate.
 
-    Without saturation it is first order in the strain: what little softening shows of.
+    Without saturation it is first order in the strain: what little softening shows of. `keeps`: a share of
+    what is lost goes by the largest strain so far (Mullins' effect).
     """
 
     name = "amplitude_softening"
     enters = "level"
     source = (
         "Payne, J. Appl. Polym. Sci. 6 (1962), first order in the strain amplitude; saturating, and with the "
-        "loss that it gains: Kraus, J. Appl. Polym. Sci., Appl. Polym. Symp. 39 (1984), his exponent a half"
+        "loss that it gains: Kraus, J. Appl. Polym. Sci., Appl. Polym. Symp. 39 (1984), his exponent a half; "
+        "what stays: Mullins, Rubber Chem. Technol. 42 (1969)"
     )
     parameters: tuple[EffectParameter, ...] = (_K,)
     spans = (CoreStrain(),)
@@ -68,13 +73,16 @@ class AmplitudeSofteningEffect(Effect):
     chance = 0.03
     discriminating_test = "another level"
 
-    def __init__(self, *, saturates: bool = False, rubs: bool = False) -> None:
-        self.saturates, self.rubs = saturates, rubs
+    def __init__(self, *, saturates: bool = False, rubs: bool = False, keeps: bool = False) -> None:
+        self.saturates, self.rubs, self.keeps = saturates, rubs, keeps
+        # Beside another effect softening that comes back is looked for first.
+        self.beside_others = not keeps
         self.parameters = (
             _K,
             *[_SATURATION] * saturates,
             *[_LOSS] * rubs,
             *[_EXPONENT] * (saturates and rubs),
+            *[_KEPT] * keeps,
         )
 
     def on(self, kind: str) -> Effect | None:
@@ -82,10 +90,12 @@ class AmplitudeSofteningEffect(Effect):
         return own() if own else super().on(kind)
 
     def variants(self) -> tuple[Effect, ...]:
-        each = ((saturates, rubs) for rubs in (False, True) for saturates in (False, True))
-        return tuple(type(self)(saturates=saturates, rubs=rubs) for saturates, rubs in each)
+        each = product((False, True), repeat=3)
+        return tuple(type(self)(saturates=c, rubs=b, keeps=kept) for kept, b, c in each)
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
+        if self.keeps and not points.timed:
+            return "the points carry no time: none is known to be the first"
         if points.drive == "base":
             enough = points.levels > 1 or not self.saturates
             return None if enough else "one level does not tell how softening saturates"
@@ -95,8 +105,9 @@ class AmplitudeSofteningEffect(Effect):
         return None if several else "one size of the force does not tell softening from the law"
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:
-        curve = self._curve(u)
-        return curve.of(G(), _strained(curve, G.strain, len(points.omega)))
+        curve, kept = self._curve(u), float(u[-1]) if self.keeps else 0.0
+        s = _strained(curve, G.strain, len(points.omega), kept, points.time_s.tobytes() if kept else b"")
+        return strained(G(), *_changed(curve, s, kept, points.time_s))
 
     def _curve(self, u: Array) -> Kraus:
         of = dict(zip((q.key for q in self.parameters), map(float, u), strict=True))
@@ -107,7 +118,8 @@ class AmplitudeSofteningEffect(Effect):
             f"the core softens with strain, by {100 * u['k']:.2g} % at the largest strain of the sweep at 1 g"
             " (of a force: at 1 N)"
         )
-        return f"{told}, and {'gains' if u['loss'] > 0 else 'loses'} loss" if "loss" in u else told
+        told = f"{told}, and {'gains' if u['loss'] > 0 else 'loses'} loss" if "loss" in u else told
+        return f"{told}; {100 * u['kept']:.0f} % of it stays when the strain is gone" if "kept" in u else told
 
 
 class BeamSofteningEffect(AmplitudeSofteningEffect):
@@ -129,15 +141,28 @@ class PadSofteningEffect(AmplitudeSofteningEffect):
         return None if points.levels > 1 else "one level does not tell softening from the law"
 
 
+def _changed(curve: Kraus, s: Array, kept: float, time_s: Array) -> tuple[Array, Array]:
+    """What is lost and gained under strains `s`, some of it lost for good. Shape (points,) each."""
+    lost = curve.lost(s)
+    if kept:
+        order = np.argsort(time_s, kind="stable")
+        largest = np.empty_like(s)
+        largest[order] = np.maximum.accumulate(s[order])
+        lost = kept * curve.lost(largest) + (1 - kept) * lost
+    return lost, curve.gained(s)
+
+
 @lru_cache(maxsize=2)
-def _strained(curve: Kraus, strain: Strain, points: int) -> Array:
+def _strained(curve: Kraus, strain: Strain, points: int, kept: float, time_s: bytes) -> Array:
     """The strain over the reference that the core has as softened as it then is. Shape (points,).
 
     Kept: a derivative to the law asks once for each of its parameters, the strain being the same.
     """
+    at = np.frombuffer(time_s)
 
     def then(s: Array) -> Array:
-        return strain(curve.lost(s), curve.gained(s)) if curve.loss else strain(curve.lost(s))
+        lost, gained = _changed(curve, s, kept, at)
+        return strain(lost, gained) if curve.loss else strain(lost)
 
     s = then(np.zeros(points))
     step, off = np.zeros(points), np.zeros(points)

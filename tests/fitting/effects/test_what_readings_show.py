@@ -68,14 +68,39 @@ def test_softening_that_saturates_takes_k_at_the_reference_and_less_beyond():
         assert saturating.modulus(G, p, np.array([0.2, 0.0])) == pytest.approx(
             first.modulus(G, p, np.array([0.2]))
         )
-    assert [(f.saturates, f.rubs) for f in first.forms(p, None)] == [(False, False), (False, True)]
+    untimed = replace(p, timed=False)
+    assert [(f.saturates, f.rubs) for f in first.forms(untimed, None)] == [(False, False), (False, True)]
     levels = replace(p, acceleration_m_s2=np.array([9.81, 4.9, 2.45]))
-    assert [(f.saturates, f.rubs) for f in first.forms(levels, None)] == [
-        (False, False),
-        (True, False),
-        (False, True),
-        (True, True),
-    ]
+    each = [(False, False), (True, False), (False, True), (True, True)]
+    assert [(f.saturates, f.rubs) for f in first.forms(replace(levels, timed=False), None)] == each
+    assert [(f.saturates, f.rubs) for f in first.forms(levels, None)] == 2 * each
+    assert [f.keeps for f in first.forms(levels, None)] == [False] * 4 + [True] * 4
+
+
+def test_what_the_largest_strain_so_far_has_taken_stays_as_far_as_it_is_kept():
+    p = points([20.0, 0.0, 30.0])
+    form = AmplitudeSofteningEffect(keeps=True)
+    strain = np.array([0.5, 1.0, 0.2])
+    G = ModulusAt(LAW, p, lambda softened: strain + 0 * softened)
+
+    def lost(kept):
+        return 1 - (form.modulus(G, p, np.array([0.2, kept])) / LAW.modulus(OMEGA)).real
+
+    # The second point was measured first, at the largest strain of all.
+    assert lost(1.0) == pytest.approx([0.2, 0.2, 0.2])
+    assert lost(0.0) == pytest.approx(0.2 * strain)
+    assert lost(0.25) == pytest.approx(0.2 * (0.75 * strain + 0.25))
+
+
+def test_kept_softening_is_of_the_strain_that_the_core_then_has():
+    """Softer by a tenth it strains a tenth more: a fixed point, the first two points still strained less."""
+    p = points([0.0, 10.0, 20.0])
+    form = AmplitudeSofteningEffect(keeps=True)
+    driven = np.array([0.2, 1.0, 0.5])
+    G = ModulusAt(LAW, p, lambda softened: driven * (1 + softened))
+    lost = 1 - (form.modulus(G, p, np.array([0.3, 1.0])) / LAW.modulus(OMEGA)).real
+    largest = np.maximum.accumulate(driven * (1 + lost))
+    assert lost == pytest.approx(0.3 * largest, rel=1e-6)
 
 
 def test_a_core_gains_loss_beside_the_modulus_that_it_loses_less_and_less():
