@@ -6,7 +6,7 @@ from itertools import combinations
 
 import numpy as np
 
-from fitting.diagnosis.begin import begin
+from fitting.diagnosis.begin import Begun, begin
 from fitting.digits import two_digits
 from fitting.errors import OutsideModel
 from fitting.structures import Beam, ShearPair
@@ -68,11 +68,20 @@ def exchanged(files: Sequence[File]) -> Exchanged | None:
     return Exchanged((best[1], best[2]), given, best[0])
 
 
+def leaves_much(begun: Begun) -> bool:
+    """Whether a fit leaves so much of its readings that specimens may have been exchanged."""
+    return _left_by(begun) > _WORTH_A_LOOK
+
+
 def _left(files: Sequence[File]) -> float:
     """What one law leaves of all readings, rms of their size."""
     work = FilesAtWork(files, quiet, with_effects=False)
     problem, noise = work.problem()
-    v = begin(problem, None, noise, None, work.start).none.velocity_m_s
-    read, has_phase = problem.sweep.response_m_s, problem.sweep.has_phase
+    return _left_by(begin(problem, None, noise, None, work.start))
+
+
+def _left_by(begun: Begun) -> float:
+    sweep, v = begun.problem.sweep, begun.none.velocity_m_s
+    read, has_phase = sweep.response_m_s, sweep.has_phase
     off = (read if has_phase else np.abs(read)) / (v if has_phase else np.abs(v)) - 1
     return float(np.sqrt(np.mean(np.abs(off) ** 2)))

@@ -60,9 +60,10 @@ def _doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> str:
     try:
         model = any_core(specimen, sweep.frequency_hz, progress)
     except FittingError:
-        if _distance_in_rad_s(sweep, specimen, progress) > _WITH_EFFECTS:
+        distance, words = _in_another_unit(sweep, specimen, progress)
+        if distance > _WITH_EFFECTS:
             raise
-        return f"it looks as if {_RAD_S}"
+        return f"it looks as if {words}"
     as_is = _as_is(sweep, model)
     near = NEAR if len(sweep) * (1 + sweep.has_phase) >= _MANY else SCALED
     if as_is.distance < near:
@@ -79,8 +80,9 @@ def _doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> str:
     said = _of_data(sweep, model, as_is, specimen.drive)
     if said is not None:
         return f"it looks as if {said}" if said else ""
-    if _distance_in_rad_s(sweep, specimen, progress) < EXPLAINED:
-        return f"it looks as if {_RAD_S}"
+    distance, words = _in_another_unit(sweep, specimen, progress)
+    if distance < EXPLAINED:
+        return f"it looks as if {words}"
     if as_is.distance < SCALED:
         return ""
     for words, other in specimen_mistakes(specimen):
@@ -98,7 +100,10 @@ def _doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> str:
 
 
 _RELATIVE = "it looks as if the pickup's reading is relative to the clamp: [pickup] reads says absolute"
-_RAD_S = "the frequencies are in rad/s, expected Hz"
+_UNITS = {"rad/s": 1 / (2 * np.pi), "kHz": 1e3}
+"""In which frequencies may be, and how many Hz each is."""
+_MOST_KHZ = 20.0
+"""Readings beyond what is heard are not of such specimens."""
 
 
 def _likely_beside_effects(
@@ -113,10 +118,10 @@ def _likely_beside_effects(
         # Data with an effect are as far off in the right unit, and nothing else makes a thousand of it.
         return words_of(alone, left.factor, specimen.drive)
     mistake, found = _most_likely(sweep, model, list(mistakes(sweep)))
-    slower = _distance_in_rad_s(sweep, specimen, progress)
-    if min(found.distance, slower) > min(_WITH_EFFECTS, BETTER * as_is.distance):
+    in_unit, words = _in_another_unit(sweep, specimen, progress)
+    if min(found.distance, in_unit) > min(_WITH_EFFECTS, BETTER * as_is.distance):
         return ""
-    return _RAD_S if slower < found.distance else words_of(mistake, found.factor, specimen.drive)
+    return words if in_unit < found.distance else words_of(mistake, found.factor, specimen.drive)
 
 
 def _explains(distance: float, as_is: float) -> bool:
@@ -220,13 +225,16 @@ def _median(sweep: Sweep, model: AnyCore, found: Nearest) -> float:
     return float(np.median(np.abs(off.real)))
 
 
-def _distance_in_rad_s(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> float:
+def _in_another_unit(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> tuple[float, str]:
+    """Distance with the frequencies in the unit in which it is least, and words for it."""
+    found = [(float("inf"), "")]
     if not isinstance(specimen, Specimen | Beam):
         # Of a pair any frequency is as good: its modulus goes along.
-        return float("inf")
-    slower = replace(sweep, frequency_hz=sweep.frequency_hz / (2 * np.pi))
-    try:
-        model = any_core(specimen, slower.frequency_hz, progress)
-    except FittingError:
-        return float("inf")
-    return _as_is(slower, model).distance
+        return found[0]
+    for unit, hz in _UNITS.items():
+        if unit == "kHz" and sweep.frequency_hz.max() > _MOST_KHZ:
+            continue
+        meant = replace(sweep, frequency_hz=sweep.frequency_hz * hz)
+        distance = _distance_of(meant, specimen, progress)
+        found.append((distance, f"the frequencies are in {unit}, expected Hz"))
+    return min(found)

@@ -23,7 +23,7 @@ from fitting.laws import CoreLaw
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.models.diagnosis import Diagnosed, effects_among
-from instrument.models.exchanged import exchanged
+from instrument.models.exchanged import exchanged, leaves_much
 from instrument.models.file_remarks import remarks_on_files, remarks_on_one_specimen, remarks_on_scale
 from instrument.models.files import File, mounted, numbers_of, one_plate
 from instrument.models.files_at_work import FilesAtWork, SetAside
@@ -77,19 +77,21 @@ def identify_together(
         ready = perf_counter()
         work.set_disturbances_aside()
         begun, noise = work.fit()
-        misfit: tuple[str, ...] = ()
-        if work.with_misfit(begun):
+        scatters = work.with_misfit(begun)
+        if scatters:
             for _ in range(_ROUNDS):
                 before = rms(np.array(work.misfit))
                 work.with_misfit(work.fit()[0])
                 if abs(rms(np.array(work.misfit)) / before - 1) < _SETTLED:
                     break
             begun, noise = work.fit()
-            other = exchanged(files)
-            misfit = (work.about_misfit(),) if other is None else (f"{other.words}. The law means nothing",)
         else:
             # What a misfit says of a law's form is a guess.
             begun = loosened(begun)
+        other = exchanged(files) if scatters or leaves_much(begun) else None
+        misfit = (work.about_misfit(),) if scatters else ()
+        if other is not None:
+            misfit = (f"{other.words}. The law means nothing",)
         fit = fit_of(begun)
     seconds = perf_counter() - ready
     theory = _check_theories(files, fit.law)

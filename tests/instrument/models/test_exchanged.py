@@ -1,13 +1,15 @@
 """Two files that have each other's specimens are said to, and nothing is named in their place."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from shear_pair_cases import pair, sweep
 
 from fitting.errors import OutsideModel
 from instrument.models import exchanged as exchange
-from instrument.models.exchanged import exchanged
+from instrument.models.exchanged import exchanged, leaves_much
 from instrument.models.files import File
 from instrument.models.together import diagnose_together, identify_together
 
@@ -47,6 +49,16 @@ def test_a_mass_that_is_stated_wrongly_is_no_exchange():
 def test_identify_says_so_first():
     said = identify_together(files((0, 2, 1))).found.result.warnings[0]
     assert said.startswith("0.573 kg and 1.196 kg seem to have each other's specimens")
+
+
+def test_a_fit_that_leaves_as_much_as_its_readings_is_asked_whatever_its_noise():
+    begun = SimpleNamespace(
+        problem=SimpleNamespace(sweep=SimpleNamespace(response_m_s=np.array([1.0, 2.0j]), has_phase=True)),
+        none=SimpleNamespace(velocity_m_s=np.array([1.02, 2.02j])),
+    )
+    assert not leaves_much(begun)
+    begun.none.velocity_m_s = np.array([0.5, 2.0j])
+    assert leaves_much(begun)
 
 
 def test_diagnose_names_no_temperature_in_its_place():

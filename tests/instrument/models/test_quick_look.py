@@ -5,9 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shear_pair_cases
+from beam_cases import BEAM
 
 from fitting.gravity import STANDARD_GRAVITY_M_S2 as G
+from fitting.structures.small_modes import small_velocity
 from fitting.sweep import Sweep
+from instrument.files.structure_file import read_structure
 from instrument.models import quick_look
 from instrument.models.quick_look import data_doubt
 from instrument.models.specimen_models import Models
@@ -152,6 +155,17 @@ def test_frequencies_in_kilohertz_are_asked_about_before_anything_is_modelled(ri
     assert said == "0.014 to 0.07 Hz: the frequencies are in kHz, expected Hz"
 
 
+def test_frequencies_in_kilohertz_that_reach_beyond_one_are_asked_about(tmp_path):
+    (tmp_path / "beam.toml").write_text(BEAM)
+    specimen = read_structure(tmp_path / "beam.toml")
+    f = np.linspace(250.0, 1300.0, 40)
+    level, one = np.full(len(f), specimen.base_acceleration_m_s2), np.ones(len(f), dtype=np.intp)
+    right = Sweep(f, small_velocity(specimen, f), level, one, one, base_m_s2=level.astype(complex))
+    assert data_doubt(right, specimen) == ""
+    said = data_doubt(replace(right, frequency_hz=f / 1e3), specimen)
+    assert said == "it looks as if the frequencies are in kHz, expected Hz"
+
+
 def test_frequencies_in_radians_a_second_are_asked_about(plate, right):
     said = data_doubt(replace(right, frequency_hz=2 * np.pi * F), plate)
     assert said == "it looks as if the frequencies are in rad/s, expected Hz"
@@ -175,7 +189,7 @@ def test_a_mistake_is_named_in_data_that_hide_an_effect_too(plate, right, spoil,
 
 
 def test_what_no_core_and_no_mistake_explains_is_another_plate(monkeypatch, plate, right):
-    monkeypatch.setattr(quick_look, "_distance_in_rad_s", lambda *_: float("inf"))
+    monkeypatch.setattr(quick_look, "_in_another_unit", lambda *_: (float("inf"), ""))
     monkeypatch.setattr(quick_look, "specimen_mistakes", lambda _: ())
     rng = np.random.default_rng(1)
     nonsense = times(np.exp(rng.normal(0, 3, len(F)) + 1j * rng.uniform(0, 6, len(F))))(right)
