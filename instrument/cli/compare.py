@@ -6,6 +6,7 @@ from pathlib import Path
 import click
 import numpy as np
 
+from fitting.digits import two_digits
 from instrument.cli.options import NumberRange, file_arguments, json_option
 from instrument.cli.output import Output
 from instrument.facts.comparison import CompareResult
@@ -18,7 +19,7 @@ from instrument.progress import bar
 
 _WARMER = 1.0
 """K between two laws, from which it is said: a damping polymer is another one."""
-_SAYS = {True: "differ", False: "agree", None: "cannot be told"}
+_SAYS = {True: "differ", False: "not told apart", None: "cannot be told"}
 
 
 @click.command()
@@ -74,9 +75,9 @@ def compare(
         ["A", "B", "band / Hz", "G' B/A / %", "eta B-A", "chi2", "dof", "p", f"at {LEVEL:g}"],
         [[*pair, *_cells(c)] for pair, c in zip(pairs, found, strict=True)],
     )
+    beside = ", and is not in the spread" if spread is not None else ""
     for name, law in zip(names, laws, strict=True):
         if law.verdict == "unknown":
-            beside = ", and is not in the spread" if spread is not None else ""
             out.say(f"{name}: verdict unknown: this law may be biased beyond what is known of it{beside}")
         elif law.is_doubted:
             out.say(f"{name}: its fit says that this law may be biased beyond its band{beside}")
@@ -89,6 +90,12 @@ def compare(
             ranges = ", ".join(f"{low:.4g} to {high:.4g} Hz" for low, high in c.where(z))
             if ranges:
                 out.say(f"{a} and {b}: {what} differs beyond 1.96 joint standard errors at {ranges}")
+        if c.differs is False and (seen := c.would_be_seen) is not None:
+            at, storage, eta = seen
+            out.say(
+                f"{a} and {b}: not told apart; at {at:.3g} Hz G' would be seen to differ by "
+                f"{two_digits(100 * storage)} %, eta by {two_digits(eta)}"
+            )
     result = CompareResult(
         pairs=tuple(compared_pair(c, a, b) for (a, b), c in zip(pairs, found, strict=True))
     )

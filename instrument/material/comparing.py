@@ -34,6 +34,8 @@ class Comparison:
     """In joint standard errors."""
     loss_factor_difference: Array
     loss_factor_z: Array
+    joint_error: Array
+    """Of ln G' at the frequencies, then of eta: standard errors of both. Shape (2 frequencies,)."""
     chi2: float
     dof: float
     p_value: float
@@ -46,6 +48,15 @@ class Comparison:
     def differs(self) -> bool | None:
         """As a whole; None where it cannot be told."""
         return None if np.isnan(self.p_value) else bool(self.p_value < LEVEL)
+
+    @property
+    def would_be_seen(self) -> tuple[float, float, float] | None:
+        """In the band's middle, Hz: how far G', relative, and eta would have to differ to be listed there."""
+        count, k = len(self.frequency_hz), len(self.frequency_hz) // 2
+        if not count or not np.isfinite(self.joint_error).all():
+            return None
+        storage, eta = self.joint_error[k], self.joint_error[count + k]
+        return float(self.frequency_hz[k]), SURELY * float(storage), SURELY * float(eta)
 
     def where(self, z: Array) -> list[tuple[float, float]]:
         """Ranges of frequency in Hz over which a difference is beyond its joint uncertainty."""
@@ -60,19 +71,20 @@ def compare(a: MaterialLaw, b: MaterialLaw, repeatability: float = 0.0) -> Compa
     low, high = (max(a.band_hz[0], b.band_hz[0]), min(a.band_hz[1], b.band_hz[1]))
     if not low < high:
         nothing = np.zeros(0)
-        return Comparison(a, b, *(nothing,) * 5, *(float("nan"),) * 3, "")
+        return Comparison(a, b, *(nothing,) * 6, *(float("nan"),) * 3, "")
     f = np.geomspace(low, high, _POINTS)
     (storage_a, eta_a), (storage_b, eta_b) = _curves(a, f), _curves(b, f)
     difference = np.concatenate([np.log(storage_b / storage_a), eta_b - eta_a])
     errors = [_errors(law, f) for law in (a, b)]
     mounts = [repeatability * np.concatenate([np.ones(len(f)), eta]) for eta in (eta_a, eta_b)]
-    joint = np.sqrt(sum(e**2 for e in (*errors, *mounts)))
+    found = [_scatter(law, f, error) for law, error in zip((a, b), errors, strict=True)]
+    found += [_together(f, size) for size in mounts]
+    covariance = np.asarray(np.sum(found, axis=0))
+    joint = np.sqrt(np.maximum(np.diag(covariance), 0.0))
     with np.errstate(divide="ignore", invalid="ignore"):
         z = np.where(joint > 0, difference / joint, np.nan)
-    found = [_covariance(law, f, error) for law, error in zip((a, b), errors, strict=True)]
     floor = np.repeat([RESOLUTION, RESOLUTION * float(np.mean(np.abs(eta_a)))], len(f))
-    found += [_together(f, size) for size in mounts]
-    statistic, dof = _chi2(difference, np.sum(found, axis=0), floor)
+    statistic, dof = _chi2(difference, covariance, floor)
     own = a.posterior is not None and b.posterior is not None
     return Comparison(
         a,
@@ -82,6 +94,7 @@ def compare(a: MaterialLaw, b: MaterialLaw, repeatability: float = 0.0) -> Compa
         z[: len(f)],
         eta_b - eta_a,
         z[len(f) :],
+        joint,
         statistic,
         dof,
         float(chi2_above(statistic, dof)) if dof > 0 else float("nan"),
@@ -136,6 +149,13 @@ def _errors(law: MaterialLaw, f: Array) -> Array:
     x, at = np.log(law.frequency_hz), np.log(f)
     relative = law.storage_modulus_standard_error_pa / law.storage_modulus_pa
     return np.concatenate([np.interp(at, x, relative), np.interp(at, x, law.loss_factor_standard_error)])
+
+
+def _scatter(law: MaterialLaw, f: Array, errors: Array) -> Array:
+    """By how much the curve would be another one, were the same law measured again."""
+    if law.posterior is not None:
+        return law.posterior.curve_of_another_measurement(f)
+    return _together(f, errors)
 
 
 def _covariance(law: MaterialLaw, f: Array, errors: Array) -> Array:

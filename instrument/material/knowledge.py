@@ -22,11 +22,26 @@ class LawPosterior:
 
     def curve(self, frequency_hz: Array) -> Array:
         """Covariance of ln G' at the frequencies, then of eta. Shape (2 frequencies, 2 frequencies)."""
+        return self._of_curve(frequency_hz, self.covariance_of_logs)
+
+    def curve_of_another_measurement(self, frequency_hz: Array) -> Array:
+        """How far curves scatter that are measured of one law: the same, less what its bend's prior leaves.
+
+        A fit draws its bend towards none, in two measurements of one law by as much. With F what data say and
+        L what is known beforehand C = (F + L)^-1, and estimates scatter by C F C = C - C L C. Shape (2
+        frequencies, 2 frequencies).
+        """
+        C, bend = self.covariance_of_logs, self.law.bend_count
+        # Of unit width, the last ones.
+        known = C[:, len(C) - bend :]
+        return self._of_curve(frequency_hz, C - known @ known.T)
+
+    def _of_curve(self, frequency_hz: Array, C: Array) -> Array:
         omega = 2 * np.pi * frequency_hz
         storage, eta = self.law.storage_and_loss(omega)
         by = self.law.jacobian(omega) * self.law.values[:, None]
         J = np.concatenate([by.real / storage, (by.imag - eta * by.real) / storage], axis=1)
-        return np.asarray(J.T @ self.covariance_of_logs @ J)
+        return np.asarray(J.T @ C @ J)
 
 
 def posterior_of(facts: Any) -> LawPosterior | None:
