@@ -28,7 +28,9 @@ def among(
     on it, or of the rig, seldom of one alone. `mounted` as `OfFiles` has it.
     """
     if effect.between_files:
-        return BetweenFiles(effect, files) if files > 1 else effect
+        # One plate has one core: there it does not stand.
+        able = files > 1 and not (one_plate and effect.enters in _OF_THE_PLATE)
+        return BetweenFiles(effect, files) if able else effect
     if files == 1 and not (spots and effect.enters in _OF_A_SPOT):
         return effect
     by_spot = tuple(spots) if effect.enters in _OF_A_SPOT else ()
