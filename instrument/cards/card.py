@@ -6,11 +6,15 @@ from importlib.metadata import version
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.errors import FittingError
 from fitting.prony import Prony, fit_prony
 from instrument.material.found_law import MaterialLaw
+from instrument.material.knowledge import formula
 
 USUAL_POISSON = 0.49
 """Of a viscoelastic core where nobody states it: nearly incompressible; cards say that it is assumed."""
+_FORMULA_SERVES = 1e-3
+"""Relative error of G* up to which a formula is the law: its parameters are written with six digits."""
 _NOTHING = 1e-6
 """Of the instantaneous modulus: less is none."""
 
@@ -67,10 +71,24 @@ class Card:
         lines += [
             "units: SI: Pa, s, Hz",
             f"Poisson's ratio: {self.poisson:g}{assumed}, real and constant: bulk and shear relax alike",
-            f"law: {law.kind}: " + ", ".join(f"{k} = {v:.6g}" for k, v in law.parameters.items()),
+            f"law: {law.kind}: "
+            + ", ".join(f"{k} = {v:.6g}" for k, v in law.parameters.items())
+            + self._about_formula(),
         ]
         # Names come from files: none of them may begin a line of its own.
         return [" ".join(line.split()) for line in lines]
+
+    def _about_formula(self) -> str:
+        """What is not in the law's parameters: its bend."""
+        law = self.law
+        try:
+            G = formula(law.kind, law.parameters).modulus(2 * np.pi * law.frequency_hz)
+        except (KeyError, FittingError, TypeError, ValueError):
+            return ""
+        off = float(np.max(np.abs(G / (self.storage + 1j * self.loss) - 1)))
+        if off < _FORMULA_SERVES:
+            return ""
+        return f"; the law found is bent about this formula, which is up to {100 * off:.2g} % off it"
 
     def about_series(self) -> str:
         """How well the series stands for the law."""

@@ -1,5 +1,6 @@
 """How well a law is known as a whole: the covariance of its curve, not of its points one by one."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -48,7 +49,7 @@ def posterior_of(facts: Any) -> LawPosterior | None:
     """Of the JSON of `identify`; None where it does not hold enough of it."""
     try:
         found = FoundLaw.model_validate(facts)
-        law = found.law(_start(found))
+        law = found.law(formula(found.law_kind, found.parameters))
     except (ValidationError, BadInput, FittingError, KeyError, ValueError, TypeError):
         return None
     if found.posterior is not None and set(law.names) <= set(found.posterior.names):
@@ -57,22 +58,25 @@ def posterior_of(facts: Any) -> LawPosterior | None:
     return LawPosterior(law.plain, plain) if found.bend is None and np.isfinite(plain).all() else None
 
 
-def _start(found: FoundLaw) -> CoreLaw:
-    """A law of the kind with the parameters found. Raises `KeyError` for one that needs more than those."""
-    cls = LAWS[found.law_kind]
+def formula(kind: str, parameters: Mapping[str, float]) -> CoreLaw:
+    """A law of the kind with these parameters, no bend in it.
+
+    Raises `KeyError` for a kind that needs more than those.
+    """
+    cls = LAWS[kind]
     if set(cls.file_fields()) - set(cls.quantities()):
-        raise KeyError(f"{found.law_kind} has numbers that are not parameters")
-    return cls(**{f.name: _values(found, f.name) for f in fields(cls) if f.name in cls.quantities()})
+        raise KeyError(f"{kind} has numbers that are not parameters")
+    return cls(**{f.name: _values(parameters, f.name) for f in fields(cls) if f.name in cls.quantities()})
 
 
-def _values(found: FoundLaw, name: str) -> float | tuple[float, ...]:
+def _values(parameters: Mapping[str, float], name: str) -> float | tuple[float, ...]:
     """A parameter, or a list's items in their order: g_pa from g_1_pa, g_2_pa, ..."""
-    if name in found.parameters:
-        return found.parameters[name]
+    if name in parameters:
+        return parameters[name]
     stem, _, unit = name.partition("_")
     items: list[float] = []
-    while (key := f"{stem}_{len(items) + 1}" + (f"_{unit}" if unit else "")) in found.parameters:
-        items.append(found.parameters[key])
+    while (key := f"{stem}_{len(items) + 1}" + (f"_{unit}" if unit else "")) in parameters:
+        items.append(parameters[key])
     if not items:
         raise KeyError(name)
     return tuple(items)

@@ -147,7 +147,13 @@ class FoundLaw(BaseModel):
 def read_fit(path: Path) -> FoundLaw:
     """The JSON of `viscorig identify`. Raises `BadInput`."""
     try:
-        return FoundLaw.model_validate(json.loads(read_text(path)))
+        facts = json.loads(read_text(path))
+        if isinstance(facts, dict) and "shift" in facts:
+            raise BadInput(
+                f"{path}: a law over several temperatures, expected the JSON of 'viscorig identify' at one: "
+                'write a card (viscorig card FILE --to csv), and state that as the law (kind = "table")'
+            )
+        return FoundLaw.model_validate(facts)
     except json.JSONDecodeError as error:
         raise BadInput(f"{path}: line {error.lineno}: not JSON: {error.msg}") from None
     except (ValidationError, RecursionError, OutsideModel):

@@ -54,6 +54,17 @@ def card(found, to, *more):
     return out.read_text(encoding="utf-8")
 
 
+def test_a_law_that_is_bent_says_how_far_its_formula_is_off(found):
+    assert "bent" not in card(found, "csv")
+    bent = facts()
+    for row in bent["law"]:
+        row["loss_factor"] *= 1.05
+    found.write_text(json.dumps(bent), encoding="utf-8")
+    eta = np.array([row["loss_factor"] for row in bent["law"]])
+    off = np.max(np.abs((1 + 1j * eta / 1.05) / (1 + 1j * eta) - 1))
+    assert f"bent about this formula, which is up to {100 * off:.2g} % off it" in card(found, "csv")
+
+
 def promised(text, what):
     """The error that the card states, as a fraction."""
     return float(re.search(rf"{what}[^\n]*at most (\S+) %", text)[1]) / 100

@@ -75,3 +75,10 @@ def test_what_is_no_fit_is_refused(tmp_path, coarse):
     other.law_kind = "constant"
     with pytest.raises(BadInput, match="specimen's own"):
         fitted_response(coarse, other, F)
+
+
+def test_a_law_over_temperatures_is_sent_to_a_card(tmp_path):
+    path = tmp_path / "shifted.json"
+    path.write_text('{"shift": "wlf", "law_kind": "constant"}', encoding="utf-8")
+    with pytest.raises(BadInput, match=r"over several temperatures.*viscorig card"):
+        read_fit(path)
