@@ -96,19 +96,24 @@ def _do_what_is_left(
     left = {key: task for task, key in zip(tasks, keys, strict=True) if key and key not in journal}
     by_task = {task: key for key, task in left.items()}
     count, done = len(tasks), len(tasks) - len(left)
+    # Not what is tried again: a file that cannot be read, a row that failed for a reason outside itself.
+    settled = {key for key in keys if key is not None and key in journal}
     with progress(f"{count} rows") as report:
         report(done / count if count else 1.0)
 
         def keep(task: BatchTask, outcome: Outcome) -> None:
             nonlocal done
             journal.keep(by_task[task], outcome)
+            if not outcome["again"]:
+                settled.add(by_task[task])
             done += 1
             report(done / count)
 
         try:
             runner(list(by_task), keep)
         except KeyboardInterrupt:
-            said = f"{done} of {count} rows done, kept in {journal.path}; the same command goes on"
+            kept = sum(key in settled for key in keys)
+            said = f"{kept} of {count} rows done, kept in {journal.path}; the same command goes on"
             raise StoppedByUser(said) from None
 
 
