@@ -65,6 +65,7 @@ def test_a_failed_row_says_its_reason_and_no_number():
         "specimen": None,
         "hammer": None,
         "temperature_c": None,
+        "material": None,
         "status": "failed",
         "reason": "no such file",
     }
