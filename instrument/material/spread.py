@@ -142,6 +142,7 @@ def spread_of(laws: Sequence[MaterialLaw], between: Between = "specimens") -> Sp
             else ""
         )
         raise BadInput(f"{len(laws)} laws{left}, expected {FEWEST} or more to tell a spread from")
+    _check_repeats(laws)
     low, high = max(law.band_hz[0] for law in laws), min(law.band_hz[1] for law in laws)
     if not low < high:
         raise BadInput("the laws have no band in common, expected sweeps that overlap")
@@ -170,6 +171,18 @@ def spread_of(laws: Sequence[MaterialLaw], between: Between = "specimens") -> Sp
     )
     without = replace(found.without, between=between) if found.without is not None else None
     return replace(found, between=between, without=without)
+
+
+def _check_repeats(laws: Sequence[MaterialLaw]) -> None:
+    """No two measurements give one law to the last digit: a copy would make a spread look smaller."""
+    seen: dict[bytes, str] = {}
+    for law in laws:
+        key = b"".join(c.tobytes() for c in (law.frequency_hz, law.storage_modulus_pa, law.loss_factor))
+        if key in seen:
+            raise BadInput(
+                f"{seen[key]} and {law.source}: the same law to the last digit, expected a measurement each"
+            )
+        seen[key] = law.source
 
 
 def _check_mounts(laws: Sequence[MaterialLaw]) -> None:
