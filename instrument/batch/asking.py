@@ -1,7 +1,7 @@
 """What a batch is asked to do: sessions and sweeps as named, or the rows of a table.
 
-A table has the column `data`, and where they are wanted `specimen`, `hammer` and `temperature_c`; others are
-passed over.
+A table has the column `data`, and where they are wanted `specimen`, `hammer`, `temperature_c` and `material`;
+others are passed over.
 """
 
 import re
@@ -17,7 +17,7 @@ from instrument.files.table import Rows, number, read_rows
 from instrument.interchange.given import is_session
 from instrument.interchange.questions import kelvin_doubt
 
-_OPTIONAL = ("hammer", "temperature_c")
+_OPTIONAL = ("hammer", "temperature_c", "material")
 """Columns of a table beside its data and specimens."""
 _MEANT = 0.8
 """How alike an unknown column is to the one that was meant."""
@@ -93,6 +93,7 @@ def _of_table(table: Path, specimen: Path | None, hammer: Path | None, *, insist
                 _beside(table, cell.get("specimen")) or (str(specimen) if specimen else None),
                 _beside(table, cell.get("hammer")) or (str(hammer) if hammer else None),
                 warm,
+                cell.get("material") or None,
             )
         )
     return found
@@ -116,7 +117,7 @@ def _check_specimens(table: Path, header: list[str], rows: Rows, specimen: Path 
 
 
 def _check_optional(table: Path, header: list[str]) -> None:
-    """Raise `BadInput` where a column was meant to name a hammer test or a temperature."""
+    """Raise `BadInput` where a column was meant to name a hammer test, a temperature or a material."""
     missing = [name for name in _OPTIONAL if name not in header]
     for name in header:
         if name in ("data", "specimen", *_OPTIONAL):

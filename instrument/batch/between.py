@@ -1,111 +1,146 @@
-"""Between the rows of one temperature: how far their laws lie apart beyond what is not known of each."""
+"""Between rows of one material and temperature: how far laws lie apart beyond what is not known of each."""
 
-import os
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from fitting.arrays import Array
-from instrument.batch.columns import cells, is_doubted
+from instrument.batch.columns import Cell
 from instrument.batch.run import BatchRow
+from instrument.batch.taking_part import Group, group_of, law_of, repeats_among
 from instrument.facts.batch import BatchSpread
 from instrument.material.comparing import RESOLUTION
-from instrument.material.spread import FEWEST, FREQUENCIES, Spread, spread_of_curves, spread_rows
-
-UNKNOWN = "unknown"
-Group = float | None
-"""A temperature in whole degrees Celsius; None where none was measured."""
+from instrument.material.spread import (
+    FEWEST,
+    FREQUENCIES,
+    Spread,
+    apart_rows,
+    spread_of_curves,
+    spread_rows,
+)
 
 
 @dataclass(frozen=True)
 class Between:
-    """Rows of one temperature."""
+    """Rows of one material and temperature."""
 
-    temperature_c: Group
+    material: str | None
+    temperature_c: float | None
+    """In whole degrees; None where none was measured."""
     spread: Spread
+    places: tuple[int, ...]
+    """Of its rows among all."""
 
     @property
-    def words(self) -> str:
-        """One line."""
-        where = "" if self.temperature_c is None else f" at {self.temperature_c:g} degC"
-        return self.spread.words.replace(" specimens at", f" rows{where} at", 1)
+    def lines(self) -> list[str]:
+        """What is said of it: the spread, each row that is apart, and the spread without those."""
+        called = "rows"
+        if self.material is not None:
+            called += f" of {self.material}"
+        if self.temperature_c is not None:
+            called += f" at {self.temperature_c:g} degC"
+        return self.spread.lines_of(called)
 
     @property
     def result(self) -> BatchSpread:
         """As JSON has it."""
+        without = self.spread.without
         return BatchSpread(
+            material=self.material,
             temperature_c=self.temperature_c,
             rows=len(self.spread.names),
             frequencies=spread_rows(self.spread),
+            apart=apart_rows(self.spread),
+            without_apart=spread_rows(without) if without is not None else (),
         )
 
 
-def between_rows(rows: Iterable[BatchRow]) -> list[Between]:
-    """The spread of every temperature that has rows enough with a band in common, the lowest first.
+@dataclass(frozen=True)
+class _Curve:
+    """Of one row. Arrays have shape (2 frequencies,): of ln G', then of ln eta."""
 
-    `rows` is gone through twice; of each a few numbers are kept. Rows that failed, whose verdict is unknown,
-    whose law says that it may be biased or has no standard errors take no part.
+    place: int
+    name: str
+    values: Array
+    errors: Array
+    stated: Array
+    """The part of the errors that stated numbers make."""
+    same: str | None
+    """Which numbers those are."""
+
+
+def between_rows(rows: Iterable[BatchRow], repeats: Mapping[int, str] | None = None) -> list[Between]:
+    """The spread of every material and temperature that has rows enough with a band in common.
+
+    By material, then the lowest temperature first; rows without come last. `rows` is gone through several
+    times; of each a few numbers are kept. `repeats` are those that count no more, by place; found where not
+    given.
     """
+    repeats = repeats_among(rows) if repeats is None else repeats
     bands: dict[Group, list[tuple[float, float]]] = defaultdict(list)
-    for row in _once(rows):
-        law = _law(row)
-        if law is not None:
-            bands[_group(row)].append((float(law["frequency_hz"][0]), float(law["frequency_hz"][-1])))
+    for _, row, law in _taking_part(rows, repeats):
+        bands[group_of(row)].append((float(law["frequency_hz"][0]), float(law["frequency_hz"][-1])))
     at = {
         group: np.geomspace(low, high, FREQUENCIES)
         for group, some in bands.items()
         if len(some) >= FEWEST and (low := max(b[0] for b in some)) < (high := min(b[1] for b in some))
     }
-    found: dict[Group, list[tuple[str, Array, Array]]] = defaultdict(list)
-    for row in _once(rows):
-        law = _law(row)
-        if law is not None and (group := _group(row)) in at:
-            found[group].append((row.task.data, *_curve(law, at[group])))
-    return [
-        Between(group, spread_of_curves(tuple(n for n, _, _ in some), at[group], curves, errors))
-        for group, some in sorted(found.items(), key=lambda item: (item[0] is None, item[0]))
-        for curves, errors in [(np.array([c for _, c, _ in some]), np.array([e for _, _, e in some]))]
-    ]
+    found: dict[Group, list[_Curve]] = defaultdict(list)
+    for place, row, law in _taking_part(rows, repeats):
+        if (group := group_of(row)) in at:
+            found[group].append(_curve(place, row, law, at[group]))
+    return [_between(group, at[group], some) for group, some in sorted(found.items(), key=_order)]
 
 
-def _once(rows: Iterable[BatchRow]) -> Iterator[BatchRow]:
-    """A file that is named twice, by whatever path, is one specimen."""
-    seen = set()
-    for row in rows:
-        task = row.task
-        files = (os.path.realpath(path) if path else None for path in (task.data, task.specimen, task.hammer))
-        named = *files, _group(row)
-        if named not in seen:
-            seen.add(named)
-            yield row
+def marks_of(between: Sequence[Between], repeats: Mapping[int, str]) -> dict[int, dict[str, Cell]]:
+    """What every row is among the others, as cells of the table."""
+    marks: dict[int, dict[str, Cell]] = {place: {"repeat_of": data} for place, data in repeats.items()}
+    for one in between:
+        for place, p in zip(one.places, one.spread.p_values.tolist(), strict=True):
+            if np.isfinite(p):
+                marks[place] = {"apart_p_value": p}
+    return marks
 
 
-def _group(row: BatchRow) -> Group:
-    temperature = cells(row)["temperature_c"]
-    return round(temperature) + 0.0 if isinstance(temperature, int | float) else None
+def _order(item: tuple[Group, list[_Curve]]) -> tuple[bool, str, bool, float]:
+    (material, warm), _ = item
+    return material is None, material or "", warm is None, warm or 0.0
 
 
-def _law(row: BatchRow) -> dict[str, Array] | None:
-    """Its columns, where all of them are known."""
-    o = row.outcome
-    if o["failed"] or o["verdict"] == UNKNOWN or is_doubted(row):
-        return None
-    law = {key: np.array(values, dtype=float) for key, values in (o.get("law") or {}).items()}
-    if not law or not all(np.isfinite(v).all() for v in law.values()) or np.any(law["loss_factor"] <= 0):
-        return None
-    return law
+def _between(group: Group, frequency_hz: Array, some: Sequence[_Curve]) -> Between:
+    spread = spread_of_curves(
+        tuple(one.name for one in some),
+        frequency_hz,
+        np.array([one.values for one in some]),
+        np.array([one.errors for one in some]),
+        np.array([one.stated for one in some]),
+        [one.same for one in some],
+    )
+    return Between(*group, spread, tuple(one.place for one in some))
 
 
-def _curve(law: dict[str, Array], frequency_hz: Array) -> tuple[Array, Array]:
-    """Ln G', then ln eta, and their standard errors. Shape (2 frequencies,) each."""
+def _taking_part(
+    rows: Iterable[BatchRow], repeats: Mapping[int, str]
+) -> Iterator[tuple[int, BatchRow, dict[str, Array]]]:
+    for place, row in enumerate(rows):
+        law = law_of(row) if place not in repeats else None
+        if law is not None:
+            yield place, row, law
+
+
+def _curve(place: int, row: BatchRow, law: dict[str, Array], frequency_hz: Array) -> _Curve:
     x, at = np.log(law["frequency_hz"]), np.log(frequency_hz)
-    curves, errors = [], []
-    for value, error in (
-        ("storage_modulus_pa", "storage_modulus_standard_error_pa"),
-        ("loss_factor", "loss_factor_standard_error"),
+    stated = row.outcome.get("stated") or {}
+    values, errors, parts = [], [], []
+    for value, error, which in (
+        ("storage_modulus_pa", "storage_modulus_standard_error_pa", "storage"),
+        ("loss_factor", "loss_factor_standard_error", "loss"),
     ):
-        curves.append(np.interp(at, x, np.log(law[value])))
+        values.append(np.interp(at, x, np.log(law[value])))
         errors.append(np.hypot(np.interp(at, x, law[error] / law[value]), RESOLUTION))
-    return np.concatenate(curves), np.concatenate(errors)
+        share = stated.get(which)
+        parts.append(errors[-1] if share is None else np.interp(at, x, share))
+    y, known, part = (np.concatenate(columns) for columns in (values, errors, parts))
+    return _Curve(place, row.task.data, y, known, part, stated.get("same"))

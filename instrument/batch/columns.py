@@ -7,12 +7,15 @@ from fitting.identification.result import doubts_itself
 from instrument.batch.run import BatchRow
 
 Cell = str | float | int | bool | None
+Marks = Mapping[int, Mapping[str, Cell]]
+"""What a row is among the others, by its place: cells beside its own."""
 
 _BEFORE = (
     "data",
     "specimen",
     "hammer",
     "temperature_c",
+    "material",
     "status",
     "reason",
     "verdict",
@@ -31,7 +34,7 @@ _BEFORE = (
     "loss_factor_standard_error",
     "law_kind",
 )
-_AFTER = ("borrowed_model", "warnings")
+_AFTER = ("borrowed_model", "repeat_of", "apart_p_value", "warnings")
 _LAW = _BEFORE[-5:-1]
 DONE, FAILED = "done", "failed"
 NOT_DIAGNOSED = "not diagnosed"
@@ -70,6 +73,7 @@ def cells(row: BatchRow) -> dict[str, Cell]:
         "specimen": task.specimen,
         "hammer": task.hammer,
         "temperature_c": temperature,
+        "material": task.material,
         "status": FAILED if o["failed"] else DONE,
         "reason": o["failed"],
     }

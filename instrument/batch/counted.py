@@ -1,14 +1,14 @@
 """What a batch came to, in a few numbers."""
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from instrument.batch.between import Between
 from instrument.batch.columns import NOT_DIAGNOSED, is_doubted
 from instrument.batch.run import BatchRow
-from instrument.facts.batch import BatchFailure, BatchResult
+from instrument.facts.batch import BatchFailure, BatchRepeat, BatchResult
 
 
 @dataclass
@@ -44,8 +44,14 @@ class Counted:
             found.effects.update(o["effects"])
         return found
 
-    def result(self, known_before: int, files: Iterable[Path], spread: Iterable[Between] = ()) -> BatchResult:
-        """As JSON has it."""
+    def result(
+        self,
+        known_before: int,
+        files: Iterable[Path],
+        spread: Iterable[Between] = (),
+        repeats: Sequence[tuple[str, str]] = (),
+    ) -> BatchResult:
+        """As JSON has it; `repeats` are data and the earlier row's."""
         return BatchResult(
             rows=self.rows,
             done=self.done,
@@ -55,6 +61,7 @@ class Counted:
             borrowed_models=self.borrowed,
             failures=tuple(BatchFailure(data=data, reason=why) for data, why in self.failures),
             doubted=tuple(self.doubted),
+            repeats=tuple(BatchRepeat(data=data, repeats=first) for data, first in repeats),
             known_before=known_before,
             spread=tuple(one.result for one in spread),
             files=tuple(str(path) for path in files),

@@ -36,6 +36,13 @@ class Keys:
                 return None
         return hashlib.sha256(json.dumps(said).encode()).hexdigest()[:_DIGITS]
 
+    def contents(self, task: BatchTask) -> str | None:
+        """Digest of its data, whatever they are called; None where they cannot be read."""
+        try:
+            return self._digest(task.data)
+        except (BadInput, OSError):
+            return None
+
 
 def digest_of(path: str) -> str:
     """Of a file's content. Raises `BadInput`, `OSError`."""

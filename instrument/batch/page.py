@@ -72,9 +72,10 @@ def _laws(rows: Rows, counted: Counted) -> tuple[Block, ...]:
 
 def _between(between: Sequence[Between]) -> tuple[Block, ...]:
     if not between:
-        return (Sentence("No three rows of one temperature have a band in common.", "note"),)
+        return (Sentence("No three rows of one material and temperature have a band in common.", "note"),)
     shown = [
         (
+            one.material or "",
             "" if one.temperature_c is None else f"{one.temperature_c:g}",
             str(one.rows),
             f"{at.frequency_hz:.4g}",
@@ -86,12 +87,22 @@ def _between(between: Sequence[Between]) -> tuple[Block, ...]:
         for one in (b.result for b in between)
         for at in one.frequencies
     ]
-    heads = ("T / °C", "rows", "at / Hz", "G' / MPa", "spread / % (95 %)", "η", "spread / % (95 %)")
-    said = (
-        "The common law of rows of one temperature, and the standard deviation of single rows about it, what "
-        "is not known of each row taken off. A tolerance that all rows share is not in it."
+    heads = (
+        "material",
+        "T / °C",
+        "rows",
+        "at / Hz",
+        "G' / MPa",
+        "spread / % (95 %)",
+        "η",
+        "spread / % (95 %)",
     )
-    return (Sentence(said), TableBlock("", heads, tuple(shown)))
+    said = (
+        "The common law of rows of one material and temperature, and the standard deviation of single rows "
+        "about it, what is not known of each row taken off. A tolerance that all rows share is not in it."
+    )
+    apart = [Sentence(line, "note") for one in between if one.spread.apart for line in one.lines[1:]]
+    return (Sentence(said), *apart, TableBlock("", heads, tuple(shown)))
 
 
 def _percent(spread: SpreadSize) -> str:

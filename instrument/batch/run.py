@@ -36,15 +36,21 @@ class BatchRow:
 
     task: BatchTask
     outcome: Outcome
+    contents: str | None = None
+    """Digest of its data; None where they cannot be read."""
 
 
 class Rows:
     """All rows in the order of the question, one at a time from the disk; a context."""
 
     def __init__(
-        self, tasks: Sequence[BatchTask], keys: Sequence[str | None], journal: OutcomeJournal
+        self,
+        tasks: Sequence[BatchTask],
+        keys: Sequence[str | None],
+        contents: Sequence[str | None],
+        journal: OutcomeJournal,
     ) -> None:
-        self._tasks, self._keys, self._journal = tasks, keys, journal
+        self._tasks, self._keys, self._contents, self._journal = tasks, keys, contents, journal
         self.repeated = 0
         """How many the journal had already."""
 
@@ -52,11 +58,11 @@ class Rows:
         return len(self._tasks)
 
     def __iter__(self) -> Iterator[BatchRow]:
-        for task, key in zip(self._tasks, self._keys, strict=True):
+        for task, key, contents in zip(self._tasks, self._keys, self._contents, strict=True):
             if key is not None and key in self._journal:
-                yield BatchRow(task, self._journal[key])
+                yield BatchRow(task, self._journal[key], contents)
             else:
-                yield BatchRow(task, _unread(task))
+                yield BatchRow(task, _unread(task), contents)
 
     def __enter__(self) -> "Rows":
         return self
@@ -75,12 +81,13 @@ def run_batch(
         with progress("looking for what is done"):
             keyed = Keys()
             keys = [keyed.key(task) for task in tasks]
+            contents = [keyed.contents(task) for task in tasks]
         known = {key for key in keys if key in journal}
         _do_what_is_left(tasks, keys, journal, runner or here(1), progress)
     except BaseException:
         journal.__exit__(None, None, None)
         raise
-    rows = Rows(tasks, keys, journal)
+    rows = Rows(tasks, keys, contents, journal)
     rows.repeated = sum(key in known for key in keys)
     return rows
 
@@ -96,19 +103,24 @@ def _do_what_is_left(
     left = {key: task for task, key in zip(tasks, keys, strict=True) if key and key not in journal}
     by_task = {task: key for key, task in left.items()}
     count, done = len(tasks), len(tasks) - len(left)
+    # Not what is tried again: a file that cannot be read, a row that failed for a reason outside itself.
+    settled = {key for key in keys if key is not None and key in journal}
     with progress(f"{count} rows") as report:
         report(done / count if count else 1.0)
 
         def keep(task: BatchTask, outcome: Outcome) -> None:
             nonlocal done
             journal.keep(by_task[task], outcome)
+            if not outcome["again"]:
+                settled.add(by_task[task])
             done += 1
             report(done / count)
 
         try:
             runner(list(by_task), keep)
         except KeyboardInterrupt:
-            said = f"{done} of {count} rows done, kept in {journal.path}; the same command goes on"
+            kept = sum(key in settled for key in keys)
+            said = f"{kept} of {count} rows done, kept in {journal.path}; the same command goes on"
             raise StoppedByUser(said) from None
 
 

@@ -13,6 +13,8 @@ class BatchTask:
     hammer: str | None = None
     temperature_c: float | None = None
     """As the table has it."""
+    material: str | None = None
+    """What rows are grouped by; None where the table does not say."""
     like: str | None = None
     """A specimen file whose models may serve this one."""
     diagnose: bool = False

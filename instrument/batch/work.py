@@ -23,6 +23,7 @@ from instrument.files.specimen_file import read_specimen
 from instrument.files.structure_file import read_structure
 from instrument.interchange.given import Given, read_given
 from instrument.interchange.questions import question_data
+from instrument.material.stated_part import stated_columns
 from instrument.models.diagnosis import diagnose
 from instrument.models.files import File, spots_of
 from instrument.models.identification import identify
@@ -212,4 +213,4 @@ def _of_diagnosis(result: DiagnosisResult) -> dict[str, Any]:
 def _kept(fit: IdentificationResult | ModalResult | StageFitted) -> dict[str, Any]:
     """What a table of modes does not have is None."""
     facts = fit.as_json()
-    return {key: facts.get(key) for key in _KEPT}
+    return {**{key: facts.get(key) for key in _KEPT}, "stated": stated_columns(facts)}

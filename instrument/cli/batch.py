@@ -5,11 +5,12 @@ from pathlib import Path
 import click
 
 from instrument.batch.asking import tasks_of
-from instrument.batch.between import between_rows
+from instrument.batch.between import between_rows, marks_of
 from instrument.batch.counted import Counted
 from instrument.batch.page import write_page
 from instrument.batch.run import here, run_batch, there
 from instrument.batch.table import CSV, write_tables
+from instrument.batch.taking_part import repeats_among
 from instrument.cli.options import force_option, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
@@ -67,9 +68,9 @@ def batch(
 ) -> None:
     """A law for each of FILES: sessions (.h5), sweeps, or one table with the columns data and specimen.
 
-    A table's other columns are hammer and temperature_c; its paths are from its own folder. A row that
-    fails, or is questioned as `identify` does, says why and stops nothing. Stopped or killed, the same
-    command goes on where it was.
+    A table's other columns are hammer, temperature_c and material; its paths are from its own folder. A row
+    that fails, or is questioned as `identify` does, says why and stops nothing. Stopped or killed, the
+    same command goes on where it was.
     """
     out = Output(json_path)
     if scheduler is not None and workers is not None:
@@ -80,15 +81,23 @@ def batch(
     runner = there(scheduler) if scheduler is not None else here(workers or processors())
     with run_batch(tasks, folder, runner, bar) as rows:
         counted = Counted.of(rows)
-        between = between_rows(rows)
-        written = [*write_tables(rows, folder), write_page(rows, counted, between, folder)]
+        repeats = repeats_among(rows)
+        between = between_rows(rows, repeats)
+        marks = marks_of(between, repeats)
+        written = [*write_tables(rows, folder, marks), write_page(rows, counted, between, folder)]
         repeated = rows.repeated
+    twice = [(tasks[place].data, first) for place, first in repeats.items()]
     _say(out, counted, repeated)
+    for data, first in twice[:_FAILURES_SHOWN]:
+        out.say(f"repeat, not in the spread: {data} is {first} again, to the last byte")
+    if len(twice) > _FAILURES_SHOWN:
+        out.say(f"and {len(twice) - _FAILURES_SHOWN} more repeats, all in {CSV}")
     for one in between:
-        out.say(one.words)
+        for line in one.lines:
+            out.say(line)
     for path in written:
         out.say(f"wrote {path}")
-    out.result(counted.result(repeated, written, between))
+    out.result(counted.result(repeated, written, between, twice))
 
 
 def _say(out: Output, counted: Counted, repeated: int) -> None:

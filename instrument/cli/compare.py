@@ -100,7 +100,8 @@ def compare(
         pairs=tuple(compared_pair(c, a, b) for (a, b), c in zip(pairs, found, strict=True))
     )
     if spread is not None:
-        out.say(spread.words)
+        for line in spread.lines:
+            out.say(line)
         said = spread_result(spread)
         result = result.but(repeatability=said) if remounts else result.but(spread=said)
     out.result(result)

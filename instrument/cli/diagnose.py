@@ -12,6 +12,7 @@ from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.cli.print_run import print_result
 from instrument.cli.reading import are_tables, read_each, reading_options, together
+from instrument.files.repeated import refuse_repeats
 from instrument.models.diagnosis import diagnose as diagnose_sweep
 from instrument.models.together import diagnose_together
 from instrument.planning.open_questions import with_open_questions
@@ -64,6 +65,7 @@ def diagnose(
     experiment: an effect common to all is named once.
     """
     out = Output(json_path)
+    refuse_repeats(data)
     if are_tables(data, specimen):
         if hammer is not None or accept or resamples is not None or figures is not None:
             raise click.UsageError(

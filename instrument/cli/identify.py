@@ -27,6 +27,7 @@ from instrument.facts.beside import BesideTable
 from instrument.facts.budget import BudgetRow
 from instrument.facts.identification import IdentificationResult
 from instrument.files.dma_file import DmaTable, read_dma
+from instrument.files.repeated import refuse_repeats
 from instrument.interchange.given import Given
 from instrument.material.beside import beside, beside_table
 from instrument.material.found_law import law_of_result
@@ -159,6 +160,7 @@ def identify(
     if shift is None and (reference_c is not None or temperature_k is not None or vertical):
         raise click.UsageError("--reference-c, --temperature-k and --vertical: expected --shift with them")
     out = Output(json_path)
+    refuse_repeats(data)
     if are_tables(data, specimen):
         if pointwise or method == "paper" or hammer is not None or dma is not None or with_budget or depths:
             raise click.UsageError(

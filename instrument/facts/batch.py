@@ -1,6 +1,6 @@
 """The result of `viscorig batch`; its rows are in batch.csv."""
 
-from instrument.facts.comparison import SpreadAt
+from instrument.facts.comparison import SpecimenApart, SpreadAt
 from instrument.facts.number import Number
 from instrument.facts.result import Result
 
@@ -12,13 +12,27 @@ class BatchFailure(Result):
     reason: str
 
 
-class BatchSpread(Result):
-    """Between the rows of one temperature, told from the uncertainty of each."""
+class BatchRepeat(Result):
+    """A row whose data an earlier one has already, whatever they are called: not in the spread."""
 
+    data: str
+    repeats: str
+    """The earlier row's data."""
+
+
+class BatchSpread(Result):
+    """Between the rows of one material and temperature, told from the uncertainty of each."""
+
+    material: str | None = None
+    """As the table has it."""
     temperature_c: Number | None
     """In whole degrees; null where none was measured."""
     rows: int
     frequencies: tuple[SpreadAt, ...]
+    apart: tuple[SpecimenApart, ...] = ()
+    """Rows that are not like the others."""
+    without_apart: tuple[SpreadAt, ...] = ()
+    """The same without them; empty where none is apart, or fewer than three are left."""
 
 
 class BatchResult(Result):
@@ -37,9 +51,11 @@ class BatchResult(Result):
     """In the order of the rows."""
     doubted: tuple[str, ...] = ()
     """Data whose law, not diagnosed, says of itself that it may be biased: not in the spread."""
+    repeats: tuple[BatchRepeat, ...] = ()
+    """In the order of the rows."""
     known_before: int
     """Rows that an earlier run had done."""
     spread: tuple[BatchSpread, ...] = ()
-    """Of every temperature with three rows or more that have a band in common."""
+    """Of every material and temperature with three rows or more that have a band in common."""
     files: tuple[str, ...]
     """That were written."""

@@ -65,12 +65,26 @@ class SpreadAt(Result):
     loss_factor_spread: SpreadSize
 
 
+class SpecimenApart(Result):
+    """A specimen or mount that is not like the others, beside their mean at the band's middle."""
+
+    name: str
+    p_value: Number
+    """Chance that any of an honest group lies so far off."""
+    storage_modulus_difference_percent: Number
+    loss_factor_difference_percent: Number
+
+
 class SpreadResult(Result):
     """The spread between specimens, or between mounts of one, told from the uncertainty of each."""
 
     specimens: tuple[str, ...]
     """Files."""
     frequencies: tuple[SpreadAt, ...]
+    apart: tuple[SpecimenApart, ...] = ()
+    """Those that are not like the others."""
+    without_apart: tuple[SpreadAt, ...] = ()
+    """The same without them; empty where none is apart, or fewer than three are left."""
 
 
 class CompareResult(Result):

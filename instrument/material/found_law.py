@@ -22,6 +22,7 @@ from instrument.interchange.given import is_session
 from instrument.interchange.identified import identify_session, result_of_fit
 from instrument.material.found_shift import FoundShift
 from instrument.material.knowledge import LawPosterior, posterior_of
+from instrument.material.stated_part import stated_numbers
 from instrument.progress import Progress, quiet
 from instrument.results.session_result import recorded_result
 from instrument.results.standing import none_leads
@@ -133,6 +134,8 @@ class MaterialLaw:
     """Which mount of its specimen it was, where a session says so."""
     posterior: LawPosterior | None = None
     """Where the source holds the covariance of the whole curve."""
+    same: str | None = None
+    """Which stated numbers it rests on: laws of one digest share what is wrong with them."""
     is_doubted: bool = False
     """Whether its fit, not diagnosed, says of itself that it may be biased."""
 
@@ -210,7 +213,8 @@ def _diagnosed(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
     except ValidationError:
         return None
     law = _law(path, found.after, found.verdict)
-    return replace(law, found=found.words) if law is not None else None
+    same = stated_numbers(facts["after"])
+    return replace(law, found=found.words, same=same) if law is not None else None
 
 
 def _shifted(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
@@ -238,7 +242,8 @@ def _identified(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
         return None
     said = facts.get("warnings")
     doubted = isinstance(said, list | tuple) and doubts_itself(map(str, said))
-    return replace(found, posterior=posterior_of(facts), is_doubted=doubted)
+    known = posterior_of(facts)
+    return replace(found, posterior=known, same=stated_numbers(facts), is_doubted=doubted)
 
 
 def _of_session(path: Path, progress: Progress) -> MaterialLaw:

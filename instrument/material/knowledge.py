@@ -20,6 +20,11 @@ class LawPosterior:
 
     law: CoreLaw
     covariance_of_logs: Array
+    by_stated: Array | None = None
+    """What a stated number's tolerance gives each of them, shape (law's numbers, stated numbers).
+
+    None where it is not known.
+    """
 
     def curve(self, frequency_hz: Array) -> Array:
         """Covariance of ln G' at the frequencies, then of eta. Shape (2 frequencies, 2 frequencies)."""
@@ -37,12 +42,22 @@ class LawPosterior:
         known = C[:, len(C) - bend :]
         return self._of_curve(frequency_hz, C - known @ known.T)
 
+    def stated_part(self, frequency_hz: Array) -> Array | None:
+        """The part of the errors of ln G', then of eta, that stated numbers make. Shape (2 frequencies,)."""
+        if self.by_stated is None:
+            return None
+        return np.asarray(np.linalg.norm(self._slopes(frequency_hz).T @ self.by_stated, axis=1))
+
     def _of_curve(self, frequency_hz: Array, C: Array) -> Array:
+        J = self._slopes(frequency_hz)
+        return np.asarray(J.T @ C @ J)
+
+    def _slopes(self, frequency_hz: Array) -> Array:
+        """Of ln G', then of eta, to the logarithms. Shape (law's numbers, 2 frequencies)."""
         omega = 2 * np.pi * frequency_hz
         storage, eta = self.law.storage_and_loss(omega)
         by = self.law.jacobian(omega) * self.law.values[:, None]
-        J = np.concatenate([by.real / storage, (by.imag - eta * by.real) / storage], axis=1)
-        return np.asarray(J.T @ C @ J)
+        return np.concatenate([by.real / storage, (by.imag - eta * by.real) / storage], axis=1)
 
 
 def posterior_of(facts: Any) -> LawPosterior | None:
@@ -53,7 +68,11 @@ def posterior_of(facts: Any) -> LawPosterior | None:
     except (ValidationError, BadInput, FittingError, KeyError, ValueError, TypeError):
         return None
     if found.posterior is not None and set(law.names) <= set(found.posterior.names):
-        return LawPosterior(law, found.posterior.covariance(law.names))
+        n, stated = len(law.names), [one.name for one in found.adjusted]
+        C = found.posterior.covariance([*law.names, *stated])
+        # A tolerance is a row of the fit like a reading, of slope 1 to its own number: what such a row passes
+        # on to another number is the covariance of both.
+        return LawPosterior(law, C[:n, :n], C[:n, n:])
     plain = found.covariance(law.plain.names)
     return LawPosterior(law.plain, plain) if found.bend is None and np.isfinite(plain).all() else None
 

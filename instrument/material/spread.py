@@ -13,12 +13,14 @@ from typing import Literal
 
 import numpy as np
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Mask
 from fitting.digits import two_digits
 from instrument.errors import BadInput
-from instrument.facts.comparison import SpreadAt, SpreadResult, SpreadSize
+from instrument.facts.comparison import SpecimenApart, SpreadAt, SpreadResult, SpreadSize
+from instrument.material.apart import LEVEL_APART, means_of_others, p_values
 from instrument.material.comparing import RESOLUTION, covariance_of
 from instrument.material.found_law import MaterialLaw
+from instrument.material.mean_error import mean_error
 
 Between = Literal["specimens", "mounts"]
 """What the laws are of: several specimens, or one that was mounted several times."""
@@ -43,10 +45,28 @@ class Size:
 
 
 @dataclass(frozen=True)
+class Apart:
+    """A specimen that is not like the others: it less their mean, relative, at the band's middle."""
+
+    name: str
+    p_value: float
+    storage: float
+    loss: float
+
+    def words(self, others: int, called: str, at_hz: float) -> str:
+        """One line; `called` are the others."""
+        return (
+            f"{self.name} is apart from the {others} other {called}: G' {100 * self.storage:+.2g} %, "
+            f"loss factor {100 * self.loss:+.2g} % at {at_hz:.4g} Hz (p = {self.p_value:.2g})"
+        )
+
+
+@dataclass(frozen=True)
 class Spread:
     """Of several specimens over their common band. Arrays have shape (frequencies,)."""
 
     names: tuple[str, ...]
+    """Of the specimens."""
     frequency_hz: Array
     storage_modulus_pa: Array
     """Of the common law."""
@@ -57,12 +77,26 @@ class Spread:
     storage: tuple[Size, ...]
     loss: tuple[Size, ...]
     """Of G' and of eta at every frequency."""
+    p_values: Array
+    """Chance that any of an honest group lies as far off as each specimen does, shape (specimens,).
+
+    NaN where they are too few to tell.
+    """
+    apart: tuple[Apart, ...] = ()
+    """Specimens that are not like the others."""
+    without: "Spread | None" = None
+    """The others among themselves; None where none is apart, or too few are left."""
     between: Between = "specimens"
+
+    @property
+    def middle(self) -> int:
+        """Which of its frequencies lines are of."""
+        return len(self.frequency_hz) // 2
 
     @property
     def words(self) -> str:
         """One line that a data sheet could have, of the band's middle."""
-        k = len(self.frequency_hz) // 2
+        k = self.middle
         said = [
             "{} {} % (95 %: {} to {} %)".format(
                 what, *(two_digits(100 * x) for x in (s.value, s.lower, s.upper))
@@ -73,6 +107,23 @@ class Spread:
             f"{_CALLED[self.between]} {len(self.names)} {self.between} at {self.frequency_hz[k]:.4g} Hz, "
             f"standard deviation: {', '.join(said)}"
         )
+
+    @property
+    def lines(self) -> list[str]:
+        """The spread, each specimen that is apart, and the spread without those."""
+        return self.lines_of(self.between)
+
+    def lines_of(self, called: str) -> list[str]:
+        """The same, where specimens are called something else."""
+
+        def of(spread: Spread) -> str:
+            return spread.words.replace(f" {self.between} at", f" {called} at", 1)
+
+        at, others = float(self.frequency_hz[self.middle]), len(self.names) - len(self.apart)
+        said = [of(self), *(one.words(others, called, at) for one in self.apart)]
+        if self.without is not None:
+            said.append(f"without {'it' if len(self.apart) == 1 else 'them'}: {of(self.without)}")
+        return said
 
 
 def spread_of(laws: Sequence[MaterialLaw], between: Between = "specimens") -> Spread:
@@ -91,11 +142,12 @@ def spread_of(laws: Sequence[MaterialLaw], between: Between = "specimens") -> Sp
             else ""
         )
         raise BadInput(f"{len(laws)} laws{left}, expected {FEWEST} or more to tell a spread from")
+    _check_repeats(laws)
     low, high = max(law.band_hz[0] for law in laws), min(law.band_hz[1] for law in laws)
     if not low < high:
         raise BadInput("the laws have no band in common, expected sweeps that overlap")
     f = np.geomspace(low, high, FREQUENCIES)
-    curves, each = [], []
+    curves, each, stated = [], [], []
     for law in laws:
         G = law.modulus(2 * np.pi * f)
         eta = G.imag / G.real
@@ -107,8 +159,30 @@ def spread_of(laws: Sequence[MaterialLaw], between: Between = "specimens") -> Sp
             raise BadInput(f"{law.source}: no standard errors, expected a law that says how well it is known")
         curves.append(np.concatenate([np.log(G.real), np.log(eta)]))
         each.append(error)
-    names = tuple(law.source for law in laws)
-    return replace(spread_of_curves(names, f, np.array(curves), np.array(each)), between=between)
+        part = law.posterior.stated_part(f) if law.posterior is not None else None
+        stated.append(error if part is None else part * size)
+    found = spread_of_curves(
+        tuple(law.source for law in laws),
+        f,
+        np.array(curves),
+        np.array(each),
+        np.array(stated),
+        [law.same for law in laws],
+    )
+    without = replace(found.without, between=between) if found.without is not None else None
+    return replace(found, between=between, without=without)
+
+
+def _check_repeats(laws: Sequence[MaterialLaw]) -> None:
+    """No two measurements give one law to the last digit: a copy would make a spread look smaller."""
+    seen: dict[bytes, str] = {}
+    for law in laws:
+        key = b"".join(c.tobytes() for c in (law.frequency_hz, law.storage_modulus_pa, law.loss_factor))
+        if key in seen:
+            raise BadInput(
+                f"{seen[key]} and {law.source}: the same law to the last digit, expected a measurement each"
+            )
+        seen[key] = law.source
 
 
 def _check_mounts(laws: Sequence[MaterialLaw]) -> None:
@@ -127,12 +201,57 @@ def _check_mounts(laws: Sequence[MaterialLaw]) -> None:
         raise BadInput(f"mounts of {' and '.join(sorted(stated))}, expected one specimen")
 
 
-def spread_of_curves(names: tuple[str, ...], frequency_hz: Array, curves: Array, errors: Array) -> Spread:
-    """Of ln G' at the frequencies, then of ln eta, with the standard error of each.
+def spread_of_curves(
+    names: tuple[str, ...],
+    frequency_hz: Array,
+    curves: Array,
+    errors: Array,
+    stated: Array,
+    same: Sequence[str | None],
+) -> Spread:
+    """Of ln G' at the frequencies, then of ln eta, with their errors and the part that stated numbers make.
 
-    Shapes (frequencies,) and twice (specimens, 2 frequencies).
+    Shapes (frequencies,) and three times (specimens, 2 frequencies). `same` says of each specimen which
+    numbers it states; None shares them with no other. Where a part is not known it is the whole error.
     """
-    found = [_one(y, e) for y, e in zip(curves.T, errors.T, strict=True)]
+    whole = _spread(names, frequency_hz, curves, errors, stated, same)
+    chances = p_values(curves, errors)
+    whole = replace(whole, p_values=chances)
+    far = np.nan_to_num(chances, nan=1.0) < LEVEL_APART
+    if not np.any(far):
+        return whole
+    apart = _apart(whole, curves, errors, far)
+    left = ~far
+    if np.sum(left) < FEWEST:
+        return replace(whole, apart=apart)
+    others = [[n for n, stays in zip(of, left, strict=True) if stays] for of in (names, same)]
+    without = _spread(
+        tuple(map(str, others[0])), frequency_hz, curves[left], errors[left], stated[left], others[1]
+    )
+    return replace(whole, apart=apart, without=without)
+
+
+def _apart(found: Spread, curves: Array, errors: Array, far: Mask) -> tuple[Apart, ...]:
+    """What is said of those that are far off, at the band's middle: of shape (specimens,)."""
+    k, n = found.middle, len(found.frequency_hz)
+    sizes = np.array([size.value for size in (*found.storage, *found.loss)])
+    off = np.expm1(curves - means_of_others(curves, errors, sizes))
+    return tuple(
+        Apart(found.names[i], float(found.p_values[i]), float(off[i, k]), float(off[i, n + k]))
+        for i in np.flatnonzero(far)
+    )
+
+
+def _spread(
+    names: tuple[str, ...],
+    frequency_hz: Array,
+    curves: Array,
+    errors: Array,
+    stated: Array,
+    same: Sequence[str | None],
+) -> Spread:
+    columns = zip(curves.T, errors.T, np.minimum(stated, errors).T, strict=True)
+    found = [_one(y, e, part, same) for y, e, part in columns]
     n = len(frequency_hz)
     mean, known = (np.array([one[k] for one in found], dtype=float) for k in (1, 2))
     sizes = tuple(one[0] for one in found)
@@ -145,23 +264,24 @@ def spread_of_curves(names: tuple[str, ...], frequency_hz: Array, curves: Array,
         known[n:],
         sizes[:n],
         sizes[n:],
+        np.full(len(names), np.nan),
     )
 
 
-def _one(y: Array, error: Array) -> tuple[Size, float, float]:
+def _one(y: Array, error: Array, stated: Array, same: Sequence[str | None]) -> tuple[Size, float, float]:
     """The spread of one quantity at one frequency; the common value and its standard error."""
     profile = np.array([_restricted(y, error, tau)[0] for tau in _SIZES])
     size = _size(profile)
-    _, mean, known = _restricted(y, error, size.value)
-    return size, mean, known
+    _, mean = _restricted(y, error, size.value)
+    return size, mean, mean_error(y, error, stated, same, size.value)
 
 
-def _restricted(y: Array, error: Array, tau: float) -> tuple[float, float, float]:
-    """Twice the restricted log likelihood, the common value and its standard error."""
+def _restricted(y: Array, error: Array, tau: float) -> tuple[float, float]:
+    """Twice the restricted log likelihood, and the common value."""
     w = 1 / (error**2 + tau**2)
     mean = float(np.sum(w * y) / np.sum(w))
     twice = float(np.sum(np.log(w)) - np.log(np.sum(w)) - np.sum(w * (y - mean) ** 2))
-    return twice, mean, float(1 / np.sqrt(np.sum(w)))
+    return twice, mean
 
 
 def _size(profile: Array) -> Size:
@@ -190,7 +310,25 @@ def _size(profile: Array) -> Size:
 
 def spread_result(found: Spread) -> SpreadResult:
     """As JSON has it."""
-    return SpreadResult(specimens=found.names, frequencies=spread_rows(found))
+    return SpreadResult(
+        specimens=found.names,
+        frequencies=spread_rows(found),
+        apart=apart_rows(found),
+        without_apart=spread_rows(found.without) if found.without is not None else (),
+    )
+
+
+def apart_rows(found: Spread) -> tuple[SpecimenApart, ...]:
+    """One a specimen that is not like the others."""
+    return tuple(
+        SpecimenApart(
+            name=one.name,
+            p_value=one.p_value,
+            storage_modulus_difference_percent=100 * one.storage,
+            loss_factor_difference_percent=100 * one.loss,
+        )
+        for one in found.apart
+    )
 
 
 def spread_rows(found: Spread) -> tuple[SpreadAt, ...]:

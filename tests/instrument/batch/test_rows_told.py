@@ -8,9 +8,9 @@ from instrument.batch.counted import Counted
 from instrument.batch.families import with_families
 from instrument.batch.figure import laws_figure
 from instrument.batch.journal import NAME, OutcomeJournal
-from instrument.batch.run import BatchRow
+from instrument.batch.run import BatchRow, run_batch
 from instrument.batch.task import BatchTask
-from instrument.errors import BadInput
+from instrument.errors import BadInput, StoppedByUser
 
 LAW = {
     "frequency_hz": [10.0, 30.0, 90.0],
@@ -65,6 +65,7 @@ def test_a_failed_row_says_its_reason_and_no_number():
         "specimen": None,
         "hammer": None,
         "temperature_c": None,
+        "material": None,
         "status": "failed",
         "reason": "no such file",
     }
@@ -153,3 +154,25 @@ def test_the_first_specimen_of_its_kind_lends_its_model_to_the_others(tmp_path):
     asked = [first, thicker, exact, tmp_path / "none.toml", first]
     tasks = [BatchTask("a.csv"), *(BatchTask("a.csv", str(path)) for path in asked)]
     assert [task.like for task in with_families(tasks)] == [None, None, str(first), None, None, None]
+
+
+def test_a_batch_that_is_stopped_says_how_many_rows_it_will_not_do_again(tmp_path):
+    paths = [tmp_path / f"{k}.csv" for k in range(4)]
+    for k, path in enumerate(paths):
+        path.write_text(f"{k}", encoding="utf-8")
+    tasks = [BatchTask(str(path)) for path in (*paths, tmp_path / "gone.csv", paths[0])]
+
+    def stopped(done):
+        def runner(left, keep):
+            for task, again in zip(left, done, strict=False):
+                keep(task, {**DONE, "again": again})
+            raise KeyboardInterrupt
+
+        return runner
+
+    with pytest.raises(StoppedByUser, match=r"^0 of 6 rows done"):
+        run_batch(tasks, tmp_path, stopped([True]))
+    with pytest.raises(StoppedByUser, match=r"^2 of 6 rows done"):
+        run_batch(tasks, tmp_path, stopped([False, True]))
+    with pytest.raises(StoppedByUser, match=r"^3 of 6 rows done"):
+        run_batch(tasks, tmp_path, stopped([False]))

@@ -73,3 +73,29 @@ def test_a_law_of_an_unknown_verdict_is_not_in_the_spread(tmp_path, capsys):
     assert "spread between 4 specimens" in said
     with pytest.raises(BadInput, match="2 laws, 1 more of verdict unknown or in doubt, expected 3"):
         spread_of([read_law(p) for p in paths[:3]])
+
+
+def test_a_law_that_is_given_twice_is_refused(tmp_path, capsys):
+    paths = specimens(tmp_path, 0.04, 4, 4)
+    copy = tmp_path / "copy.json"
+    copy.write_bytes(paths[1].read_bytes())
+    assert run(["compare", "--spread", *map(str, paths), str(copy)]) == 2
+    assert "4-1.json and copy.json: the same law to the last digit" in capsys.readouterr().err
+
+
+def test_the_command_names_a_specimen_that_is_not_like_the_others(tmp_path, capsys):
+    paths = specimens(tmp_path, 0.01, 5, 6)
+    stiff = TABLE_4.with_values(TABLE_4.values * np.array([1.5, 1.5, 1.0, 1.0]))
+    paths[2].write_text(json.dumps(facts(stiff)), encoding="utf-8")
+    out = tmp_path / "spread.json"
+    assert run(["compare", "--spread", *map(str, paths), "--json", str(out)]) == 0
+    said = capsys.readouterr().out
+    assert "5-2.json is apart from the 5 other specimens: G' +" in said
+    assert "without it: spread between 5 specimens" in said
+    found = json.loads(out.read_text())["spread"]
+    assert [one["name"] for one in found["apart"]] == ["5-2.json"]
+    spreads = [
+        rows[3]["storage_modulus_spread"]["percent"]
+        for rows in (found["frequencies"], found["without_apart"])
+    ]
+    assert spreads[0] > 10 > 5 > spreads[1]
