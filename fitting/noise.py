@@ -67,6 +67,25 @@ def noise_of(sweep: Sweep) -> Noise:
     return Noise(std, "local scatter")
 
 
+def scatter_of_left(sweep: Sweep, left: NDArray[Any]) -> Array:
+    """Noise of every point by what a fit leaves, of the form that `noise_of` has: by what jumps there.
+
+    What the model misses smoothly does not jump from point to point. Where a resonance has but a few points
+    the local model of readings leaves most of it, and its scatter is many times the noise. Shape (points,)
+    of `left`, phasors or amplitudes.
+    """
+    std = np.zeros(len(sweep))
+    for group in groups_of(sweep):
+        order = group[np.argsort(sweep.frequency_hz[group], kind="stable")]
+        # The variance of r_1 - 2 r_2 + r_3.
+        square = np.abs(np.diff(left[order], 2)) ** 2 / 6
+        parts = 2 if np.iscomplexobj(left) else 1
+        size = np.abs(sweep.response_m_s[order]) ** 2
+        middle = np.arange(1, len(order) - 1)
+        std[order] = np.sqrt(_variance(sweep.frequency_hz[order], size, middle, square / parts, parts))
+    return std
+
+
 def scatter_over_stated(sweep: Sweep) -> float | None:
     """Local scatter over stated noise, over all points; None where either is not there.
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from fitting.arrays import Array
 from fitting.aside import Reasons, reasons
 from fitting.diagnosis import text
 from fitting.diagnosis.begin import begin
@@ -25,7 +26,7 @@ from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
 from fitting.identification.result import BIASED
 from fitting.laws import CoreLaw
-from fitting.noise import Noise, noise_of
+from fitting.noise import Noise, noise_of, scatter_of_left
 from fitting.reduced import ReducedPlate
 from fitting.sweep import Sweep
 
@@ -151,8 +152,9 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
     singles = Singles(search, lambda x: report(0.5 * x)).best()
     share = _noise_left(search, singles) if noise.source == "local scatter" else 1.0
     if share < VERDICT.overstated:
-        # What scatters from point to point need not be noise: a drift does, in a sweep that jumps about.
-        search = search.with_evidence(search.evidence.scaled(float(np.sqrt(share))))
+        # What scatters from point to point need not be noise: a drift does, in a sweep that jumps about, and
+        # so does a resonance of a few points.
+        search = search.with_evidence(search.evidence.with_noise(_noise_of_left(search, singles[0])))
         singles = Singles(search, lambda x: report(0.5)).best()
     singles = _bettered(singles, [one for best in singles[:1] for one in search.elsewhere(best)])
     leading = [t for t in singles if t.cost < singles[0].cost + SEARCH.near]
@@ -190,6 +192,14 @@ def _noise_left(search: Search, scored_fits: Sequence[ScoredFit]) -> float:
     parts = 2 if search.evidence.has_phase else 1
     rough = roughness(search.problem.sweep, best.residuals[: best.data], parts)
     return float(np.nanmin([best.chi2_per_dof, rough]))
+
+
+def _noise_of_left(search: Search, best: ScoredFit) -> Array:
+    """Noise of every point by what the best fit leaves, its unknowns counted. Shape (points,)."""
+    fitted, measured = best.fitted, search.evidence.measured_m_s
+    v = fitted.velocity_m_s if search.evidence.has_phase else np.abs(fitted.velocity_m_s)
+    dof = max(1, fitted.data - fitted.parameter_count)
+    return scatter_of_left(search.problem.sweep, v - measured) * float(np.sqrt(fitted.data / dof))
 
 
 def _rivals(

@@ -142,8 +142,7 @@ class Evidence:
     @cached_property
     def _per_sigma(self) -> Array:
         """Of every datum. Shape (count,)."""
-        per_sigma = 1 / self.sigma_m_s
-        return np.tile(per_sigma, 2) if self.has_phase else per_sigma
+        return self._each(1 / self.sigma_m_s)
 
     def bare_moves(self, effect: Effect, u: Array) -> Array:
         """Change of the bare plate's whitened residuals as an effect comes in. Shape (modes,), or none."""
@@ -169,6 +168,17 @@ class Evidence:
             self.scale_known,
             self.bare,
         )
+
+    def with_noise(self, noise_m_s: Array) -> "Evidence":
+        """The same readings with another noise, the model's error as it is. Shape (points,)."""
+        white = SHARE * np.abs(self.measured_m_s)
+        times = np.hypot(noise_m_s, white) / np.hypot(self.noise_m_s, white)
+        B = self.B / self._each(times)[:, None] if self.B.shape[0] == self.count else self.B
+        return Evidence(self.measured_m_s, self.sigma_m_s * times, noise_m_s, B, self.scale_known, self.bare)
+
+    def _each(self, of_points: Array) -> Array:
+        """Of every datum. Shape (points,) to (count,)."""
+        return np.tile(of_points, 2) if self.has_phase else of_points
 
     def _stack(self, z: Complex | Array) -> Array:
         return np.concatenate([z.real, z.imag], axis=-1) if self.has_phase else np.real(z)

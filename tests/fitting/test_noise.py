@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from conftest import DATA
 
-from fitting.noise import around, noise_of
+from fitting.noise import around, noise_of, scatter_of_left
 from fitting.sweep import Sweep, resonance_points, segments_by_gap
 from instrument.files.sweep_file import read_sweep
 
@@ -142,3 +142,21 @@ def test_what_is_left_around_follows_where_it_grows_and_not_what_is_off():
     assert found[[40, 104, 166]] == pytest.approx([1.4, 2.0, 2.6], rel=0.45)
     assert found[0] == found[3]
     assert not around(left[:50], 56).any()
+
+
+def test_of_a_resonance_with_a_few_points_what_a_fit_leaves_says_what_readings_do_not():
+    rng = np.random.default_rng(6)
+    f = np.geomspace(25, 1200, 40)
+    v = sum(peak(f, resonance, 0.06) for resonance in (40.0, 150.0, 500.0))
+    true = 0.004 * np.abs(v)
+    ratios, local = [], []
+    for _ in range(20):
+        noise = true * (rng.normal(size=40) + 1j * rng.normal(size=40))
+        read = sweep_of(f, v + noise)
+        # The fit is off by as much as the noise is, smoothly.
+        left = noise + 0.004 * np.median(np.abs(v)) * np.sin(np.log(f))
+        ratios.append(np.median(scatter_of_left(read, left) / true))
+        local.append(np.median(noise_of(read).std_m_s / true))
+    # A peak's readings, noisier than its neighbours', are in their jumps too.
+    assert 0.9 < np.mean(ratios) < 1.5
+    assert np.mean(local) > 1.4 * np.mean(ratios)
