@@ -66,7 +66,7 @@ def test_a_result_is_as_its_schema_says(name):
     ],
 )
 def test_what_is_made_of_laws_is_as_its_schema_says(capsys, monkeypatch, tmp_path, command, arguments):
-    made = {"a": {}, "b": {"low": 20.0}, "c": {}, "elsewhere": {"low": 500.0, "high": 900.0}}
+    made = {"a": {}, "b": {"low": 20.0}, "c": {"low": 16.0}, "elsewhere": {"low": 500.0, "high": 900.0}}
     for name, how in made.items():
         (tmp_path / f"{name}.json").write_text(json.dumps(law_facts(TABLE_4, **how)))
     unknown = law_facts(TABLE_4) | {"standard_errors": dict.fromkeys(TABLE_4.names)}
