@@ -12,8 +12,10 @@ from batch_cases import CORRUPT, write_specimen, write_sweeps
 from ending_jobs import end_always, end_once
 
 from instrument.batch.asking import tasks_of
+from instrument.batch.between import between_rows, marks_of
 from instrument.batch.run import here, run_batch, there
 from instrument.batch.table import write_tables
+from instrument.batch.taking_part import repeats_among
 from instrument.errors import BadInput
 from instrument.models.processes import in_processes
 from instrument.progress import LINES
@@ -28,8 +30,14 @@ def case(tmp_path_factory):
     sweeps = write_sweeps(folder, plate, COUNT)
     sweeps[5].write_text(CORRUPT, encoding="utf-8")
     with run_batch(tasks_of(sweeps, plate), folder / "whole", here(1)) as rows:
-        write_tables(rows, folder / "whole")
+        write(rows, folder / "whole")
     return sweeps, plate, (folder / "whole" / "batch.csv").read_bytes()
+
+
+def write(rows, folder):
+    """As the command does."""
+    repeats = repeats_among(rows)
+    write_tables(rows, folder, marks_of(between_rows(rows, repeats), repeats))
 
 
 def keys_in(folder):
@@ -115,7 +123,7 @@ def test_a_killed_dask_worker_costs_its_tasks_only(tmp_path, case, cluster):
                 workers[0].kill()
 
     with run_batch(tasks_of(sweeps, plate), tmp_path, there(address), Reporting) as rows:
-        write_tables(rows, tmp_path)
+        write(rows, tmp_path)
     assert seen
     assert workers[0].wait() == -signal.SIGKILL
     assert (tmp_path / "batch.csv").read_bytes() == whole
