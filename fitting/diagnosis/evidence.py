@@ -173,7 +173,7 @@ class Evidence:
         """The same readings with another noise, the model's error as it is. Shape (points,)."""
         white = SHARE * np.abs(self.measured_m_s)
         times = np.hypot(noise_m_s, white) / np.hypot(self.noise_m_s, white)
-        B = self.B / self._each(times)[:, None] if self.B.shape[0] == self.count else self.B
+        B = self.B / self._each(times)[:, None]
         return Evidence(self.measured_m_s, self.sigma_m_s * times, noise_m_s, B, self.scale_known, self.bare)
 
     def _each(self, of_points: Array) -> Array:

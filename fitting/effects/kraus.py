@@ -45,10 +45,6 @@ class Kraus:
         r = s ** (2 * self.exponent)
         return np.asarray(self.loss * (1 + self.saturation) * np.sqrt(r) / (1 + self.saturation * r))
 
-    def of(self, G: Complex, s: Array) -> Complex:
-        """Modulus under strains `s`, in the unit of `G`, that of none. Shape (..., points), `s` (points,)."""
-        return strained(G, self.lost(s), self.gained(s))
-
 
 def strained(G: Complex, lost: Array | float, gained: Array | float) -> Complex:
     """A modulus less the share `lost`, and `gained` in loss modulus over its own sqrt(G' G'').
