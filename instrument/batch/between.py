@@ -12,14 +12,8 @@ from instrument.batch.run import BatchRow
 from instrument.batch.taking_part import Group, group_of, law_of, repeats_among
 from instrument.facts.batch import BatchSpread
 from instrument.material.comparing import RESOLUTION
-from instrument.material.spread import (
-    FEWEST,
-    FREQUENCIES,
-    Spread,
-    apart_rows,
-    spread_of_curves,
-    spread_rows,
-)
+from instrument.material.spread import FEWEST, FREQUENCIES, Curves, Spread, spread_of_curves
+from instrument.material.spread_facts import apart_rows, spread_rows
 
 
 @dataclass(frozen=True)
@@ -110,15 +104,15 @@ def _order(item: tuple[Group, list[_Curve]]) -> tuple[bool, str, bool, float]:
 
 
 def _between(group: Group, frequency_hz: Array, some: Sequence[_Curve]) -> Between:
-    spread = spread_of_curves(
+    curves = Curves(
         tuple(one.name for one in some),
         frequency_hz,
         np.array([one.values for one in some]),
         np.array([one.errors for one in some]),
         np.array([one.stated for one in some]),
-        [one.same for one in some],
+        tuple(one.same for one in some),
     )
-    return Between(*group, spread, tuple(one.place for one in some))
+    return Between(*group, spread_of_curves(curves), tuple(one.place for one in some))
 
 
 def _taking_part(

@@ -14,7 +14,8 @@ from instrument.interchange.questions import kelvin_doubt
 from instrument.material.comparing import LEVEL, Comparison, compared_pair
 from instrument.material.comparing import compare as compare_laws
 from instrument.material.found_law import read_law
-from instrument.material.spread import spread_of, spread_result
+from instrument.material.spread import spread_of
+from instrument.material.spread_facts import spread_result
 from instrument.progress import bar
 
 _WARMER = 1.0

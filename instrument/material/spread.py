@@ -16,7 +16,6 @@ import numpy as np
 from fitting.arrays import Array, Mask
 from fitting.digits import two_digits
 from instrument.errors import BadInput
-from instrument.facts.comparison import SpecimenApart, SpreadAt, SpreadResult, SpreadSize
 from instrument.material.apart import LEVEL_APART, means_of_others, p_values
 from instrument.material.comparing import RESOLUTION, covariance_of
 from instrument.material.found_law import MaterialLaw
@@ -33,6 +32,36 @@ _SIZES = np.geomspace(3e-4, 2.0, 121)
 """Relative standard deviations looked at: from below the models' own resolution to beyond any batch."""
 _RISE = 3.841459
 """Of twice the log likelihood at the ends of a 95 % interval."""
+
+
+@dataclass(frozen=True)
+class Curves:
+    """Laws of several specimens at the same frequencies, and what is not known of each."""
+
+    names: tuple[str, ...]
+    """Of the specimens."""
+    frequency_hz: Array
+    """Shape (frequencies,)."""
+    logs: Array
+    """Of G' at the frequencies, then of eta. Shape (specimens, 2 frequencies)."""
+    errors: Array
+    """Standard errors of `logs`."""
+    stated: Array
+    """The part of them that stated numbers make; the whole where it is not known."""
+    same: tuple[str | None, ...]
+    """Which numbers each specimen states; None shares them with no other."""
+
+    def those(self, of_them: Mask) -> "Curves":
+        """Some of the specimens. Shape (specimens,)."""
+        k = np.flatnonzero(of_them)
+        return Curves(
+            tuple(self.names[i] for i in k),
+            self.frequency_hz,
+            self.logs[k],
+            self.errors[k],
+            self.stated[k],
+            tuple(self.same[i] for i in k),
+        )
 
 
 @dataclass(frozen=True)
@@ -161,14 +190,8 @@ def spread_of(laws: Sequence[MaterialLaw], between: Between = "specimens") -> Sp
         each.append(error)
         part = law.posterior.stated_part(f) if law.posterior is not None else None
         stated.append(error if part is None else part * size)
-    found = spread_of_curves(
-        tuple(law.source for law in laws),
-        f,
-        np.array(curves),
-        np.array(each),
-        np.array(stated),
-        [law.same for law in laws],
-    )
+    names, same = tuple(law.source for law in laws), tuple(law.same for law in laws)
+    found = spread_of_curves(Curves(names, f, np.array(curves), np.array(each), np.array(stated), same))
     without = replace(found.without, between=between) if found.without is not None else None
     return replace(found, between=between, without=without)
 
@@ -201,70 +224,45 @@ def _check_mounts(laws: Sequence[MaterialLaw]) -> None:
         raise BadInput(f"mounts of {' and '.join(sorted(stated))}, expected one specimen")
 
 
-def spread_of_curves(
-    names: tuple[str, ...],
-    frequency_hz: Array,
-    curves: Array,
-    errors: Array,
-    stated: Array,
-    same: Sequence[str | None],
-) -> Spread:
-    """Of ln G' at the frequencies, then of ln eta, with their errors and the part that stated numbers make.
-
-    Shapes (frequencies,) and three times (specimens, 2 frequencies). `same` says of each specimen which
-    numbers it states; None shares them with no other. Where a part is not known it is the whole error.
-    """
-    whole = _spread(names, frequency_hz, curves, errors, stated, same)
-    chances = p_values(curves, errors)
-    whole = replace(whole, p_values=chances)
+def spread_of_curves(curves: Curves) -> Spread:
+    """By restricted maximum likelihood, and who is apart."""
+    chances = p_values(curves.logs, curves.errors)
+    whole = replace(_spread(curves), p_values=chances)
     far = np.nan_to_num(chances, nan=1.0) < LEVEL_APART
     if not np.any(far):
         return whole
-    apart = _apart(whole, curves, errors, far)
-    left = ~far
-    if np.sum(left) < FEWEST:
-        return replace(whole, apart=apart)
-    others = [[n for n, stays in zip(of, left, strict=True) if stays] for of in (names, same)]
-    without = _spread(
-        tuple(map(str, others[0])), frequency_hz, curves[left], errors[left], stated[left], others[1]
-    )
-    return replace(whole, apart=apart, without=without)
+    whole = replace(whole, apart=_apart(whole, curves, far))
+    return replace(whole, without=_spread(curves.those(~far))) if np.sum(~far) >= FEWEST else whole
 
 
-def _apart(found: Spread, curves: Array, errors: Array, far: Mask) -> tuple[Apart, ...]:
+def _apart(found: Spread, curves: Curves, far: Mask) -> tuple[Apart, ...]:
     """What is said of those that are far off, at the band's middle: of shape (specimens,)."""
     k, n = found.middle, len(found.frequency_hz)
     sizes = np.array([size.value for size in (*found.storage, *found.loss)])
-    off = np.expm1(curves - means_of_others(curves, errors, sizes))
+    off = np.expm1(curves.logs - means_of_others(curves.logs, curves.errors, sizes))
     return tuple(
         Apart(found.names[i], float(found.p_values[i]), float(off[i, k]), float(off[i, n + k]))
         for i in np.flatnonzero(far)
     )
 
 
-def _spread(
-    names: tuple[str, ...],
-    frequency_hz: Array,
-    curves: Array,
-    errors: Array,
-    stated: Array,
-    same: Sequence[str | None],
-) -> Spread:
-    columns = zip(curves.T, errors.T, np.minimum(stated, errors).T, strict=True)
-    found = [_one(y, e, part, same) for y, e, part in columns]
-    n = len(frequency_hz)
+def _spread(curves: Curves) -> Spread:
+    stated = np.minimum(curves.stated, curves.errors)
+    columns = zip(curves.logs.T, curves.errors.T, stated.T, strict=True)
+    found = [_one(y, e, part, curves.same) for y, e, part in columns]
+    n = len(curves.frequency_hz)
     mean, known = (np.array([one[k] for one in found], dtype=float) for k in (1, 2))
     sizes = tuple(one[0] for one in found)
     return Spread(
-        names,
-        frequency_hz,
+        curves.names,
+        curves.frequency_hz,
         np.exp(mean[:n]),
         np.exp(mean[n:]),
         known[:n],
         known[n:],
         sizes[:n],
         sizes[n:],
-        np.full(len(names), np.nan),
+        np.full(len(curves.names), np.nan),
     )
 
 
@@ -306,46 +304,3 @@ def _size(profile: Array) -> Size:
     if last < len(_SIZES) - 1:
         upper = float(np.exp(np.interp(level, profile[last : last + 2][::-1], logs[last : last + 2][::-1])))
     return Size(value, lower, upper)
-
-
-def spread_result(found: Spread) -> SpreadResult:
-    """As JSON has it."""
-    return SpreadResult(
-        specimens=found.names,
-        frequencies=spread_rows(found),
-        apart=apart_rows(found),
-        without_apart=spread_rows(found.without) if found.without is not None else (),
-    )
-
-
-def apart_rows(found: Spread) -> tuple[SpecimenApart, ...]:
-    """One a specimen that is not like the others."""
-    return tuple(
-        SpecimenApart(
-            name=one.name,
-            p_value=one.p_value,
-            storage_modulus_difference_percent=100 * one.storage,
-            loss_factor_difference_percent=100 * one.loss,
-        )
-        for one in found.apart
-    )
-
-
-def spread_rows(found: Spread) -> tuple[SpreadAt, ...]:
-    """One a frequency."""
-    return tuple(
-        SpreadAt(
-            frequency_hz=f,
-            storage_modulus_pa=found.storage_modulus_pa[k],
-            storage_modulus_standard_error_pa=found.storage_modulus_pa[k] * found.storage_error[k],
-            storage_modulus_spread=_said(found.storage[k]),
-            loss_factor=found.loss_factor[k],
-            loss_factor_standard_error=found.loss_factor[k] * found.loss_factor_error[k],
-            loss_factor_spread=_said(found.loss[k]),
-        )
-        for k, f in enumerate(found.frequency_hz)
-    )
-
-
-def _said(s: Size) -> SpreadSize:
-    return SpreadSize(percent=100 * s.value, interval_95_percent=(100 * s.lower, 100 * s.upper))
