@@ -82,9 +82,11 @@ def probe():
 
 
 def lasting(facts):
-    """Facts without how long it took."""
+    """Facts without how long it took, and without what the posterior beside it says in another form."""
     if isinstance(facts, dict):
-        return {k: lasting(v) for k, v in facts.items() if not re.search(r"(^|_)seconds$", k)}
+        return {
+            k: lasting(v) for k, v in facts.items() if not re.search(r"(^|_)seconds$", k) and k != "law_known"
+        }
     return [lasting(v) for v in facts] if isinstance(facts, list) else facts
 
 

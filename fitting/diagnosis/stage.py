@@ -1,6 +1,7 @@
 """A fit before or after, with everything that is said of it."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,7 +16,8 @@ from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.structure import structure
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.identification.adjusted import Adjusted
-from fitting.identification.result import LawBand, differences_percent, law_band
+from fitting.identification.known_curve import KnownCurve, known_curve, known_of_mixture
+from fitting.identification.result import LawBand, differences_percent, law_band, sweep_range
 from fitting.identification.uncertainty import Uncertainty, limits_reached
 from fitting.identification.validation import Validation
 
@@ -28,7 +30,8 @@ def stage_of(
 ) -> Stage:
     """`validation` is what the fit says of data it has not seen; `scale` multiplies its covariance."""
     law = fitted.law
-    C = scale * posterior(response_of(problem, fitted.effects), evidence, fitted)
+    as_fitted = posterior(response_of(problem, fitted.effects), evidence, fitted)
+    C = scale * as_fitted
     uncertainty = _of_law(fitted, C)
     reached = uncertainty.at_bound
     plain = law.plain
@@ -41,7 +44,9 @@ def stage_of(
             name: float("nan") if name in reached else float(e)
             for name, e in zip(plain.names, errors, strict=True)
         },
-        band=law_band(problem.sweep, law, uncertainty),
+        band=replace(
+            law_band(problem.sweep, law, uncertainty), known=_known(problem, fitted, as_fitted, scale)
+        ),
         predicted_m_s=fitted.velocity_m_s,
         difference_percent=differences_percent(problem.sweep, fitted.velocity_m_s),
         whitened=whitened,
@@ -64,6 +69,13 @@ def _of_law(fitted: Refitted, covariance: Array) -> Uncertainty:
     return Uncertainty(by_law, reached, fitted.chi2_per_dof)
 
 
+def _known(problem: DiagnosisProblem, fitted: Refitted, covariance: Array, scale: float) -> KnownCurve | None:
+    """`covariance` as fitted, `scale` times of which is what is known."""
+    names = [one.name for one in adjusted_of(problem, fitted, covariance)]
+    known = known_curve(fitted.law, covariance, names, *sweep_range(problem.sweep))
+    return known.wider(scale) if known is not None else None
+
+
 def adjusted_of(problem: DiagnosisProblem, fitted: Refitted, covariance: Array) -> tuple[Adjusted, ...]:
     """The stated numbers as a fit has them. `covariance` of shape (columns, columns)."""
     n = len(fitted.law.names)
@@ -84,13 +96,13 @@ def mixed_band(
 
     Each brings its own posterior; where they disagree, so does the band.
     """
-    bands, shares = [], np.array([p for _, p in group])
+    bands = []
     for scored, _ in group:
-        fitted = scored.fitted
+        fitted, scale = scored.fitted, search.temper(scored)
         C = posterior(response_of(problem, fitted.effects), search.evidence, fitted)
-        bands.append(law_band(problem.sweep, fitted.law, _of_law(fitted, search.temper(scored) * C)))
-
-    return mixture_of(bands, shares)
+        band = law_band(problem.sweep, fitted.law, _of_law(fitted, scale * C))
+        bands.append(replace(band, known=_known(problem, fitted, C, scale)))
+    return mixture_of(bands, np.array([p for _, p in group]))
 
 
 def mixture_of(bands: Sequence[LawBand], shares: Array) -> LawBand:
@@ -104,7 +116,11 @@ def mixture_of(bands: Sequence[LawBand], shares: Array) -> LawBand:
 
     G, G_error = mixture("storage_modulus_pa", "storage_modulus_standard_error_pa")
     eta, eta_error = mixture("loss_factor", "loss_factor_standard_error")
-    return LawBand(bands[0].frequency_hz, G, eta, G_error, eta_error)
+    known = [b.known for b in bands if b.known is not None]
+    whole = None
+    if len(known) == len(bands):
+        whole = known_of_mixture([b.values_at(known[0].frequency_hz) for b in bands], known, shares)
+    return LawBand(bands[0].frequency_hz, G, eta, G_error, eta_error, whole)
 
 
 def found_effects(

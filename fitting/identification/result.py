@@ -1,7 +1,7 @@
 """The one result of an identification, whichever method found it."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,7 @@ from fitting.bent_law import BentLaw
 from fitting.digits import written_out
 from fitting.identification.as_stated import is_unlikely, pulled_together
 from fitting.identification.fit import Fit
+from fitting.identification.known_curve import KnownCurve, known_curve
 from fitting.identification.uncertainty import Uncertainty, uncertainty_of
 from fitting.identification.validation import Validation, rms
 from fitting.laws import CoreLaw
@@ -48,6 +49,14 @@ class LawBand:
     loss_factor: Array
     storage_modulus_standard_error_pa: Array
     loss_factor_standard_error: Array
+    known: KnownCurve | None = None
+    """The same of the curve as a whole, where that is known."""
+
+    def values_at(self, frequency_hz: Array) -> Array:
+        """Ln G' at frequencies inside, then eta. Shape (2 frequencies,)."""
+        x, at = np.log(self.frequency_hz), np.log(frequency_hz)
+        storage = np.interp(at, x, np.log(self.storage_modulus_pa))
+        return np.concatenate([storage, np.interp(at, x, self.loss_factor)])
 
 
 @dataclass(frozen=True)
@@ -110,7 +119,7 @@ def summarise(
     known = noise.is_known and method == "direct"
     whole = uncertainty_of(fit, noise_is_known=known)
     uncertainty = whole.of_first(len(fit.law.plain.names))
-    band = law_band(sweep, fit.law, whole)
+    band = replace(law_band(sweep, fit.law, whole), known=_known(sweep, fit, whole))
     return Identification(
         method=method,
         law=fit.law.plain,
@@ -133,12 +142,23 @@ def summarise(
 
 def law_band(sweep: Sweep, law: CoreLaw, uncertainty: Uncertainty, points: int = _BAND_POINTS) -> LawBand:
     """The law over the measured range, logarithmic in frequency, with the reference frequencies inside it."""
-    low, high = float(sweep.frequency_hz.min()), float(sweep.frequency_hz.max())
+    low, high = sweep_range(sweep)
     inside = [f for f in REFERENCE_FREQUENCIES_HZ if low <= f <= high]
     f = np.unique(np.concatenate([np.geomspace(low, high, points), inside]))
     omega = 2 * np.pi * f
     G, eta = law.storage_and_loss(omega)
     return LawBand(f, G, eta, *uncertainty.law_band(law, omega))
+
+
+def _known(sweep: Sweep, fit: Fit, whole: Uncertainty) -> KnownCurve | None:
+    if fit.posterior is None or np.isnan(whole.covariance).any():
+        return known_curve(fit.law, whole.covariance, (), *sweep_range(sweep))
+    return known_curve(fit.law, fit.posterior, [one.name for one in fit.adjusted], *sweep_range(sweep))
+
+
+def sweep_range(sweep: Sweep) -> tuple[float, float]:
+    """The first and the last frequency measured, Hz."""
+    return float(sweep.frequency_hz.min()), float(sweep.frequency_hz.max())
 
 
 def doubts_of(warnings: Iterable[str]) -> list[str]:

@@ -38,6 +38,8 @@ class ModalFit:
     law: CoreLaw
     """With its bend."""
     uncertainty: Uncertainty
+    posterior: Array
+    """Covariance of the law's log parameters, of the stated numbers in their tolerances, then of the rest."""
     predicted_hz: tuple[Array, ...]
     predicted_loss: tuple[Array, ...]
     as_stated_hz: tuple[Array, ...]
@@ -163,6 +165,7 @@ def modal_fit_of(begun: BegunModal, fitted: Refitted | None = None) -> ModalFit:
     return ModalFit(
         fitted.law,
         Uncertainty(C[:n, :n], limits_reached(fitted.law), fitted.chi2_per_dof),
+        C,
         tuple(f[part] for part in problem.parts),
         tuple(eta[part] for part in problem.parts),
         tuple(np.exp(as_stated.real[part]) for part in problem.parts),

@@ -111,6 +111,7 @@ def _between(group: Group, frequency_hz: Array, some: Sequence[_Curve]) -> Betwe
         np.array([one.errors for one in some]),
         np.array([one.stated for one in some]),
         tuple(one.same for one in some),
+        np.zeros((len(some), 2 * len(frequency_hz))),
     )
     return Between(*group, spread_of_curves(curves), tuple(one.place for one in some))
 

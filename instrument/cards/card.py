@@ -8,8 +8,8 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.errors import FittingError
 from fitting.prony import Prony, fit_prony
+from instrument.material.formula import formula
 from instrument.material.found_law import MaterialLaw
-from instrument.material.knowledge import formula
 
 USUAL_POISSON = 0.49
 """Of a viscoelastic core where nobody states it: nearly incompressible; cards say that it is assumed."""

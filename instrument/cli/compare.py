@@ -1,5 +1,6 @@
 """`viscorig compare`: which laws differ beyond their uncertainties, and where."""
 
+from collections.abc import Sequence
 from itertools import combinations
 from pathlib import Path
 
@@ -11,9 +12,10 @@ from instrument.cli.options import NumberRange, file_arguments, json_option
 from instrument.cli.output import Output
 from instrument.facts.comparison import CompareResult
 from instrument.interchange.questions import kelvin_doubt
+from instrument.material.alike import alike_in, stated_unlike
 from instrument.material.comparing import LEVEL, Comparison, compared_pair
 from instrument.material.comparing import compare as compare_laws
-from instrument.material.found_law import read_law
+from instrument.material.found_law import MaterialLaw, read_law
 from instrument.material.spread import spread_of
 from instrument.material.spread_facts import spread_result
 from instrument.progress import bar
@@ -38,6 +40,12 @@ _SAYS = {True: "differ", False: "not told apart", None: "cannot be told"}
     "from the uncertainty of each law: three or more.",
 )
 @click.option(
+    "--same-specimen",
+    is_flag=True,
+    help="FILES are of one specimen, measured again: what its own stated numbers are off by is alike in all "
+    "of them, and makes no difference.",
+)
+@click.option(
     "--repeatability",
     "repeatability_percent",
     type=NumberRange(0, 100),
@@ -50,6 +58,7 @@ def compare(
     files: tuple[Path, ...],
     with_spread: bool,
     remounts: bool,
+    same_specimen: bool,
     repeatability_percent: float,
     json_path: str | None,
 ) -> None:
@@ -66,7 +75,10 @@ def compare(
         )
     out = Output(json_path)
     laws = [read_law(path, bar) for path in files]
-    found = [compare_laws(a, b, repeatability_percent / 100) for a, b in combinations(laws, 2)]
+    one = same_specimen or remounts
+    found = [
+        compare_laws(a, b, repeatability_percent / 100, one_specimen=one) for a, b in combinations(laws, 2)
+    ]
     # All that can be wrong with the files is said before anything is printed.
     spread = spread_of(laws, "mounts" if remounts else "specimens") if with_spread or remounts else None
     names = _names(files)
@@ -97,6 +109,7 @@ def compare(
                 f"{a} and {b}: not told apart; at {at:.3g} Hz G' would be seen to differ by "
                 f"{two_digits(100 * storage)} %, eta by {two_digits(eta)}"
             )
+    _say_of_one_specimen(out, laws, found, said=one)
     result = CompareResult(
         pairs=tuple(compared_pair(c, a, b) for (a, b), c in zip(pairs, found, strict=True))
     )
@@ -106,6 +119,25 @@ def compare(
         said = spread_result(spread)
         result = result.but(repeatability=said) if remounts else result.but(spread=said)
     out.result(result)
+
+
+def _say_of_one_specimen(
+    out: Output, laws: Sequence[MaterialLaw], found: Sequence[Comparison], *, said: bool
+) -> None:
+    """Whether the files bear it out, where it was `said`; else what saying so would tell."""
+    if not said:
+        if any(c.differs is False and len(alike_in((c.a, c.b))) for c in found):
+            out.say("Of one specimen, measured again? --same-specimen then tells smaller differences apart.")
+    elif unlike := stated_unlike(laws):
+        out.say(
+            f"said to be of one specimen, but the files state {' and '.join(unlike)} as different numbers: "
+            "their laws differ by that already"
+        )
+    elif any(law.stated for law in laws) and not all(c.alike for c in found):
+        out.say(
+            "what one specimen's stated numbers make alike is not known of all of these laws: where it is "
+            "not, the comparison is cautious"
+        )
 
 
 def _unlike_temperatures(c: Comparison) -> tuple[float, float] | None:

@@ -39,6 +39,8 @@ class ComparedPair(Result):
     """Whence that of the curves is: `posterior` of both fits, or `standard errors` of one of them."""
     repeatability_percent: Number = 0.0
     """Standard deviation from mount to mount, counted in for either law; zero where none was stated."""
+    alike: tuple[str, ...] = ()
+    """Stated numbers that both laws are off by together, being of one specimen."""
     storage_modulus_differs_hz: tuple[Range, ...]
     """Where it does beyond 1.96 joint standard errors."""
     loss_factor_differs_hz: tuple[Range, ...]

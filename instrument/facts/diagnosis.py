@@ -7,7 +7,7 @@ from typing import Literal
 from instrument.facts.follow_up import FollowUp
 from instrument.facts.number import MaybeNumber, Number
 from instrument.facts.result import Result
-from instrument.facts.rows import AdjustedNumber, HeldOut, LawRow, PointSetAside, StretchSetAside
+from instrument.facts.rows import AdjustedNumber, HeldOut, LawKnown, LawRow, PointSetAside, StretchSetAside
 
 Verdict = Literal["none", "effect", "ambiguous", "unknown"]
 StageName = Literal["before", "after"]
@@ -64,6 +64,7 @@ class StageFitted(Result):
     parameters: Mapping[str, Number] = {}
     standard_errors: Mapping[str, Number] = {}
     law: tuple[LawRow, ...]
+    law_known: LawKnown | None = None
     structure: tuple[str, ...] = ()
     """Tests that find the residuals not random, in words."""
     adjusted: tuple[AdjustedNumber, ...] = ()

@@ -10,7 +10,7 @@ from instrument.facts.budget import BudgetRow
 from instrument.facts.number import MaybeNumber, Number
 from instrument.facts.pointwise import BandFound, CausalityTest
 from instrument.facts.result import Result
-from instrument.facts.rows import AdjustedNumber, HeldOut, LawRow, PointSetAside, StretchSetAside
+from instrument.facts.rows import AdjustedNumber, HeldOut, LawKnown, LawRow, PointSetAside, StretchSetAside
 from instrument.facts.session_result import SessionResult
 
 
@@ -106,6 +106,8 @@ class IdentificationResult(Result):
     warnings: tuple[str, ...] = ()
     law: tuple[LawRow, ...]
     """Over the measured band."""
+    law_known: LawKnown | None = None
+    """None where it has no standard errors."""
     adjusted: tuple[AdjustedNumber, ...] = ()
     bend: Bend | None = None
     """None where the law was not free to bend."""

@@ -6,7 +6,7 @@ from math import nan
 from instrument.facts.identification import PointFitted
 from instrument.facts.number import MaybeNumber, Number
 from instrument.facts.result import Result
-from instrument.facts.rows import AdjustedNumber, HeldOut, LawRow
+from instrument.facts.rows import AdjustedNumber, HeldOut, LawKnown, LawRow
 
 
 class ModeFitted(Result):
@@ -70,6 +70,7 @@ class ModalResult(Result):
     converged: bool = True
     law: tuple[LawRow, ...]
     """Over the range of the modes."""
+    law_known: LawKnown | None = None
     adjusted: tuple[AdjustedNumber, ...] = ()
     formulas: tuple[FormulaRow, ...] = ()
     """Of beams, where a formula can be asked."""

@@ -1,5 +1,7 @@
 """Rows that an identification and a diagnosis both have."""
 
+from collections.abc import Mapping
+
 from instrument.facts.number import Number
 from instrument.facts.result import Result
 
@@ -12,6 +14,18 @@ class LawRow(Result):
     loss_factor: Number
     storage_modulus_standard_error_pa: Number
     loss_factor_standard_error: Number
+
+
+class LawKnown(Result):
+    """How well the law's curve is known as a whole: ln G' at a few frequencies, then eta."""
+
+    frequency_hz: tuple[Number, ...]
+    covariance: tuple[tuple[Number, ...], ...]
+    """Of the lower triangle, the diagonal last in each row; so too the next."""
+    of_another_measurement: tuple[tuple[Number, ...], ...]
+    """How far curves would scatter, were the same law measured again."""
+    stated: Mapping[str, tuple[Number, ...]] = {}
+    """What the tolerance of each stated number passes on to the curve."""
 
 
 class HeldOut(Result):

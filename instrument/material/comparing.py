@@ -1,5 +1,6 @@
 """Two laws over their common band: where they differ beyond what is known of both, and whether they do."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,6 +9,7 @@ from fitting.arrays import Array, Mask
 from fitting.bent_law import REACH
 from fitting.chances import chi2_above
 from instrument.facts.comparison import ComparedAt, ComparedPair
+from instrument.material.alike import alike_in
 from instrument.material.found_law import MaterialLaw
 
 SURELY = 1.96
@@ -43,6 +45,8 @@ class Comparison:
     """Whence the curves' covariance is: `posterior` of both fits, or `standard errors` of one of them."""
     repeatability: float = 0.0
     """Standard deviation from mount to mount of either law, relative, counted in beside their own errors."""
+    alike: tuple[str, ...] = ()
+    """Stated numbers that both are off by together, which makes no difference."""
 
     @property
     def differs(self) -> bool | None:
@@ -63,10 +67,13 @@ class Comparison:
         return _ranges(self.frequency_hz, np.abs(np.nan_to_num(z)) > SURELY)
 
 
-def compare(a: MaterialLaw, b: MaterialLaw, repeatability: float = 0.0) -> Comparison:
-    """On the band that both have. Taken as independent: a tolerance that both share makes this cautious.
+def compare(
+    a: MaterialLaw, b: MaterialLaw, repeatability: float = 0.0, *, one_specimen: bool = False
+) -> Comparison:
+    """On the band that both have.
 
-    `repeatability` is the relative standard deviation of G' and of eta from one mount to the next.
+    `repeatability` is the relative standard deviation of G' and of eta from one mount to the next. Taken as
+    independent where it is not `one_specimen`: what both are off by together then makes this cautious.
     """
     low, high = (max(a.band_hz[0], b.band_hz[0]), min(a.band_hz[1], b.band_hz[1]))
     if not low < high:
@@ -79,13 +86,14 @@ def compare(a: MaterialLaw, b: MaterialLaw, repeatability: float = 0.0) -> Compa
     mounts = [repeatability * np.concatenate([np.ones(len(f)), eta]) for eta in (eta_a, eta_b)]
     found = [_scatter(law, f, error) for law, error in zip((a, b), errors, strict=True)]
     found += [_together(f, size) for size in mounts]
-    covariance = np.asarray(np.sum(found, axis=0))
+    alike = alike_in((a, b)) if one_specimen else ()
+    covariance = np.asarray(np.sum(found, axis=0)) - _together_off(a, b, alike, f)
     joint = np.sqrt(np.maximum(np.diag(covariance), 0.0))
     with np.errstate(divide="ignore", invalid="ignore"):
         z = np.where(joint > 0, difference / joint, np.nan)
     floor = np.repeat([RESOLUTION, RESOLUTION * float(np.mean(np.abs(eta_a)))], len(f))
     statistic, dof = _chi2(difference, covariance, floor)
-    own = a.posterior is not None and b.posterior is not None
+    own = a.known is not None and b.known is not None
     return Comparison(
         a,
         b,
@@ -100,6 +108,7 @@ def compare(a: MaterialLaw, b: MaterialLaw, repeatability: float = 0.0) -> Compa
         float(chi2_above(statistic, dof)) if dof > 0 else float("nan"),
         "posterior" if own else "standard errors",
         repeatability,
+        alike,
     )
 
 
@@ -119,6 +128,7 @@ def compared_pair(c: Comparison, a: str, b: str) -> ComparedPair:
         differs=c.differs,
         covariance=c.covariance or None,
         repeatability_percent=100 * c.repeatability,
+        alike=c.alike,
         storage_modulus_differs_hz=tuple(c.where(c.storage_z)),
         loss_factor_differs_hz=tuple(c.where(c.loss_factor_z)),
         frequencies=tuple(
@@ -153,16 +163,24 @@ def _errors(law: MaterialLaw, f: Array) -> Array:
 
 def _scatter(law: MaterialLaw, f: Array, errors: Array) -> Array:
     """By how much the curve would be another one, were the same law measured again."""
-    if law.posterior is not None:
-        return law.posterior.curve_of_another_measurement(f)
+    if law.known is not None:
+        return law.known.at(f).of_another_measurement
     return _together(f, errors)
 
 
 def _covariance(law: MaterialLaw, f: Array, errors: Array) -> Array:
     """Of the curve: the fit's own, else errors that go together over as far as a law's bend does."""
-    if law.posterior is not None:
-        return law.posterior.curve(f)
+    if law.known is not None:
+        return law.known.at(f).covariance
     return _together(f, errors)
+
+
+def _together_off(a: MaterialLaw, b: MaterialLaw, alike: Sequence[str], f: Array) -> Array:
+    """Twice the covariance of both curves that these stated numbers make. Shape of either's."""
+    if not alike or a.known is None or b.known is None:
+        return np.zeros((2 * len(f), 2 * len(f)))
+    both = a.known.at(f).passed_on(alike) @ b.known.at(f).passed_on(alike).T
+    return np.asarray(both + both.T)
 
 
 def _together(f: Array, errors: Array) -> Array:

@@ -11,6 +11,7 @@ from scipy.interpolate import PchipInterpolator
 
 from fitting.arrays import Array, Complex
 from fitting.errors import FittingError
+from fitting.identification.known_curve import KnownCurve
 from fitting.identification.result import doubts_itself
 from fitting.structures import AnySpecimen
 from fitting.structures.shear_pair import ShearPair
@@ -21,8 +22,8 @@ from instrument.files.text import read_text
 from instrument.interchange.given import is_session
 from instrument.interchange.identified import identify_session, result_of_fit
 from instrument.material.found_shift import FoundShift
-from instrument.material.knowledge import LawPosterior, posterior_of
-from instrument.material.stated_part import stated_numbers
+from instrument.material.knowledge import known_curve_of
+from instrument.material.stated_part import Stated, digest_of, stated_numbers
 from instrument.progress import Progress, quiet
 from instrument.results.session_result import recorded_result
 from instrument.results.standing import none_leads
@@ -132,12 +133,17 @@ class MaterialLaw:
     """The effects that a diagnosis named and reckoned with, in words."""
     remount: int | None = None
     """Which mount of its specimen it was, where a session says so."""
-    posterior: LawPosterior | None = None
-    """Where the source holds the covariance of the whole curve."""
-    same: str | None = None
-    """Which stated numbers it rests on: laws of one digest share what is wrong with them."""
+    known: KnownCurve | None = None
+    """Of the whole curve, where the source says so."""
+    stated: tuple[Stated, ...] = ()
+    """The numbers with a tolerance that it rests on."""
     is_doubted: bool = False
     """Whether its fit, not diagnosed, says of itself that it may be biased."""
+
+    @property
+    def same(self) -> str | None:
+        """Which stated numbers it rests on: laws of one digest share what is wrong with them."""
+        return digest_of(self.stated)
 
     @property
     def band_hz(self) -> tuple[float, float]:
@@ -213,8 +219,7 @@ def _diagnosed(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
     except ValidationError:
         return None
     law = _law(path, found.after, found.verdict)
-    same = stated_numbers(facts["after"])
-    return replace(law, found=found.words, same=same) if law is not None else None
+    return replace(_as_known(law, facts["after"]), found=found.words) if law is not None else None
 
 
 def _shifted(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
@@ -242,8 +247,11 @@ def _identified(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
         return None
     said = facts.get("warnings")
     doubted = isinstance(said, list | tuple) and doubts_itself(map(str, said))
-    known = posterior_of(facts)
-    return replace(found, posterior=known, same=stated_numbers(facts), is_doubted=doubted)
+    return replace(_as_known(found, facts), is_doubted=doubted)
+
+
+def _as_known(law: MaterialLaw, facts: dict[str, Any]) -> MaterialLaw:
+    return replace(law, known=known_curve_of(facts), stated=stated_numbers(facts))
 
 
 def _of_session(path: Path, progress: Progress) -> MaterialLaw:

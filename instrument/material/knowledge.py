@@ -1,101 +1,56 @@
-"""How well a law is known as a whole: the covariance of its curve, not of its points one by one."""
+"""How well a law is known as a whole, as a result says it."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
-from pydantic import ValidationError
+from pydantic import BaseModel, Field, ValidationError, model_validator
 
 from fitting.arrays import Array
-from fitting.errors import FittingError
-from fitting.laws import LAWS, CoreLaw
-from instrument.errors import BadInput
-from instrument.results.fit_file import FoundLaw
+from fitting.identification.known_curve import KnownCurve
+
+_Finite = Annotated[float, Field(allow_inf_nan=False)]
+_Triangle = list[list[_Finite]]
+"""Rows of the lower triangle, the diagonal last in each."""
 
 
-@dataclass(frozen=True)
-class LawPosterior:
-    """The fit's own covariance of a law's parameters and bend."""
+class _Known(BaseModel):
+    frequency_hz: list[Annotated[float, Field(gt=0, allow_inf_nan=False)]] = Field(min_length=2)
+    covariance: _Triangle
+    of_another_measurement: _Triangle
+    stated: dict[str, list[_Finite]] = {}
 
-    law: CoreLaw
-    covariance_of_logs: Array
-    by_stated: Array | None = None
-    """What a stated number's tolerance gives each of them, shape (law's numbers, stated numbers).
-
-    None where it is not known.
-    """
-
-    def curve(self, frequency_hz: Array) -> Array:
-        """Covariance of ln G' at the frequencies, then of eta. Shape (2 frequencies, 2 frequencies)."""
-        return self._of_curve(frequency_hz, self.covariance_of_logs)
-
-    def curve_of_another_measurement(self, frequency_hz: Array) -> Array:
-        """How far curves scatter that are measured of one law: the same, less what its bend's prior leaves.
-
-        A fit draws its bend towards none, in two measurements of one law by as much. With F what data say and
-        L what is known beforehand C = (F + L)^-1, and estimates scatter by C F C = C - C L C. Shape (2
-        frequencies, 2 frequencies).
-        """
-        C, bend = self.covariance_of_logs, self.law.bend_count
-        # Of unit width, the last ones.
-        known = C[:, len(C) - bend :]
-        return self._of_curve(frequency_hz, C - known @ known.T)
-
-    def stated_part(self, frequency_hz: Array) -> Array | None:
-        """The part of the errors of ln G', then of eta, that stated numbers make. Shape (2 frequencies,)."""
-        if self.by_stated is None:
-            return None
-        return np.asarray(np.linalg.norm(self._slopes(frequency_hz).T @ self.by_stated, axis=1))
-
-    def _of_curve(self, frequency_hz: Array, C: Array) -> Array:
-        J = self._slopes(frequency_hz)
-        return np.asarray(J.T @ C @ J)
-
-    def _slopes(self, frequency_hz: Array) -> Array:
-        """Of ln G', then of eta, to the logarithms. Shape (law's numbers, 2 frequencies)."""
-        omega = 2 * np.pi * frequency_hz
-        storage, eta = self.law.storage_and_loss(omega)
-        by = self.law.jacobian(omega) * self.law.values[:, None]
-        return np.concatenate([by.real / storage, (by.imag - eta * by.real) / storage], axis=1)
+    @model_validator(mode="after")
+    def _whole(self) -> "_Known":
+        rows = 2 * len(self.frequency_hz)
+        if any(b <= a for a, b in zip(self.frequency_hz, self.frequency_hz[1:], strict=False)):
+            raise ValueError("expected ascending frequencies")
+        for triangle in (self.covariance, self.of_another_measurement):
+            if [len(row) for row in triangle] != list(range(1, rows + 1)):
+                raise ValueError("expected the rows of a lower triangle, two a frequency")
+        if any(len(column) != rows for column in self.stated.values()):
+            raise ValueError("expected a number for every row of the covariance")
+        return self
 
 
-def posterior_of(facts: Any) -> LawPosterior | None:
-    """Of the JSON of `identify`; None where it does not hold enough of it."""
+def known_curve_of(facts: Mapping[str, Any]) -> KnownCurve | None:
+    """Of the JSON of a fit, or of a stage of a diagnosis; None where it does not say."""
     try:
-        found = FoundLaw.model_validate(facts)
-        law = found.law(formula(found.law_kind, found.parameters))
-    except (ValidationError, BadInput, FittingError, KeyError, ValueError, TypeError):
+        known = _Known.model_validate(facts.get("law_known"))
+    except ValidationError:
         return None
-    if found.posterior is not None and set(law.names) <= set(found.posterior.names):
-        n, stated = len(law.names), [one.name for one in found.adjusted]
-        C = found.posterior.covariance([*law.names, *stated])
-        # A tolerance is a row of the fit like a reading, of slope 1 to its own number: what such a row passes
-        # on to another number is the covariance of both.
-        return LawPosterior(law, C[:n, :n], C[:n, n:])
-    plain = found.covariance(law.plain.names)
-    return LawPosterior(law.plain, plain) if found.bend is None and np.isfinite(plain).all() else None
+    columns = [np.array(column) for column in known.stated.values()]
+    return KnownCurve(
+        np.array(known.frequency_hz),
+        _whole(known.covariance),
+        _whole(known.of_another_measurement),
+        np.stack(columns, axis=1) if columns else np.zeros((2 * len(known.frequency_hz), 0)),
+        tuple(known.stated),
+    )
 
 
-def formula(kind: str, parameters: Mapping[str, float]) -> CoreLaw:
-    """A law of the kind with these parameters, no bend in it.
-
-    Raises `KeyError` for a kind that needs more than those.
-    """
-    cls = LAWS[kind]
-    if set(cls.file_fields()) - set(cls.quantities()):
-        raise KeyError(f"{kind} has numbers that are not parameters")
-    return cls(**{f.name: _values(parameters, f.name) for f in fields(cls) if f.name in cls.quantities()})
-
-
-def _values(parameters: Mapping[str, float], name: str) -> float | tuple[float, ...]:
-    """A parameter, or a list's items in their order: g_pa from g_1_pa, g_2_pa, ..."""
-    if name in parameters:
-        return parameters[name]
-    stem, _, unit = name.partition("_")
-    items: list[float] = []
-    while (key := f"{stem}_{len(items) + 1}" + (f"_{unit}" if unit else "")) in parameters:
-        items.append(parameters[key])
-    if not items:
-        raise KeyError(name)
-    return tuple(items)
+def _whole(triangle: _Triangle) -> Array:
+    C = np.zeros((len(triangle), len(triangle)))
+    for k, row in enumerate(triangle):
+        C[k, : k + 1] = C[: k + 1, k] = row
+    return C

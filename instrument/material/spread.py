@@ -16,6 +16,7 @@ import numpy as np
 from fitting.arrays import Array, Mask
 from fitting.digits import two_digits
 from instrument.errors import BadInput
+from instrument.material.alike import alike_in
 from instrument.material.apart import LEVEL_APART, means_of_others, p_values
 from instrument.material.comparing import RESOLUTION, covariance_of
 from instrument.material.found_law import MaterialLaw
@@ -50,6 +51,8 @@ class Curves:
     """The part of them that stated numbers make; the whole where it is not known."""
     same: tuple[str | None, ...]
     """Which numbers each specimen states; None shares them with no other."""
+    alike: Array
+    """Errors besides `errors` that all have alike, being of one specimen; zero between specimens."""
 
     def those(self, of_them: Mask) -> "Curves":
         """Some of the specimens. Shape (specimens,)."""
@@ -61,6 +64,7 @@ class Curves:
             self.errors[k],
             self.stated[k],
             tuple(self.same[i] for i in k),
+            self.alike[k],
         )
 
 
@@ -176,22 +180,31 @@ def spread_of(laws: Sequence[MaterialLaw], between: Between = "specimens") -> Sp
     if not low < high:
         raise BadInput("the laws have no band in common, expected sweeps that overlap")
     f = np.geomspace(low, high, FREQUENCIES)
-    curves, each, stated = [], [], []
+    names = alike_in(laws) if between == "mounts" else ()
+    curves, each, stated, alike = [], [], [], []
     for law in laws:
         G = law.modulus(2 * np.pi * f)
         eta = G.imag / G.real
         if np.any(eta <= 0):
             raise BadInput(f"{law.source}: loss factor {eta.min():.3g}, expected above zero")
         size = np.concatenate([np.ones(len(f)), 1 / eta])
-        error = np.hypot(np.sqrt(np.diag(covariance_of(law, f))) * size, RESOLUTION)
+        known = law.known.at(f) if law.known is not None else None
+        of_all = np.zeros(2 * len(f))
+        if known is not None and names:
+            of_all = np.linalg.norm(known.passed_on(names), axis=1)
+        variance = np.maximum(np.diag(covariance_of(law, f)) - of_all**2, 0.0)
+        error = np.hypot(np.sqrt(variance) * size, RESOLUTION)
         if not np.all(np.isfinite(error)):
             raise BadInput(f"{law.source}: no standard errors, expected a law that says how well it is known")
         curves.append(np.concatenate([np.log(G.real), np.log(eta)]))
         each.append(error)
-        part = law.posterior.stated_part(f) if law.posterior is not None else None
-        stated.append(error if part is None else part * size)
-    names, same = tuple(law.source for law in laws), tuple(law.same for law in laws)
-    found = spread_of_curves(Curves(names, f, np.array(curves), np.array(each), np.array(stated), same))
+        stated.append(error if known is None else known.stated_part * size)
+        alike.append(of_all * size)
+    same = tuple(None if names else law.same for law in laws)
+    logs, errors, parts, together = (np.array(rows) for rows in (curves, each, stated, alike))
+    found = spread_of_curves(
+        Curves(tuple(law.source for law in laws), f, logs, errors, parts, same, together)
+    )
     without = replace(found.without, between=between) if found.without is not None else None
     return replace(found, between=between, without=without)
 
@@ -248,8 +261,8 @@ def _apart(found: Spread, curves: Curves, far: Mask) -> tuple[Apart, ...]:
 
 def _spread(curves: Curves) -> Spread:
     stated = np.minimum(curves.stated, curves.errors)
-    columns = zip(curves.logs.T, curves.errors.T, stated.T, strict=True)
-    found = [_one(y, e, part, curves.same) for y, e, part in columns]
+    columns = zip(curves.logs.T, curves.errors.T, stated.T, curves.alike.T, strict=True)
+    found = [_one(y, e, part, curves.same, alike) for y, e, part, alike in columns]
     n = len(curves.frequency_hz)
     mean, known = (np.array([one[k] for one in found], dtype=float) for k in (1, 2))
     sizes = tuple(one[0] for one in found)
@@ -266,12 +279,14 @@ def _spread(curves: Curves) -> Spread:
     )
 
 
-def _one(y: Array, error: Array, stated: Array, same: Sequence[str | None]) -> tuple[Size, float, float]:
+def _one(
+    y: Array, error: Array, stated: Array, same: Sequence[str | None], alike: Array
+) -> tuple[Size, float, float]:
     """The spread of one quantity at one frequency; the common value and its standard error."""
     profile = np.array([_restricted(y, error, tau)[0] for tau in _SIZES])
     size = _size(profile)
     _, mean = _restricted(y, error, size.value)
-    return size, mean, mean_error(y, error, stated, same, size.value)
+    return size, mean, float(np.hypot(mean_error(y, error, stated, same, size.value), np.mean(alike)))
 
 
 def _restricted(y: Array, error: Array, tau: float) -> tuple[float, float]:

@@ -1,42 +1,63 @@
-"""What of a law's error comes of stated numbers, and which numbers those are."""
+"""The stated numbers that a law rests on, and what of its error comes of them."""
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError
 
-from instrument.material.knowledge import posterior_of
+from fitting.tolerances import kind_of
+from instrument.material.knowledge import known_curve_of
 
 _DIGITS = 16
 """Of the digest: enough to tell any two specimens of a batch apart."""
+_SET_ANEW = ("length", "pickup", "force", "place", "damping", "gain", "delay", "phase")
+"""Kinds of numbers that another measurement of one specimen sets anew: where the clamp bites and what it
+damps, where spots and loose masses are, and the channels. All others are the specimen's own, or of the theory
+of it."""
 
 
-class _Stated(BaseModel):
+class Stated(BaseModel):
+    """One number and its tolerance, in the units of results."""
+
+    model_config = ConfigDict(frozen=True)
+
     name: str
     stated: float
     tolerance: float
 
 
 class _Adjusted(BaseModel):
-    adjusted: list[_Stated] = []
+    adjusted: tuple[Stated, ...] = ()
 
 
-def stated_numbers(facts: Mapping[str, Any]) -> str | None:
-    """A digest of every stated number and tolerance in the JSON of a fit; None where none has a tolerance.
+def stated_numbers(facts: Mapping[str, Any]) -> tuple[Stated, ...]:
+    """Those of the JSON of a fit that have a tolerance."""
+    try:
+        return _Adjusted.model_validate(facts).adjusted
+    except ValidationError:
+        return ()
+
+
+def digest_of(stated: Sequence[Stated]) -> str | None:
+    """Of every stated number and tolerance; None where none has a tolerance.
 
     Laws of one digest are of specimens that state the same: what is wrong with a number is wrong for all.
     """
-    try:
-        found = _Adjusted.model_validate(facts).adjusted
-    except ValidationError:
+    if not stated:
         return None
-    if not found:
-        return None
-    said = json.dumps(sorted([one.name, one.stated, one.tolerance] for one in found))
+    said = json.dumps(sorted([one.name, one.stated, one.tolerance] for one in stated))
     return hashlib.sha256(said.encode()).hexdigest()[:_DIGITS]
+
+
+def stays_with_the_specimen(name: str) -> bool:
+    """Whether a stated number is as wrong in the next measurement of the same specimen."""
+    try:
+        return kind_of(name) not in _SET_ANEW
+    except ValueError:
+        return False
 
 
 def stated_columns(facts: Mapping[str, Any]) -> dict[str, Any]:
@@ -45,11 +66,11 @@ def stated_columns(facts: Mapping[str, Any]) -> dict[str, Any]:
     Of the JSON of `identify` or of a stage of `diagnose`. `storage` and `loss` are None where the fit does
     not say how its errors are made up.
     """
-    rows, known = facts["law"], posterior_of(facts)
+    rows, known = facts["law"], known_curve_of(facts)
     f = np.array([row["frequency_hz"] for row in rows], dtype=float)
-    part = known.stated_part(f) if known is not None and len(f) else None
-    found: dict[str, Any] = {"same": stated_numbers(facts), "storage": None, "loss": None}
-    if part is None:
+    found: dict[str, Any] = {"same": digest_of(stated_numbers(facts)), "storage": None, "loss": None}
+    if known is None or not len(f):
         return found
+    part = known.at(f).stated_part
     eta = np.array([row["loss_factor"] for row in rows], dtype=float)
     return {**found, "storage": part[: len(f)].tolist(), "loss": (part[len(f) :] / eta).tolist()}

@@ -15,7 +15,13 @@ from instrument.facts.diagnosis import (
     StageFitted,
 )
 from instrument.models.diagnosis import Diagnosed
-from instrument.results.rows_from import adjusted_from, held_out_from, law_rows_from, points_set_aside_from
+from instrument.results.rows_from import (
+    adjusted_from,
+    held_out_from,
+    law_known_from,
+    law_rows_from,
+    points_set_aside_from,
+)
 
 
 def diagnosis_from(found: Diagnosed, sweep: Sweep) -> DiagnosisResult:
@@ -90,6 +96,7 @@ def _stage(s: Stage) -> StageFitted:
         parameters=dict(zip(s.law.names, s.law.values.tolist(), strict=True)),
         standard_errors=dict(s.standard_errors),
         law=law_rows_from(s.band),
+        law_known=law_known_from(s.band),
         structure=s.structure,
         adjusted=adjusted_from(s.adjusted),
     )

@@ -23,7 +23,13 @@ from instrument.facts.identification import (
     TheoryErrorRow,
 )
 from instrument.models.identification import Identified
-from instrument.results.rows_from import adjusted_from, held_out_from, law_rows_from, points_set_aside_from
+from instrument.results.rows_from import (
+    adjusted_from,
+    held_out_from,
+    law_known_from,
+    law_rows_from,
+    points_set_aside_from,
+)
 
 
 def identification_from(found: Identified, specimen: Specimen | None = None) -> IdentificationResult:
@@ -56,6 +62,7 @@ def identification_from(found: Identified, specimen: Specimen | None = None) -> 
         criterion_met=r.fit.criterion_met,
         warnings=r.warnings,
         law=law_rows_from(r.band),
+        law_known=law_known_from(r.band),
         adjusted=adjusted_from(r.fit.adjusted),
         bend=_bend(r.fit.law),
         posterior=_posterior(r.fit),

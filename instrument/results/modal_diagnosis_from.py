@@ -18,7 +18,7 @@ from instrument.facts.diagnosis import DiagnosisResult, EffectFound, ModeLeft, S
 from instrument.models.modal import TablesDiagnosed
 from instrument.results.diagnosis_from import candidate_from, parameters_from
 from instrument.results.modal_from import modal_band, percent_off
-from instrument.results.rows_from import adjusted_from, law_rows_from
+from instrument.results.rows_from import adjusted_from, law_known_from, law_rows_from
 
 _READ_AGAIN = "That mode's peak once more, in the record that it was read from; or diagnose without its row."
 
@@ -104,6 +104,7 @@ def _stage(fit: ModalFit, tables: Sequence[ModalTable], band: LawBand) -> StageF
         parameters=dict(zip(plain.names, plain.values.tolist(), strict=True)),
         standard_errors=dict(zip(plain.names, errors.tolist(), strict=True)),
         law=law_rows_from(band),
+        law_known=law_known_from(band),
         adjusted=adjusted_from(fit.adjusted),
     )
 

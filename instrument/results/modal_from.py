@@ -6,13 +6,14 @@ from dataclasses import asdict
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.identification.known_curve import known_curve
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ, LawBand
 from fitting.identification.validation import rms
 from fitting.mode_tables.fit import ModalFit
 from fitting.mode_tables.table import ModalTable
 from instrument.facts.modal import FormulaRow, ModalResult, ModeFitted
 from instrument.models.modal import TablesIdentified
-from instrument.results.rows_from import adjusted_from, law_rows_from
+from instrument.results.rows_from import adjusted_from, law_known_from, law_rows_from
 
 _BAND_POINTS = 41
 
@@ -25,6 +26,7 @@ def modal_from(
     plain = found.law.plain
     own = found.uncertainty.of_first(len(plain.names))
     errors, off = own.standard_errors * plain.values, percent_off(found, tables)
+    band = modal_band(found, tables)
     return ModalResult(
         method="modes",
         law_kind=plain.kind,
@@ -43,7 +45,8 @@ def modal_from(
         iterations=int(found.iterations),
         evaluations=int(found.evaluations),
         converged=bool(found.converged),
-        law=law_rows_from(modal_band(found, tables)),
+        law=law_rows_from(band),
+        law_known=law_known_from(band),
         adjusted=adjusted_from(found.adjusted),
         formulas=_formulas(identified),
         warnings=identified.remarks,
@@ -94,4 +97,5 @@ def modal_band(found: ModalFit, tables: Sequence[ModalTable]) -> LawBand:
     inside = [f for f in REFERENCE_FREQUENCIES_HZ if low <= f <= high]
     f = np.unique(np.concatenate([np.geomspace(low, high, _BAND_POINTS), inside]))
     G, eta = found.law.storage_and_loss(2 * np.pi * f)
-    return LawBand(f, G, eta, *found.uncertainty.law_band(found.law, 2 * np.pi * f))
+    known = known_curve(found.law, found.posterior, [one.name for one in found.adjusted], low, high)
+    return LawBand(f, G, eta, *found.uncertainty.law_band(found.law, 2 * np.pi * f), known)

@@ -5,12 +5,13 @@ from dataclasses import asdict
 
 import numpy as np
 
+from fitting.arrays import Array
 from fitting.aside import Reasons
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.result import LawBand
 from fitting.identification.validation import Validation
 from fitting.sweep import Sweep
-from instrument.facts.rows import AdjustedNumber, HeldOut, LawRow, PointSetAside
+from instrument.facts.rows import AdjustedNumber, HeldOut, LawKnown, LawRow, PointSetAside
 
 
 def law_rows_from(b: LawBand) -> tuple[LawRow, ...]:
@@ -18,6 +19,24 @@ def law_rows_from(b: LawBand) -> tuple[LawRow, ...]:
     keys = tuple(LawRow.model_fields)
     columns = (getattr(b, key).tolist() for key in keys)
     return tuple(LawRow(**dict(zip(keys, row, strict=True))) for row in zip(*columns, strict=True))
+
+
+def law_known_from(b: LawBand) -> LawKnown | None:
+    """The same of its curve as a whole."""
+    known = b.known
+    if known is None:
+        return None
+    passed_on = known.by_stated.T.tolist()
+    return LawKnown(
+        frequency_hz=tuple(known.frequency_hz.tolist()),
+        covariance=_triangle(known.covariance),
+        of_another_measurement=_triangle(known.of_another_measurement),
+        stated={name: tuple(column) for name, column in zip(known.stated, passed_on, strict=True)},
+    )
+
+
+def _triangle(C: Array) -> tuple[tuple[float, ...], ...]:
+    return tuple(tuple(row[: k + 1]) for k, row in enumerate(C.tolist()))
 
 
 def held_out_from(v: Validation) -> tuple[HeldOut, ...]:

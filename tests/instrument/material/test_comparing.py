@@ -9,12 +9,10 @@ from conftest import TABLE_4
 from diagnosed_session import diagnosed_session
 from found_law_cases import ERRORS, HIGH, LOW, facts
 
-from fitting.bent_law import BentLaw
 from instrument.cli.main import run
 from instrument.errors import BadInput
 from instrument.material.comparing import SURELY, compare
 from instrument.material.found_law import read_law
-from instrument.material.knowledge import LawPosterior
 
 
 @pytest.fixture
@@ -44,25 +42,6 @@ def test_one_in_twenty_differs_by_chance(law_of):
     p = [compare(law_of(drawn(rng)), law_of(drawn(rng))).p_value for _ in range(200)]
     assert 0.01 <= np.mean(np.array(p) < 0.05) <= 0.10
     assert 0.35 < np.median(p) < 0.7
-
-
-def bent_law(bend_errors):
-    """A law with two knots, its C as if data said as much of the bend as its prior does."""
-    law = BentLaw(TABLE_4, (20.0, 200.0), (1.0,) * 4)
-    errors = np.concatenate([1e-6 * np.ones(4), bend_errors])
-    return LawPosterior(law, np.diag(errors**2))
-
-
-def test_measured_again_a_law_scatters_by_what_the_data_say_alone():
-    f = np.array([20.0, 60.0, 200.0])
-    # Nothing is known but beforehand: both measurements say the same.
-    untold = bent_law(np.ones(4))
-    assert np.abs(untold.curve_of_another_measurement(f)).max() < 1e-6 * np.abs(untold.curve(f)).max()
-    # The data say as much as what is known beforehand: C = 1/2, and estimates scatter by C F C = 1/4.
-    half = bent_law(np.sqrt(0.5) * np.ones(4))
-    np.testing.assert_allclose(
-        half.curve_of_another_measurement(f), 0.5 * half.curve(f), rtol=1e-6, atol=1e-10
-    )
 
 
 def test_what_would_be_seen_is_beyond_the_joint_error(law_of):

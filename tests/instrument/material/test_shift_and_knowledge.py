@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 from conftest import TABLE_4
-from found_law_cases import ERRORS, facts
+from found_law_cases import ERRORS, HIGH, LOW, said_of_curve
 from pydantic import ValidationError
 
+from fitting.identification.known_curve import known_curve
 from instrument.material.found_shift import FoundShift
-from instrument.material.knowledge import posterior_of
+from instrument.material.knowledge import known_curve_of
 
 KNOWN = {
     "wlf": ({"c1": 10.0, "c2_k": 100.0}, "log10 a_T = -10 (T - 20) / (100 + T - 20), T in degrees C"),
@@ -50,21 +51,27 @@ def test_a_shift_without_its_parameters_is_none(kind):
         FoundShift.model_validate(shift(kind).model_dump() | {"shift_parameters": {}})
 
 
-def test_the_covariance_of_a_curve_is_that_of_laws_drawn():
-    f = np.array([20.0, 100.0, 250.0])
-    known = posterior_of(facts(TABLE_4, errors=0.1 * ERRORS))
-    rng = np.random.default_rng(5)
-    curves = []
-    for _ in range(2000):
-        law = TABLE_4.with_values(TABLE_4.values * np.exp(0.1 * ERRORS * rng.standard_normal(4)))
-        storage, eta = law.storage_and_loss(2 * np.pi * f)
-        curves.append([*np.log(storage), *eta])
-    drawn, said = np.cov(np.array(curves).T), known.curve(f)
-    sizes = np.sqrt(np.diag(said))
-    assert np.sqrt(np.diag(drawn)) == pytest.approx(sizes, rel=0.08)
-    assert np.abs((drawn - said) / np.outer(sizes, sizes)).max() < 0.12
+def test_what_a_file_says_of_the_curve_is_what_the_fit_knew():
+    C = np.diag([*ERRORS**2, 1.0])
+    C[0, 4] = C[4, 0] = 0.01
+    known = known_curve(TABLE_4, C, ["core_thickness"], LOW, HIGH)
+    read = known_curve_of({"law_known": said_of_curve(TABLE_4, C, ["core_thickness"])})
+    for name in ("frequency_hz", "covariance", "of_another_measurement", "by_stated"):
+        np.testing.assert_allclose(getattr(read, name), getattr(known, name), rtol=1e-12, atol=1e-15)
+    assert read.stated == known.stated
 
 
-def test_without_what_relates_the_parameters_nothing_is_said_of_the_curve():
-    assert posterior_of(facts(TABLE_4, posterior=False)) is None
-    assert posterior_of({"law_kind": "no such law"}) is None
+DAMAGED = {
+    "nothing": lambda _: None,
+    "a number": lambda _: 3.0,
+    "a row is lost": lambda said: said | {"covariance": said["covariance"][:-1]},
+    "frequencies fall": lambda said: said | {"frequency_hz": said["frequency_hz"][::-1]},
+    "a column is short": lambda said: said | {"stated": {"core_thickness": [0.1]}},
+    "not a number": lambda said: said | {"frequency_hz": [None, *said["frequency_hz"][1:]]},
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGED)
+def test_what_says_nothing_that_can_be_read_says_nothing(damage):
+    said = said_of_curve(TABLE_4, np.diag(ERRORS**2), ())
+    assert known_curve_of({"law_known": DAMAGED[damage](said)}) is None

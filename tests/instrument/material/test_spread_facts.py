@@ -17,7 +17,7 @@ def curves():
     )
     logs[:, :FREQUENCIES] += STIFFER[:, None]
     errors = np.full_like(logs, 0.01)
-    return Curves(tuple("abcde"), F, logs, errors, 0.5 * errors, (None,) * 5)
+    return Curves(tuple("abcde"), F, logs, errors, 0.5 * errors, (None,) * 5, 0 * errors)
 
 
 def test_of_some_specimens_everything_is_theirs():
