@@ -42,6 +42,8 @@ class DampingEstimate:
     """Fraction of critical."""
     standard_error: float
     """Of `ratio`, by the scatter of the data about the method's model; NaN where it has none."""
+    frequency_error_hz: float = float("nan")
+    """Standard error of the frequency; NaN where the method does not say."""
 
 
 @dataclass(frozen=True)

@@ -1,15 +1,17 @@
 """Local rational fit: poles and smooth remainder in a window of lines about a mode.
 
-    H(omega) = sum_m R_m/(i omega - lambda_m) + c_0 + c_1 (omega - omega_0)
+    H(omega) = sum_m R_m/(i omega - lambda_m) + c_0 + c_1 (omega - omega_0) + ...
 
 On the lines of a plain (not padded) transform of a decay cut off at T, every mode keeps exactly its
 pole: the cut multiplies its residue only. So truncation does no harm under a rectangular window.
 The residues are linear: variable projection leaves the poles to a small least squares.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.polynomial.legendre import legvander
 from scipy.optimize import least_squares
 
 from fitting.arrays import Array, Complex
@@ -22,6 +24,21 @@ _HALF_WIDTH_BANDWIDTHS = 6.0
 """Half-power bandwidths on either side: there a mode is down to a twelfth of its height."""
 _LEAST_HEIGHT = 6.0
 """Of a resonance over the scatter of a line: noise alone reaches 4."""
+_WIDEST = 0.6
+"""Of a frequency on either side: below, a heavily damped mode's window meets the mirror pole's."""
+FEWEST_TERMS, MOST_TERMS = 2, 6
+"""Of the smooth remainder: about a mode of 5 % its neighbours' flanks want four or five."""
+_CURVED_TERMS = 4
+"""Of a remainder that neighbours outside the window bend."""
+_WIDE = 0.15
+"""Of a frequency on either side, from which a remainder is more than straight: a narrower one that is not has
+a mode in it that nobody knows of, which a curve would take up in part."""
+_SPARE = 4
+"""Numbers more than unknowns, at least."""
+_LIKE = 2.0
+"""Half-power half bandwidths within which two fits have found one mode."""
+_NOTHING = 1e-24
+"""Of the lines' own sum of squares: what rounding leaves, which no term makes less."""
 _MOST_LINES = 400
 """Of a window: more hold other modes rather than more of this one, and cost time."""
 _MOST_RATIO = 0.3
@@ -42,57 +59,184 @@ class RationalFit:
     noise: float
     """Standard deviation of a line about the fit, each part."""
     estimate: DampingEstimate
+    heights: Array
+    """Of the resonances at their poles. Shape (poles,)."""
+    errors: Array
+    """Standard errors of the poles' damping ratios, by the scatter of the lines. Shape (poles,)."""
+    cost: float
+    """n ln(sum of squares / n) + k ln n (Schwarz): the least of several fits to the same lines wins."""
+
+    @property
+    def ratios(self) -> Array:
+        """Of critical damping, as the lines have them, windows not taken off. Shape (poles,)."""
+        return np.asarray(-self.poles.real / np.abs(self.poles))
+
+    @property
+    def frequencies_hz(self) -> Array:
+        """Undamped natural ones. Shape (poles,)."""
+        return np.asarray(np.abs(self.poles) / (2 * np.pi))
 
 
 @refusing
 def rational_fit(
-    frf: Frf, near_hz: float, start_ratio: float, neighbours_hz: tuple[float, ...] = ()
+    frf: Frf,
+    near_hz: float,
+    start_ratio: float,
+    neighbours_hz: tuple[float, ...] = (),
+    most_terms: int = FEWEST_TERMS,
 ) -> RationalFit | Refusal:
-    """Fit the mode near `near_hz`; other modes that fall into its window get poles of their own."""
-    step = float(np.median(np.diff(frf.frequency_hz)))
-    reach = max(_HALF_WIDTH_LINES * step, _HALF_WIDTH_BANDWIDTHS * 2 * start_ratio * near_hz)
-    reach = min(reach, _MOST_LINES / 2 * step)
+    """Fit the mode near `near_hz`; other modes that fall into its window get poles of their own.
+
+    About a heavily damped one the remainder gets as many terms as the lines ask for, up to `most_terms`; what
+    one more would change is in the error. More than the fewest are for where all neighbours are known.
+    """
+    reach = _reach_hz(frf, near_hz, start_ratio)
     window = frf.between(near_hz - reach, near_hz + reach)
     inside = [f for f in neighbours_hz if abs(f - near_hz) < reach * 1.2 and f != near_hz]
     starts = [near_hz, *inside]
-    unknowns = 2 * (2 * len(starts) + 2)
-    if 2 * len(window.H) < unknowns + 4:
+    fits = list[_Fitted]()
+    wide = reach > _WIDE * near_hz
+    for terms in range(FEWEST_TERMS, (most_terms if wide else FEWEST_TERMS) + 1):
+        unknowns = 2 * (2 * len(starts) + terms)
+        if 2 * len(window.H) < unknowns + _SPARE:
+            break
+        fits.append(_fitted(window, starts, start_ratio, terms))
+        if len(fits) > 2 and min(fits[-1].cost, fits[-2].cost) > fits[-3].cost:
+            break
+    if not fits:
         return Refusal(
-            f"{len(window.H)} lines about the mode, expected more than {unknowns // 2 + 2} "
+            f"{len(window.H)} lines about the mode, expected more than {2 * len(starts) + FEWEST_TERMS + 2} "
             f"for {len(starts)} poles"
         )
-    omega = window.omega
+    terms = int(np.argmin([f.cost for f in fits]))
+    best = fits[terms]
+    own = complex(best.poles[0])
+    omega_n = abs(own)
+    ratio = -own.real / omega_n
+    if not 0 < ratio < _MOST_RATIO or not is_near(omega_n / (2 * np.pi), near_hz):
+        return Refusal("the fit found no decaying pole at the peak")
+    errors = best.errors / np.abs(best.poles)
+    # What a term more would change is not in the scatter of the lines.
+    beyond = [f for f in fits[terms + 1 : terms + 2] if f.is_like(best)]
+    changed = abs(-beyond[0].poles[0].real / abs(beyond[0].poles[0]) - ratio) if beyond else 0.0
+    error = float(np.hypot(errors[0], changed))
+    f_n = omega_n / (2 * np.pi)
+    adopted = corrected(f_n, ratio, frf.added_decay_1_s)
+    if not error <= _MOST_RELATIVE_ERROR * abs(adopted):
+        return Refusal(f"its own standard error is {100 * error / abs(adopted):.0f} % of the ratio")
+    if best.heights[0] < _LEAST_HEIGHT * best.noise:
+        return Refusal(
+            f"it stands only {best.heights[0] / best.noise:.1f} times above the scatter of the lines"
+        )
+    moved = abs(abs(beyond[0].poles[0]) - omega_n) if beyond else 0.0
+    known_hz = float(np.hypot(best.frequency_errors[0], moved)) / (2 * np.pi)
+    return replace(best.of(window, frf), estimate=DampingEstimate(f_n, adopted, error, known_hz))
+
+
+@dataclass(frozen=True)
+class Freer:
+    """What follows the same lines more freely than one pole beside a straight line; neither is judged."""
+
+    curved: RationalFit
+    """One pole beside a curve."""
+    two: RationalFit
+    """Two poles near one another; the estimate is the higher one's."""
+
+
+@refusing
+def freer_fits(
+    frf: Frf, near_hz: float, start_ratio: float, neighbours_hz: tuple[float, ...] = ()
+) -> Freer | Refusal:
+    """Their cost beside that of `rational_fit` says what the lines ask for."""
+    reach = _reach_hz(frf, near_hz, start_ratio)
+    window = frf.between(near_hz - reach, near_hz + reach)
+    inside = [f for f in neighbours_hz if abs(f - near_hz) < reach * 1.2 and f != near_hz]
+    if 2 * len(window.H) < 2 * (2 * (len(inside) + 2) + FEWEST_TERMS) + _SPARE:
+        return Refusal(f"{len(window.H)} lines about the mode, too few for two")
+    apart = start_ratio * near_hz
+    places = ((-0.5, 0.5), (-1.5, 0.0), (0.0, 1.5))
+    tried = (
+        _fitted(window, [near_hz + x * apart for x in both] + inside, start_ratio, FEWEST_TERMS)
+        for both in places
+    )
+    curved = _fitted(window, [near_hz, *inside], start_ratio, _CURVED_TERMS)
+    return Freer(*(fit.of(window, frf) for fit in (curved, min(tried, key=lambda fit: fit.cost))))
+
+
+def _reach_hz(frf: Frf, near_hz: float, start_ratio: float) -> float:
+    """Of the window, either side."""
+    step = float(np.median(np.diff(frf.frequency_hz)))
+    reach = max(_HALF_WIDTH_LINES * step, _HALF_WIDTH_BANDWIDTHS * 2 * start_ratio * near_hz)
+    reach = min(reach, _MOST_LINES / 2 * step)
+    return max(min(reach, _WIDEST * near_hz), _HALF_WIDTH_LINES * step)
+
+
+@dataclass(frozen=True)
+class _Fitted:
+    """Poles beside a remainder of so many terms."""
+
+    poles: Complex
+    errors: Array
+    """Of their real parts, rad/s."""
+    frequency_errors: Array
+    """Of their imaginary parts, rad/s."""
+    heights: Array
+    noise: float
+    H: Complex
+    cost: float
+
+    def of(self, window: Frf, frf: Frf) -> RationalFit:
+        """What is said of it; the estimate is of the highest of the first two poles."""
+        k, errors = int(np.argmax(self.heights[:2])), self.errors / np.abs(self.poles)
+        omega_n = abs(self.poles[k])
+        f_n, ratio = omega_n / (2 * np.pi), -self.poles[k].real / omega_n
+        adopted = corrected(float(f_n), float(ratio), frf.added_decay_1_s)
+        known_hz = float(self.frequency_errors[k]) / (2 * np.pi)
+        return RationalFit(
+            window.frequency_hz,
+            self.H,
+            self.poles,
+            self.noise,
+            DampingEstimate(float(f_n), adopted, float(errors[k]), known_hz),
+            self.heights,
+            errors,
+            self.cost,
+        )
+
+    def is_like(self, other: "_Fitted") -> bool:
+        """Whether it is the same mode: within a few bandwidths of the other's."""
+        return abs(self.poles[0] - other.poles[0]) < _LIKE * abs(other.poles[0].real)
+
+
+def _fitted(window: Frf, starts: Sequence[float], start_ratio: float, terms: int) -> _Fitted:
+    omega, H = window.omega, window.H
     start = np.array([complex(-max(start_ratio, 1e-4) * 2 * np.pi * f, 2 * np.pi * f) for f in starts])
     scale = float(np.abs(start[0].real))
     found = least_squares(
-        lambda p: _stack(_remainder(omega, window.H, _poles(p, start, scale))),
+        lambda p: _stack(_remainder(omega, H, _poles(p, start, scale), terms)),
         np.zeros(2 * len(start)),
-        jac=lambda p: scale * _jacobian(omega, window.H, _poles(p, start, scale)),
+        jac=lambda p: scale * _jacobian(omega, H, _poles(p, start, scale), terms),
         x_scale="jac",
         xtol=1e-12,
         ftol=1e-12,
         max_nfev=200,
     )
     poles = _poles(found.x, start, scale)
-    own = complex(poles[0])
-    omega_n = abs(own)
-    ratio = -own.real / omega_n
-    dof = 2 * len(window.H) - unknowns
-    noise = float(np.sqrt(2 * found.cost / dof))
-    if not 0 < ratio < _MOST_RATIO or not is_near(omega_n / (2 * np.pi), near_hz):
-        return Refusal("the fit found no decaying pole at the peak")
-    covariance = noise**2 * np.linalg.pinv(found.jac.T @ found.jac)
-    # zeta = -Re/|lambda|: with Re << |lambda| its error is that of the real part
-    error = float(scale * np.sqrt(covariance[0, 0]) / omega_n)
-    f_n = omega_n / (2 * np.pi)
-    adopted = corrected(f_n, ratio, frf.added_decay_1_s)
-    if not error <= _MOST_RELATIVE_ERROR * abs(adopted):
-        return Refusal(f"its own standard error is {100 * error / abs(adopted):.0f} % of the ratio")
-    height = float(np.abs(_coefficients(omega, window.H, poles)[0]))
-    if height < _LEAST_HEIGHT * noise:
-        return Refusal(f"it stands only {height / noise:.1f} times above the scatter of the lines")
-    fitted = window.H - _remainder(omega, window.H, poles)
-    return RationalFit(window.frequency_hz, fitted, poles, noise, DampingEstimate(f_n, adopted, error))
+    count, unknowns = 2 * len(H), 2 * (2 * len(start) + terms)
+    noise = float(np.sqrt(2 * found.cost / (count - unknowns)))
+    # zeta = -Re/|lambda|: with Re << |lambda| its error is that of the real part.
+    errors = scale * noise * np.sqrt(np.diag(np.linalg.pinv(found.jac.T @ found.jac)))
+    n = len(start)
+    return _Fitted(
+        poles,
+        errors[:n],
+        errors[n:],
+        np.abs(_coefficients(omega, H, poles, terms)[:n]),
+        noise,
+        H - _remainder(omega, H, poles, terms),
+        count * np.log(max(2 * found.cost, _NOTHING * float(np.sum(np.abs(H) ** 2))) / count)
+        + unknowns * np.log(count),
+    )
 
 
 def _poles(p: Array, start: Complex, scale: float) -> Complex:
@@ -100,32 +244,32 @@ def _poles(p: Array, start: Complex, scale: float) -> Complex:
     return np.asarray(start + scale * (p[:n] + 1j * p[n:]))
 
 
-def _remainder(omega: Array, H: Complex, poles: Complex) -> Complex:
+def _remainder(omega: Array, H: Complex, poles: Complex, terms: int) -> Complex:
     """What residues and background, chosen best, leave of H."""
-    Q, _ = np.linalg.qr(_columns(omega, poles))
+    Q, _ = np.linalg.qr(_columns(omega, poles, terms))
     return np.asarray(H - Q @ (Q.conj().T @ H))
 
 
-def _coefficients(omega: Array, H: Complex, poles: Complex) -> Complex:
+def _coefficients(omega: Array, H: Complex, poles: Complex, terms: int) -> Complex:
     """Heights of the resonances at their poles, then the background."""
-    Q, R = np.linalg.qr(_columns(omega, poles))
+    Q, R = np.linalg.qr(_columns(omega, poles, terms))
     return np.asarray(np.linalg.solve(R, Q.conj().T @ H))
 
 
-def _jacobian(omega: Array, H: Complex, poles: Complex) -> Array:
+def _jacobian(omega: Array, H: Complex, poles: Complex, terms: int) -> Array:
     """Kaufman's: the columns' change, residues kept, projected. To the poles' real, then imaginary parts."""
-    Q, _ = np.linalg.qr(_columns(omega, poles))
-    c = _coefficients(omega, H, poles)[: len(poles)]
+    Q, _ = np.linalg.qr(_columns(omega, poles, terms))
+    c = _coefficients(omega, H, poles, terms)[: len(poles)]
     change = -(c * np.abs(poles.real) / (1j * omega[:, None] - poles) ** 2)
     change = change - Q @ (Q.conj().T @ change)
     both = np.hstack([change, 1j * change])
     return np.concatenate([both.real, both.imag])
 
 
-def _columns(omega: Array, poles: Complex) -> Complex:
+def _columns(omega: Array, poles: Complex, terms: int) -> Complex:
     t = (omega - omega.mean()) / ((omega[-1] - omega[0]) / 2)
     resonances = np.abs(poles.real) / (1j * omega[:, None] - poles)
-    return np.column_stack([resonances, np.ones_like(t), t])
+    return np.column_stack([resonances, legvander(t, terms - 1)])
 
 
 def _stack(z: Complex) -> Array:

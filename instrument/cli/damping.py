@@ -144,7 +144,9 @@ def _print(out: Output, found: Damping) -> None:
         for m in found.modes
     ]
     columns = ["f/Hz", "rational fit/%", "half power/%", "LSCF/%", "lines", "channel", "remarks"]
-    out.table("damping ratio by three methods, +- one standard error by these hits' noise", columns, rows)
+    low, high = found.band_hz
+    title = "damping ratio by three methods, +- one standard error by these hits' noise"
+    out.table(f"{low:.3g} to {high:.4g} Hz: {title}", columns, rows)
     for warning in found.warnings:
         out.say(f"note: {warning}")
 

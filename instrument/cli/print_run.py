@@ -89,6 +89,8 @@ def print_damping(out: Output, found: DampingFound) -> None:
         ["f/Hz", "rational fit/%", "half power/%", "LSCF/%", "remarks"],
         rows,
     )
+    for said in found.result.warnings:
+        out.say(f"bare plate: {said}")
 
 
 def print_quality(out: Output, points: list[PointMeasured]) -> None:

@@ -22,6 +22,7 @@ class ModeFound(Result):
     """One mode: what each method says, what is adopted, and what speaks against it."""
 
     frequency_hz: Number
+    frequency_standard_error_hz: Number = nan
     damping_ratio: Number = nan
     """NaN where no method gives one."""
     channel: str = ""
@@ -32,6 +33,8 @@ class ModeFound(Result):
     lines_in_bandwidth: Number = nan
     bandwidths_to_next: Number = nan
     """Distance to the nearest other mode; NaN for a single one."""
+    coherence: Number = nan
+    """Mean over its bandwidth; NaN for one hit, and of FRFs."""
     accepted: bool = True
     why: str = ""
 
@@ -63,6 +66,8 @@ class DampingResult(Result):
     modes: tuple[ModeFound, ...]
     hits: tuple[HitUsed, ...] = ()
     warnings: tuple[str, ...] = ()
+    band_hz: tuple[Number, Number] | None = None
+    """Where modes were looked for."""
     sensor: SensorOnPlate | None = None
     """Where the rig states one."""
 

@@ -1,6 +1,6 @@
 """The hammer test as it goes on: samples and the operator's word in, hits and modes out. Pure."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -109,7 +109,7 @@ class HammerAnalysis:
     def ended(self, _: HammerTestEnded) -> list[Derived]:
         """The plate's modes from the accepted hits; none where no hit is good."""
         hits = [
-            Judged(h.judged.hit, h.accepted, h.judged.why or "rejected", h.judged.notes, h.judged.pulse)
+            replace(h.judged, accepted=h.accepted, why=h.judged.why or ("" if h.accepted else "rejected"))
             for h in self._hits
         ]
         try:

@@ -1,21 +1,24 @@
 """Natural frequencies and damping ratios from hits or FRFs: three methods side by side, one adopted."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import median_filter
 from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array
 from fitting.modal.frf import DampingEstimate, Frf, Refusal
 from fitting.modal.half_power import half_power, half_power_marks
 from fitting.modal.lscf import lscf, lscf_poles
-from fitting.modal.rational_fit import RationalFit, rational_fit
+from fitting.modal.rational_fit import MOST_TERMS, RationalFit, rational_fit
 from instrument.errors import BadInput
+from instrument.impact.close_pairs import Pairs, pairs_among
 from instrument.impact.hits_apart import told_apart
 from instrument.impact.judge import Judged
 from instrument.impact.mode import Mode
+from instrument.impact.peaks import beyond, merged, peaks_of, without_a_pole
 from instrument.impact.spectra import Estimator, Spectra, from_the_blow, rolloff_hz, spectra
+from instrument.impact.turned import turned_alike
 
 PADDING = 8
 """Half power is read on lines so many times finer."""
@@ -23,12 +26,6 @@ HALF_POWER_END = 0.01
 """Where its exponential window ends."""
 DISAGREEMENT = 0.10
 """Relative, of two methods' ratios: well beyond what half power is off by in the tests (3 %). A choice."""
-PROMINENCE = 6.0
-"""Of a peak over the scatter of the lines."""
-_SCATTER_LINES = 101
-"""Over which the lines' usual size is a median: far wider than a lightly damped peak. A choice."""
-MOST_MODES = 60
-"""Peaks looked at, the highest: a bound on time."""
 _UNDECAYED = 0.2
 """A record that ends at more than this share of a mode's start gives no half-power value."""
 _CUT = 0.05
@@ -39,8 +36,8 @@ _LSCF_LINES = 40
 """Either side of a mode, at least: its highest order has 25 coefficients."""
 _LSCF_BANDWIDTHS = 15
 """Either side of a mode: its neighbours' poles are found too, and take their part."""
-_SAME = 2e-3
-"""Relative distance within which two channels' peaks are one mode."""
+_OF_RATE = 0.45
+"""Of the sampling rate, up to which modes are looked for: an anti-aliasing filter ends there."""
 
 
 @dataclass(frozen=True)
@@ -55,6 +52,8 @@ class Damping:
     fine: dict[str, Frf]
     """By channel, padded and windowed, as half power sees them."""
     coherence: dict[str, Array] | None
+    band_hz: tuple[float, float]
+    """Where modes were looked for."""
 
 
 def damping_of_hits(
@@ -74,13 +73,20 @@ def damping_of_hits(
     if not good:
         raise BadInput("no good hit: " + "; ".join(f"{j.hit.source}: {j.why}" for j in hits))
     good = from_the_blow(good)
+    rate = good[0].hit.sample_rate_hz
+    alone = [spectra([hit], estimator=estimator, end_value=end_value) for hit in good]
+    excited = min(min(rolloff_hz(one) for one in alone), _OF_RATE * rate)
+    good, turned = turned_alike(good, [one.frfs for one in alone], (0.0, excited))
+    if turned:
+        alone = [spectra([hit], estimator=estimator, end_value=end_value) for hit in good]
     plain = spectra(good, estimator=estimator, end_value=end_value)
     fine = spectra(good, estimator=estimator, end_value=end_value or HALF_POWER_END, padding=PADDING)
     seconds = good[0].hit.seconds
-    band = band_hz or (3 / seconds, min(rolloff_hz(plain), 0.45 * good[0].hit.sample_rate_hz))
-    modes = _modes(plain.frfs, fine.frfs, band, at_hz, seconds)
-    modes, differ = told_apart(good, modes, estimator, end_value)
-    said = [*(f"{j.hit.source}: {note}" for j in hits for note in j.notes), *differ]
+    band = band_hz or (3 / seconds, min(rolloff_hz(plain), _OF_RATE * rate))
+    single = [one.frfs for one in alone]
+    modes = _modes(plain.frfs, fine.frfs, band, at_hz, seconds, single)
+    modes, differ = told_apart(good, single, modes)
+    said = [*(f"{j.hit.source}: {note}" for j in hits for note in j.notes), *turned, *differ]
     if not modes:
         said.append(
             f"no mode found between {band[0]:.3g} and {band[1]:.4g} Hz: name it with --at, or see --band"
@@ -88,9 +94,11 @@ def damping_of_hits(
     said += [f"{j.hit.source} left out: {j.why}" for j in hits if not j.accepted]
     if len(good) == 1:
         said.append("one hit: coherence says nothing, and nothing is averaged")
-    return Damping(
-        modes, tuple(hits), (*said, *_advice(modes, plain, seconds)), plain.frfs, fine.frfs, plain.coherence
-    )
+    if not at_hz:
+        said += without_a_pole(plain.frfs, fine.frfs, band, modes)
+        said += beyond(plain.frfs, fine.frfs, band, _OF_RATE * rate) if band_hz is None else []
+    said += _advice(modes, plain, seconds)
+    return Damping(modes, tuple(hits), tuple(said), plain.frfs, fine.frfs, plain.coherence, band)
 
 
 def damping_of_frfs(
@@ -101,7 +109,8 @@ def damping_of_frfs(
     f = any_frf.frequency_hz
     band = band_hz or (float(f[0]), float(f[-1]))
     modes = _modes(frfs, frfs, band, at_hz, 1 / float(np.median(np.diff(f))))
-    return Damping(modes, (), (), frfs, frfs, None)
+    said = without_a_pole(frfs, frfs, band, modes) if not at_hz else []
+    return Damping(modes, (), tuple(said), frfs, frfs, None, band)
 
 
 def _modes(
@@ -110,18 +119,21 @@ def _modes(
     band: tuple[float, float],
     at_hz: tuple[float, ...],
     seconds: float,
+    alone: Sequence[Mapping[str, Frf]] = (),
 ) -> tuple[Mode, ...]:
     """Modes asked for by name are all reported; of those found, the ones a pole explains."""
     highest = min(float(frf.frequency_hz[-1]) for frf in plain.values())
     for f in at_hz:
         if f >= highest:
             raise BadInput(f"--at {f:g} Hz is beyond the data, expected less than {highest:g} Hz")
-    centres = sorted(set(at_hz)) if at_hz else _found(plain, fine, band, seconds)
+    pairs = Pairs(tuple(sorted(set(at_hz))))
+    if not at_hz:
+        pairs = pairs_among(_found(plain, fine, band, seconds), plain, alone, _START_RATIO)
     modes = []
     with threadpool_limits(1, "blas"):
-        for f in centres:
-            candidates = [_mode(name, plain[name], fine[name], f, centres, seconds) for name in plain]
-            modes.append(min(candidates, key=_doubt))
+        for f in pairs.centres:
+            candidates = [_mode(name, plain[name], fine[name], f, pairs.centres, seconds) for name in plain]
+            modes.append(pairs.judged(min(candidates, key=_doubt), f))
     return tuple(m for m in modes if at_hz or m.accepted)
 
 
@@ -132,13 +144,13 @@ def _found(
     explained = []
     with threadpool_limits(1, "blas"):
         for name, frf in fine.items():
-            for f, prominence in _peaks(plain[name], frf, band):
+            for f, prominence in peaks_of(plain[name], frf, band):
                 start = half_power(frf, f)
                 guess = max(start.ratio, 1e-4) if isinstance(start, DampingEstimate) else _START_RATIO
                 fits = (rational_fit(plain[name], f, ratio) for ratio in (guess, _START_RATIO))
                 if any(isinstance(fit, RationalFit) for fit in fits):
                     explained.append((f, prominence))
-    return _merged(explained, 2 / seconds)
+    return merged(explained, 2 / seconds)
 
 
 def _doubt(mode: Mode) -> float:
@@ -148,45 +160,10 @@ def _doubt(mode: Mode) -> float:
     return np.inf
 
 
-def _peaks(plain: Frf, fine: Frf, band: tuple[float, float]) -> list[tuple[float, float]]:
-    """Frequency and height over the scatter of the most outstanding peaks.
-
-    Not in decibels: noise has deep nulls, and its peaks stand higher above those than modes do.
-    """
-    inside = fine.between(*band)
-    if len(inside.H) < 5 or len(plain.between(*band).H) < 5:
-        raise BadInput(f"band {band[0]:g} to {band[1]:g} Hz holds {len(inside.H)} lines, expected 5 or more")
-    # Loaded here: with what it brings along it takes as long as a third of the window's start.
-    from scipy.signal import find_peaks
-
-    where, facts = find_peaks(np.abs(inside.H), prominence=0)
-    height = facts["prominences"] / _scatter(plain, inside.frequency_hz[where])
-    best = [k for k in np.argsort(-height)[:MOST_MODES] if height[k] > PROMINENCE]
-    return [(float(inside.frequency_hz[where[k]]), float(height[k])) for k in best]
-
-
-def _scatter(frf: Frf, at_hz: Array) -> Array:
-    """Typical departure of a line from its neighbours' mean, nearby: noise, not modes."""
-    away = np.abs(frf.H[1:-1] - (frf.H[:-2] + frf.H[2:]) / 2)
-    typical = median_filter(away, size=_SCATTER_LINES, mode="nearest")
-    return np.interp(at_hz, frf.frequency_hz[1:-1], np.maximum(typical, 1e-12 * np.abs(frf.H).max()))
-
-
-def _merged(peaks: list[tuple[float, float]], apart_hz: float) -> list[float]:
-    """One frequency a mode: channels see the same one a little apart."""
-    kept: list[tuple[float, float]] = []
-    for f, prominence in sorted(peaks):
-        if kept and f - kept[-1][0] < max(apart_hz, _SAME * f):
-            kept[-1] = max(kept[-1], (f, prominence), key=lambda peak: peak[1])
-        else:
-            kept.append((f, prominence))
-    return [f for f, _ in kept]
-
-
-def _mode(name: str, plain: Frf, fine: Frf, f: float, centres: list[float], seconds: float) -> Mode:
+def _mode(name: str, plain: Frf, fine: Frf, f: float, centres: Sequence[float], seconds: float) -> Mode:
     start = half_power(fine, f)
     guess = max(start.ratio, 1e-4) if isinstance(start, DampingEstimate) else _START_RATIO
-    fit = rational_fit(plain, f, guess, tuple(c for c in centres if c != f))
+    fit = rational_fit(plain, f, guess, tuple(c for c in centres if c != f), MOST_TERMS)
     rational = fit.estimate if isinstance(fit, RationalFit) else fit
     best = rational if isinstance(rational, DampingEstimate) else start
     f_n = best.frequency_hz if isinstance(best, DampingEstimate) else f
@@ -276,7 +253,7 @@ def _advice(modes: tuple[Mode, ...], spectrum: Spectra, seconds: float) -> list[
     if narrow is not None and narrow.lines_in_bandwidth < 2:
         said.append(
             f"{narrow.frequency_hz:.2f} Hz has {narrow.lines_in_bandwidth:.1f} lines in its bandwidth: "
-            f"record {_seconds_for(narrow, seconds):.0f} s instead of {seconds:.3g} s "
+            f"record {_seconds_for(narrow, seconds):.3g} s instead of {seconds:.3g} s "
             "to read it by half power"
         )
     slow = max(known, key=lambda m: _remains(m, seconds), default=None)
@@ -287,11 +264,11 @@ def _advice(modes: tuple[Mode, ...], spectrum: Spectra, seconds: float) -> list[
             "the rational fit bears that, half power wants a longer record"
         )
     edge = rolloff_hz(spectrum)
-    beyond = [m for m in modes if m.frequency_hz > edge]
-    if beyond:
+    faint = [m for m in modes if m.frequency_hz > edge]
+    if faint:
         said.append(
             f"the blow excites little above {edge:.0f} Hz: "
-            f"use a harder tip for {beyond[0].frequency_hz:.0f} Hz"
+            f"use a harder tip for {faint[0].frequency_hz:.0f} Hz"
         )
     return said
 

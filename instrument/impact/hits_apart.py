@@ -4,18 +4,17 @@ Their mean is then no plate's: a peak from two frequencies is a wide one. So eve
 and of a mode that differs from hit to hit the median of theirs is adopted, with an error by their scatter.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array, Mask
-from fitting.modal.frf import DampingEstimate
+from fitting.modal.frf import DampingEstimate, Frf
 from fitting.modal.rational_fit import RationalFit, rational_fit
 from instrument.impact.judge import Judged
 from instrument.impact.mode import Mode
-from instrument.impact.spectra import Estimator, spectra
 
 _ERRORS = 6.0
 """Standard errors from the median of all: those of few lines are too small by up to a half."""
@@ -27,12 +26,14 @@ _OF_A_MEDIAN = 1.25
 
 
 def told_apart(
-    good: Sequence[Judged], modes: Sequence[Mode], estimator: Estimator, end_value: float | None
+    good: Sequence[Judged], alone: Sequence[Mapping[str, Frf]], modes: Sequence[Mode]
 ) -> tuple[tuple[Mode, ...], list[str]]:
-    """Modes with the median of the hits where these differ, and which hits do, for people."""
+    """Modes with the median of the hits where these differ, and which hits do, for people.
+
+    `alone` are the FRFs of each by itself.
+    """
     if len(good) < 2:
         return tuple(modes), []
-    alone = [spectra([hit], estimator=estimator, end_value=end_value).frfs for hit in good]
     found, off = list[Mode](), dict[int, list[float]]()
     with threadpool_limits(1, "blas"):
         for mode in modes:
@@ -77,7 +78,8 @@ def _median(mode: Mode, each: Sequence[DampingEstimate]) -> Mode:
     f, ratio, error = _numbers(each)
     scatter = float(np.std(ratio, ddof=1)) / np.sqrt(len(each))
     known = max(scatter, float(np.median(error)) / np.sqrt(len(each)))
-    made = DampingEstimate(float(np.median(f)), float(np.median(ratio)), _OF_A_MEDIAN * known)
+    of_f = _OF_A_MEDIAN * float(np.std(f, ddof=1)) / np.sqrt(len(each))
+    made = DampingEstimate(float(np.median(f)), float(np.median(ratio)), _OF_A_MEDIAN * known, of_f)
     why = f"hits differ: {len(each)} fitted one by one, their median adopted"
     return replace(
         mode,

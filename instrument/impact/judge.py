@@ -20,6 +20,15 @@ _JUMP = 3.0
 """Steps of the converter that make the edge of a flat top a jump."""
 _COARSEST = 0.05
 """No converter's step is a larger share of what it measures."""
+_TOPS = (0.005, 0.01, 0.02, 0.04)
+"""Shares of the extremes, down to which samples of a clipped signal with noise on it pile up."""
+_PILED = 5.0
+"""Times as many samples there as in the next such share below: a parabola's top has 2.4 times as many, and of
+1,650 unclipped hits by closed form 0.1 % had more."""
+_FEWEST_PILED = 8
+"""Samples at the extremes of which that is asked."""
+_FEWEST_VISITS, _LEFT = 3, 0.8
+"""Times that a clipped signal comes to its extremes, having been below this share of them between."""
 _IMPULSE = 2
 """A blow so short may begin with the record: nothing of it is cut off."""
 _SILENT = 10.0
@@ -79,7 +88,7 @@ def _pulse(force: Array) -> slice:
 def _force_faults(hit: Hit, pulse: slice) -> list[str]:
     force, rate = hit.force_n, hit.sample_rate_hz
     peak = float(force.max(initial=0.0))
-    if peak <= 0 or peak < _SILENT * _scatter(force):
+    if peak <= 0 or peak < _SILENT * robust_scatter(force):
         return ["the force channel is silent"]
     if np.mean(np.abs(force) > PULSE_LEVEL * peak) > _LONG_PULSE:
         return ["the force rings on like a response: are the channels swapped?"]
@@ -91,7 +100,7 @@ def _force_faults(hit: Hit, pulse: slice) -> list[str]:
     # The pulse's own tail may undershoot and ring a little: look again after twice its length.
     width = pulse.stop - pulse.start
     after = force[min(pulse.stop + 2 * width, len(force)) :]
-    limit = max(DOUBLE_HIT * peak, _SILENT * _scatter(force))
+    limit = max(DOUBLE_HIT * peak, _SILENT * robust_scatter(force))
     if after.size and after.max() > limit:
         at = (len(force) - after.size + int(np.argmax(after)) - int(np.argmax(force))) / rate
         faults.append(
@@ -106,11 +115,34 @@ def _response_faults(name: str, samples: Array) -> list[str]:
         return [f"channel {name} is silent"]
     if _is_flat(samples) or _is_flat(-samples):
         return [f"channel {name} is overloaded (flat top at {peak:.3g})"]
+    if _piles_up(samples):
+        return [f"channel {name} is overloaded (its samples pile up at its extremes, {peak:.3g})"]
     return []
 
 
-def _scatter(samples: Array) -> float:
-    """Robust standard deviation of samples that are mostly noise."""
+def _piles_up(samples: Array) -> bool:
+    """Whether a signal was cut before noise came to it: more samples at its extremes than motion has."""
+    sides = [(side, float(side.max())) for side in (samples, -samples)]
+    for share in _TOPS:
+        at_top = sum(int(np.sum(side > (1 - share) * top)) for side, top in sides)
+        below = sum(int(np.sum(side > (1 - 2 * share) * top)) for side, top in sides) - at_top
+        if at_top >= _FEWEST_PILED and at_top > _PILED * (below + 1):
+            # What moves as a whole stays at its extreme as well, but comes there once.
+            return sum(_visits(side, share, top) for side, top in sides) >= _FEWEST_VISITS
+    return False
+
+
+def _visits(side: Array, share: float, top: float) -> int:
+    """How often it comes to its extreme, having left it by far."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], side > _LEFT * top, [False]]).astype(int)))
+    return sum(
+        bool(np.any(side[start:stop] > (1 - share) * top))
+        for start, stop in zip(edges[::2], edges[1::2], strict=True)
+    )
+
+
+def robust_scatter(samples: Array) -> float:
+    """Standard deviation of samples that are mostly noise, by their median. Shape (samples,)."""
     return float(1.4826 * np.median(np.abs(samples - np.median(samples))))
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.modal.frf import Frf
-from instrument.impact.judge import Judged
+from instrument.impact.judge import Judged, robust_scatter
 
 Estimator = Literal["h1", "h2", "hv"]
 
@@ -17,6 +17,9 @@ _SHORT_WAIT = 0.03
 """Of the record, before the blow: it changes nothing that shows."""
 _TAPER = 0.5
 """The force window closes over this share of its own length, a half cosine."""
+_STANDS_OUT, _LEAST_BLOW = 7.0, 2e-3
+"""Scatters of the force, and share of the blow, above which a sample of it is a blow and not noise: of a
+million samples of noise none."""
 _PULSES = 4
 """The force is kept for so many lengths of the blow after its end."""
 
@@ -97,7 +100,8 @@ def frf_of(S_ff: Array, S_xx: Array, S_xf: Complex, estimator: Estimator) -> Com
 def force_window(judged: Judged) -> Array:
     """One over the blow and a little after it, then a half cosine to zero: the rest of the force is noise.
 
-    Shape (samples,).
+    One too about whatever else stands out of that: a second blow of 3 % that the force's window hides is 3 %
+    of another mode's phase. Shape (samples,).
     """
     n, pulse = len(judged.hit.force_n), judged.pulse
     width = pulse.stop - pulse.start
@@ -107,6 +111,11 @@ def force_window(judged: Judged) -> Array:
     w[:stop] = 1.0
     end = min(n, stop + taper)
     w[stop:end] = 0.5 * (1 + np.cos(np.pi * (np.arange(end - stop) + 1) / (taper + 1)))
+    rest = judged.hit.force_n[end:]
+    if len(rest):
+        least = max(_STANDS_OUT * robust_scatter(rest), _LEAST_BLOW * float(judged.hit.force_n.max()))
+        for at in end + np.flatnonzero(rest > least):
+            w[max(0, at - width) : at + width + 1] = 1.0
     return w
 
 

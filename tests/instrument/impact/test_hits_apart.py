@@ -10,6 +10,7 @@ from instrument.impact.damping import damping_of_hits
 from instrument.impact.hits_apart import told_apart
 from instrument.impact.judge import judge
 from instrument.impact.mode import Mode
+from instrument.impact.spectra import spectra
 
 AT = tuple(BARE_HZ[:5])
 
@@ -55,8 +56,9 @@ def test_hits_of_one_plate_are_averaged_as_they_are(seed):
     found = damping_of_hits(alike, at_hz=AT)
     assert not any("differ" in w for w in found.warnings)
     assert all(isinstance(m, Mode) for m in found.modes)
-    assert told_apart(alike, found.modes, "h1", None) == (found.modes, [])
-    assert told_apart(alike[:1], found.modes, "h1", None) == (found.modes, [])
+    alone = [spectra([hit]).frfs for hit in alike]
+    assert told_apart(alike, alone, found.modes) == (found.modes, [])
+    assert told_apart(alike[:1], alone[:1], found.modes) == (found.modes, [])
 
 
 def test_a_blow_late_in_the_record_loses_no_mode_and_no_digits():
