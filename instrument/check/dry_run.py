@@ -16,11 +16,12 @@ from instrument.check.forecast import (
     Forecast,
     calibration_segments,
     distinct,
-    least_seconds,
+    expected_seconds,
     planned_segments,
     with_next_coarser,
 )
 from instrument.check.sensors import sensor_remarks
+from instrument.check.unsettled import unsettled_remark
 from instrument.errors import BadInput
 from instrument.facts.check import CheckResult, SegmentForecast, SoakForecast
 from instrument.files.acceleration import in_both
@@ -150,11 +151,10 @@ def _sweep(
             f"{rate:g} samples/s for {highest:g} Hz: take {10 * highest:g} or more to see harmonics"
         )
     repeats = (len(planned) + 1) * (sentinel is not None)
-    seconds = least_seconds(forecast, [*planned, *calibration], settings)
-    if repeats:
-        watch = PlannedSegment(0, 0, (sentinel[0],), (level,), "") if sentinel else planned[0]
-        seconds += repeats * least_seconds(forecast, [watch], settings)
-    return segments, seconds, warnings
+    watches = [PlannedSegment(0, 0, (sentinel[0],), (level,), "")] * repeats if sentinel else []
+    every = [*planned, *calibration, *watches]
+    slow = unsettled_remark(forecast, every, settings)
+    return segments, expected_seconds(forecast, every, settings), warnings + ([slow] if slow else [])
 
 
 def _segment(
@@ -169,7 +169,7 @@ def _segment(
         range_name=planned.range_name,
         velocity_m_s=float(forecast.velocity_m_s(f, float(level[0])).max()),
         travel_m=float((level / (2 * np.pi * f) ** 2).max()),
-        seconds=least_seconds(forecast, [planned], settings),
+        seconds=expected_seconds(forecast, [planned], settings),
     )
 
 

@@ -22,7 +22,7 @@ from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen, StatedSpecimen
 from fitting.sweep import Integers, Sweep
 from instrument.models.set_up import Hammer, set_up
-from instrument.planning.costs import dwell_seconds, step_seconds
+from instrument.planning.costs import as_run, dwell_seconds, step_seconds
 from instrument.planning.outlook import visible
 from instrument.planning.plan import catalogue
 from instrument.stepped_sine.settings import SweepSettings
@@ -126,7 +126,8 @@ class Grid:
         f = candidate_frequencies(poles, low, high)
         f = np.unique(np.concatenate([f, np.array(measured_hz)]))
         s = ground.settings
-        candidates = Candidates(f, ground.region(f), dwell_seconds(f, s), step_seconds(f, poles, s))
+        seconds = step_seconds(f, as_run(poles, ground.specimen), s)
+        candidates = Candidates(f, ground.region(f), dwell_seconds(f, s), seconds)
         problem = ground.problem(f)
         v = response_of(problem, ()).velocity(law, z)
         errors = model_error(problem, ground.reduced, law, v)

@@ -17,7 +17,7 @@ from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.models.set_up import Hammer, SetUp, set_up
-from instrument.planning.costs import dwell_seconds, step_seconds
+from instrument.planning.costs import as_run, dwell_seconds, step_seconds
 from instrument.progress import Progress, quiet
 from instrument.stepped_sine.settings import SweepSettings
 
@@ -41,7 +41,7 @@ class Outlook:
     specimen: Specimen
     setup: SetUp
     poles_hz: Complex
-    """Of the plate, by the law it starts from."""
+    """Of the plate, by the law it starts from, and as it rings."""
     band_hz: Band
     candidates: Candidates
 
@@ -108,8 +108,10 @@ def outlook_of(
     every = resonances_hz(poles, min(low, _WIDEST_HZ[0]), high)
     f = candidate_frequencies(every, low, high)
     seen = every[visible(setup, every)]
-    candidates = Candidates(f, regions(f, seen), dwell_seconds(f, settings), step_seconds(f, every, settings))
-    return Outlook(setup.specimen, setup, every, (float(f[0]), float(f[-1])), candidates)
+    ringing = as_run(every, setup.specimen)
+    seconds = step_seconds(f, ringing, settings)
+    candidates = Candidates(f, regions(f, seen), dwell_seconds(f, settings), seconds)
+    return Outlook(setup.specimen, setup, ringing, (float(f[0]), float(f[-1])), candidates)
 
 
 def usual_band(setup: SetUp, poles_hz: Complex) -> Band:
