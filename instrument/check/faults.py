@@ -158,6 +158,10 @@ def _sweep(experiment: Experiment, forecast: Forecast) -> Iterator[str]:
     if table.plan == "adaptive" and experiment.the_specimen().core is None:
         yield f'{path}: sweep.plan = "adaptive": the specimen has no [core] to find a law of'
         return
+    core = experiment.the_specimen().core
+    if table.plan == "adaptive" and core is not None and not core.law.names:
+        yield f'{path}: sweep.plan = "adaptive": core law {core.law.kind} has no numbers to be found'
+        return
     ranges = distinct(ranges_of(experiment.rig.vibrometer))
     highest = experiment.rig.front_end.sample_rate_hz / _SAMPLES_A_CYCLE
     frequencies: list[tuple[str, float]] = []

@@ -148,3 +148,43 @@ def test_an_experiment_that_cannot_be_read_is_left_as_it_is(capsys, specimen, tm
     assert status == 2
     assert str(path) in err
     assert Path(path).read_text() == "nonsense = true\n"
+
+
+LAW = r"kind = .*?(?=\n\s*\n|\n\[)"
+
+
+@pytest.mark.parametrize(
+    ("law", "said"),
+    [
+        ('kind = "isd112"', "core law isd112 has no numbers that a sweep could find"),
+        (
+            'kind = "fractional-zener"\ng0_mpa = 1.0\nginf_mpa = 1.0\ntau_s = 1e-4\nalpha = 0.5',
+            "the core's law has no loss from 15 to 120 Hz",
+        ),
+        ('kind = "constant"\ng_mpa = 1.0\nloss_factor = 0.0', "the core's law has no loss from 15 to 120 Hz"),
+    ],
+)
+def test_a_law_without_numbers_or_without_loss_is_refused_in_one_line(capsys, specimen, tmp_path, law, said):
+    path = tmp_path / "specimen.toml"
+    path.write_text(re.sub(LAW, law, specimen.read_text(), count=1, flags=re.S))
+    status, out, err = call(capsys, "plan", path, *BAND, "--no-spots")
+    assert (status, out) == (2, "")
+    assert said in err
+    assert len(err.splitlines()) == 1
+
+
+def test_below_the_first_resonance_it_is_that_which_rings(capsys, specimen):
+    status, out, err = call(capsys, "plan", specimen, "--band", "2:6", "--no-spots", "--json", "-")
+    assert status == 0, err
+    steps = json.loads(out)["steps"]
+    assert [steps[0]["frequency_hz"], steps[-1]["frequency_hz"]] == [2.0, 6.0]
+
+
+def test_a_spot_beside_the_clamp_is_planned_for(capsys, specimen, tmp_path):
+    # A shorter free length puts it onto the clamp, where nothing moves.
+    path = tmp_path / "specimen.toml"
+    path.write_text(re.sub(r"x_mm = \S+", "x_mm = 5.0", specimen.read_text(), count=1))
+    assert "x_mm = 5.0" in path.read_text()
+    status, out, err = call(capsys, "plan", path, *BAND, "--no-spots", "--json", "-")
+    assert status == 0, err
+    assert json.loads(out)["x_mm"] == pytest.approx(5.0)
