@@ -11,6 +11,8 @@ from fitting.errors import FittingError
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
+from instrument.check.bare_test import bare_test_remarks
+from instrument.check.coarse_steps import coarse_remarks
 from instrument.check.faults import experiment_objections
 from instrument.check.forecast import (
     Forecast,
@@ -109,7 +111,9 @@ def dry_run(path: Path) -> DryRun:
         plate = specimen if isinstance(specimen, Specimen) else None
         remark = theory_remark(plate, specimen.core.law, band) if plate is not None else ""
         warnings += [f"with the law to start from, {remark}"] if remark else []
-    if hammer is not None:
+    table = experiment.document.hammer
+    if hammer is not None and table is not None:
+        warnings += bare_test_remarks(experiment, table)
         seconds += hammer.hits * (hammer.record_s + _HIT_AND_RING_S)
     asked = experiment.document.temperature if experiment.document.sweep is not None else None
     seconds += asked.soak_s if asked is not None else 0.0
@@ -137,6 +141,8 @@ def _sweep(
     level = table.level_g * PUBLISHED_G_M_S2
     segments = tuple(_segment(experiment, forecast, s, settings) for s in planned)
     warnings = [w for s in segments for w in _warnings(s, settings)]
+    if table.plan == "fixed":
+        warnings += [w for s in planned if s.sweep == 1 for w in coarse_remarks(forecast, s)]
     if level > settings.limits.base_m_s2:
         warnings.append(f"level {in_both(level)} is over the base limit {in_both(settings.limits.base_m_s2)}")
     unverified = [r.name for r in ranges if r.name in names and not r.verified]

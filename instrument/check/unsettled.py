@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from fitting.digits import two_digits
 from instrument.check.forecast import Forecast
 from instrument.stepped_sine.expected_time import left_at_most_s, settling_s
 from instrument.stepped_sine.patience import enough_s
@@ -28,6 +29,6 @@ def unsettled_remark(
     )
     return (
         f"{len(slow)} of {len(every)} readings (calibration and sentinel among them) do not settle within "
-        f"most_s = {most:g}: up to {longest:.0f} s are needed, {100 * left:.2g} % left then, limit "
+        f"most_s = {most:g}: up to {longest:.0f} s are needed, {two_digits(100 * left)} % left then, limit "
         f"{100 * settings.settle.tolerance:.2g} %; {cure}"
     )
