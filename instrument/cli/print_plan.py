@@ -37,6 +37,9 @@ def _headline(out: Output, found: PlanResult) -> None:
         f"{two_digits(found.worst_percent)} % on G' and the loss factor from {found.band_low_hz:g} to "
         f"{found.band_high_hz:g} Hz (predicted to first order)"
     )
+    exceeds = next((x.why_not for x in found.levels if x.level_g == found.level_g), "")
+    if exceeds:
+        out.say(f"this level takes more than 80 % of a usual limit: {exceeds}")
     if not found.reached:
         out.say(
             f"{found.target_percent:g} % is out of reach: everything measured would leave "

@@ -120,6 +120,7 @@ def test_figures_are_saved(planned):
         (("--target", "0"), "target"),
         (("--noise", "0", "--floor", "0"), "no reading is exact"),
         (("--hammer", "nothing.json"), "nothing.json"),
+        (("--level", "20g"), "--level 20g is 196 m/s^2"),
     ],
 )
 def test_a_wrong_wish_is_refused_in_one_line(capsys, specimen, arguments, said):
@@ -188,3 +189,18 @@ def test_a_spot_beside_the_clamp_is_planned_for(capsys, specimen, tmp_path):
     status, out, err = call(capsys, "plan", path, *BAND, "--no-spots", "--json", "-")
     assert status == 0, err
     assert json.loads(out)["x_mm"] == pytest.approx(5.0)
+
+
+def test_impossible_stated_numbers_are_asked_about_as_by_check(capsys, specimen, tmp_path):
+    path = tmp_path / "specimen.toml"
+    path.write_text(re.sub(r"young_gpa = \S+", "young_gpa = 68900.0", specimen.read_text(), count=1))
+    status, out, err = call(capsys, "plan", path, *BAND, "--no-spots")
+    assert (status, out) == (2, "")
+    assert "is it in MPa?; --force to go on all the same" in err
+    assert len(err.splitlines()) == 1
+
+
+def test_a_level_that_exceeds_a_limit_is_said_beside_the_headline(capsys, specimen):
+    status, out, err = call(capsys, "plan", specimen, *BAND, "--no-spots", "--level", "4.6g")
+    assert status == 0, err
+    assert "this level takes more than 80 % of a usual limit: base acceleration 45.1 m/s^2" in out
