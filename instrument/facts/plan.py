@@ -113,7 +113,7 @@ class LimitingNumber(Result):
 
     name: str
     worst_percent: Number
-    """That this plan would leave if it were exactly as stated."""
+    """That everything measured would leave if it were exactly as stated."""
 
 
 class PlanResult(Result):

@@ -50,6 +50,7 @@ class Plan:
     errors: Array
     """Relative, of G' and eta at the frequencies of `aims`. Shape (2, frequencies)."""
     limits: tuple[tuple[str, float], ...]
+    """Stated numbers, with what everything measured would leave if each were exact."""
     spots: tuple[Spot, ...]
     effects: tuple[EffectOutlook, ...]
     not_judged: tuple[tuple[str, str], ...]
@@ -114,7 +115,8 @@ def make_plan(
         for_law,
         for_causes,
         aims.errors(s.covariance(taken)),
-        tuple(limited_by(s, aims, taken, problem.nuisances.each)),
+        # Of everything measured, as the limit is: the plan's own steps would leave more than it in any case.
+        tuple(limited_by(s, aims, np.ones(len(c)), problem.nuisances.each)),
         tuple(spots),
         tuple(outlooks(s, taken, signatures)),
         tuple(_not_judged(effects, problem)),

@@ -69,6 +69,8 @@ def test_a_target_is_met_by_the_plans_own_prediction_or_said_to_be_out_of_reach(
     assert found["limit_percent"] <= worst
     if not found["reached"]:
         assert found["limited_by"]
+    # Nothing more known leaves less than that, with the same readings.
+    assert all(one["worst_percent"] < found["limit_percent"] for one in found["limited_by"])
 
 
 def test_a_share_of_the_time_separates_causes(planned):
