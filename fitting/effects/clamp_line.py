@@ -37,7 +37,7 @@ class Length(Span):
             for scale in _SCALES
             for place in (x / scale, (x + (scale - 1) * length) / scale)
         ]
-        rows = np.column_stack([full.loose.observe(min(x, length), y) for x, y in places])
+        rows = np.column_stack([full.loose.observe(float(np.clip(x, 0.0, length)), y) for x, y in places])
         others = [with_length(full.specimen, scale * length) for scale in _SCALES]
         return np.hstack([forces(full, at, others), rows])
 

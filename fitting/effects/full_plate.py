@@ -93,8 +93,9 @@ class FullPlate:
         return sp.csc_array(p.K_0.real + 1e6 * p.K_1 + (2 * np.pi * 50) ** 2 * p.M)
 
     def unit(self, X: Complex) -> Complex:
-        """Columns scaled to unit size. Shape (n, any), as `X`."""
-        return np.asarray(X / np.sqrt(np.real(np.einsum("ij,ij->j", X.conj(), times(self.scale, X)))))
+        """Columns scaled to unit size; a push at a held edge moves nothing. Shape (n, any), as `X`."""
+        size = np.sqrt(np.real(np.einsum("ij,ij->j", X.conj(), times(self.scale, X))))
+        return np.asarray(X / np.where(size > 0, size, 1.0))
 
     def snapshot(self, omega: float, G: complex) -> "Snapshot":
         """Responses to what drives it and to the pickup at a point of the domain."""

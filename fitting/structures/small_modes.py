@@ -1,5 +1,7 @@
 """Complex modes and responses of a small structure, from its full matrices."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import scipy.linalg as la
 
@@ -8,10 +10,13 @@ from fitting.complex_modes import ComplexMode
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.identification.model import velocity
 from fitting.laws import CoreLaw
+from fitting.structures.beam import Beam
 from fitting.structures.small import SmallSpecimen, check_driven, displacement, system_of
 
 _STEPS, _SETTLED = 60, 1e-9
 """A bound for the law followed along; the relative change of a frequency at which that has settled."""
+_BENDS = 0.01
+"""Of the largest deflection among modes: one that moves across less than this goes along the beam."""
 _RIGID, _AMONG = 1e-6, 10
 """Of the tenth eigenvalue: below it a mode is rigid. The last ones say only how fine the columns are."""
 
@@ -22,6 +27,14 @@ def small_modes(specimen: SmallSpecimen, law: CoreLaw | None, count: int) -> lis
     lambda of K_0 + G*(omega_r) K_1 with omega_r = sqrt(Re lambda_r), by fixed point.
     """
     return elastic_modes(system_of(specimen, specimen.parts()), law, count)
+
+
+def along(beam: Beam, modes: Sequence[ComplexMode]) -> list[bool]:
+    """Which modes of a beam stretch it and do not bend it: no laser that looks across it sees them."""
+    deflection = system_of(beam, beam.parts()).deflection[:, 0]
+    # Shapes are of one kinetic energy: what bends moves much alike.
+    largest = np.array([np.abs(deflection @ m.shape).max() for m in modes])
+    return [bool(one < _BENDS * largest.max()) for one in largest]
 
 
 def elastic_modes(

@@ -11,16 +11,19 @@ from fitting.errors import FittingError
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
+from instrument.check.bare_test import bare_test_remarks
+from instrument.check.coarse_steps import coarse_remarks
 from instrument.check.faults import experiment_objections
 from instrument.check.forecast import (
     Forecast,
     calibration_segments,
     distinct,
-    least_seconds,
+    expected_seconds,
     planned_segments,
     with_next_coarser,
 )
 from instrument.check.sensors import sensor_remarks
+from instrument.check.unsettled import unsettled_remark
 from instrument.errors import BadInput
 from instrument.facts.check import CheckResult, SegmentForecast, SoakForecast
 from instrument.files.acceleration import in_both
@@ -108,7 +111,9 @@ def dry_run(path: Path) -> DryRun:
         plate = specimen if isinstance(specimen, Specimen) else None
         remark = theory_remark(plate, specimen.core.law, band) if plate is not None else ""
         warnings += [f"with the law to start from, {remark}"] if remark else []
-    if hammer is not None:
+    table = experiment.document.hammer
+    if hammer is not None and table is not None:
+        warnings += bare_test_remarks(experiment, table)
         seconds += hammer.hits * (hammer.record_s + _HIT_AND_RING_S)
     asked = experiment.document.temperature if experiment.document.sweep is not None else None
     seconds += asked.soak_s if asked is not None else 0.0
@@ -136,6 +141,8 @@ def _sweep(
     level = table.level_g * PUBLISHED_G_M_S2
     segments = tuple(_segment(experiment, forecast, s, settings) for s in planned)
     warnings = [w for s in segments for w in _warnings(s, settings)]
+    if table.plan == "fixed":
+        warnings += [w for s in planned if s.sweep == 1 for w in coarse_remarks(forecast, s)]
     if level > settings.limits.base_m_s2:
         warnings.append(f"level {in_both(level)} is over the base limit {in_both(settings.limits.base_m_s2)}")
     unverified = [r.name for r in ranges if r.name in names and not r.verified]
@@ -150,11 +157,10 @@ def _sweep(
             f"{rate:g} samples/s for {highest:g} Hz: take {10 * highest:g} or more to see harmonics"
         )
     repeats = (len(planned) + 1) * (sentinel is not None)
-    seconds = least_seconds(forecast, [*planned, *calibration], settings)
-    if repeats:
-        watch = PlannedSegment(0, 0, (sentinel[0],), (level,), "") if sentinel else planned[0]
-        seconds += repeats * least_seconds(forecast, [watch], settings)
-    return segments, seconds, warnings
+    watches = [PlannedSegment(0, 0, (sentinel[0],), (level,), "")] * repeats if sentinel else []
+    every = [*planned, *calibration, *watches]
+    slow = unsettled_remark(forecast, every, settings)
+    return segments, expected_seconds(forecast, every, settings), warnings + ([slow] if slow else [])
 
 
 def _segment(
@@ -169,7 +175,7 @@ def _segment(
         range_name=planned.range_name,
         velocity_m_s=float(forecast.velocity_m_s(f, float(level[0])).max()),
         travel_m=float((level / (2 * np.pi * f) ** 2).max()),
-        seconds=least_seconds(forecast, [planned], settings),
+        seconds=expected_seconds(forecast, [planned], settings),
     )
 
 

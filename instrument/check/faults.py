@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Specimen
+from instrument.check.bare_test import bare_test_objections
 from instrument.check.forecast import Forecast, distinct, planned_segment, sections_of
 from instrument.errors import BadInput
 from instrument.files.acceleration import in_both
@@ -131,6 +132,7 @@ def _hammer(experiment: Experiment) -> Iterator[str]:
     for name in ("force", "response"):
         if getattr(experiment.rig.channels, name) is None:
             yield f"{experiment.rig_path}: channels.{name}: missing, the hammer test needs it"
+    off = False
     for key, at, side in (
         ("hit_x_mm", hammer.hit_x_mm, plate.length_mm),
         ("hit_y_mm", hammer.hit_y_mm, plate.width_mm),
@@ -138,6 +140,7 @@ def _hammer(experiment: Experiment) -> Iterator[str]:
         ("response_y_mm", hammer.response_y_mm, plate.width_mm),
     ):
         if at > side:
+            off = True
             yield f"{experiment.path}: hammer.{key} = {at:g} is off the {kind}, expected 0 to {side:g}"
     whole = hammer.whole_length_mm
     if whole is not None and whole < plate.length_mm:
@@ -145,6 +148,8 @@ def _hammer(experiment: Experiment) -> Iterator[str]:
             f"{experiment.path}: hammer.whole_length_mm = {whole:g} is less than stands out of the clamp, "
             f"expected {plate.length_mm:g} or more"
         )
+    if not off:
+        yield from bare_test_objections(experiment, hammer)
 
 
 def _sweep(experiment: Experiment, forecast: Forecast) -> Iterator[str]:
@@ -157,6 +162,10 @@ def _sweep(experiment: Experiment, forecast: Forecast) -> Iterator[str]:
         return
     if table.plan == "adaptive" and experiment.the_specimen().core is None:
         yield f'{path}: sweep.plan = "adaptive": the specimen has no [core] to find a law of'
+        return
+    core = experiment.the_specimen().core
+    if table.plan == "adaptive" and core is not None and not core.law.names:
+        yield f'{path}: sweep.plan = "adaptive": core law {core.law.kind} has no numbers to be found'
         return
     ranges = distinct(ranges_of(experiment.rig.vibrometer))
     highest = experiment.rig.front_end.sample_rate_hz / _SAMPLES_A_CYCLE

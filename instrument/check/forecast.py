@@ -21,6 +21,7 @@ from fitting.structures.small_modes import small_modes, small_velocity
 from instrument.errors import BadInput
 from instrument.files.experiment_file import SegmentSection, SweepTable
 from instrument.models.specimen_modes import specimen_modes
+from instrument.stepped_sine.expected_time import loop_checks_s, step_s
 from instrument.stepped_sine.plan import PlannedSegment
 from instrument.stepped_sine.settings import SweepSettings
 
@@ -40,7 +41,7 @@ _ROOM = 2.0
 """A range holds so many times the predicted response."""
 _CALIBRATION_SHARE = 0.5
 """Of a range's full scale, in calibration."""
-_OWN_RATIO = 1e-3
+OWN_RATIO = 1e-3
 """Viscous damping assumed where the specimen states none."""
 
 
@@ -62,7 +63,7 @@ class Forecast:
         coarse = replace(specimen, elements=specimen.elements or _COARSE)
         modes = specimen_modes(coarse, _MODES)
         f = np.array([m.frequency_hz for m in modes])
-        ratios = np.full(_MODES, specimen.modal_ratios[-1] if specimen.modal_ratios else _OWN_RATIO)
+        ratios = np.full(_MODES, specimen.modal_ratios[-1] if specimen.modal_ratios else OWN_RATIO)
         ratios[: len(specimen.modal_ratios)] = specimen.modal_ratios[:_MODES]
         loss = np.array([m.loss_factor for m in modes])
         return cls(coarse, f, 2 * np.pi * f * (loss / 2 + ratios))
@@ -72,7 +73,7 @@ class Forecast:
         law = specimen.core.law if specimen.core is not None else None
         modes = small_modes(specimen, law, _SMALL_MODES)
         f = np.array([m.frequency_hz for m in modes])
-        return cls(specimen, f, 2 * np.pi * f * (np.array([m.loss_factor for m in modes]) / 2 + _OWN_RATIO))
+        return cls(specimen, f, 2 * np.pi * f * (np.array([m.loss_factor for m in modes]) / 2 + OWN_RATIO))
 
     def decay_1_s(self, frequency_hz: float) -> float:
         """Of the slowest transient that a step near this frequency stirs."""
@@ -211,13 +212,8 @@ def range_for(velocity_m_s: float, ranges: tuple[Range, ...]) -> Range:
     return next((r for r in ranges if r.full_scale_m_s >= _ROOM * velocity_m_s), ranges[-1])
 
 
-def least_seconds(forecast: Forecast, planned: list[PlannedSegment], settings: SweepSettings) -> float:
-    """Time that settling from scratch to the tolerance at every step, and the dwell, would take."""
-    wait = np.log(1 / settings.settle.tolerance)
-    return float(
-        sum(
-            min(wait / forecast.decay_1_s(f), settings.settle.most_s) + settings.dwell_s(f)
-            for segment in planned
-            for f in segment.frequencies_hz
-        )
-    )
+def expected_seconds(forecast: Forecast, planned: list[PlannedSegment], settings: SweepSettings) -> float:
+    """Rig time of segments one after the other, with the loop checks."""
+    f = [f for segment in planned for f in segment.frequencies_hz]
+    steps = sum(step_s(x, forecast.decay_1_s(x), settings) for x in f)
+    return steps + sum(loop_checks_s(f, settings))

@@ -50,7 +50,7 @@ def check(experiment: Path, insist: bool, json_path: str | None) -> None:
         ]
         for s in run.segments
     ]
-    columns = ["segment", "f/Hz", "steps", "velocity/(mm/s)", "range", "base travel/mm", "at most/s"]
+    columns = ["segment", "f/Hz", "steps", "velocity/(mm/s)", "range", "base travel/mm", "about/s"]
     if rows:
         out.table("predicted", columns, rows)
         out.say(_level(whole))

@@ -7,7 +7,8 @@ import click
 
 from fitting.complex_modes import ModalValue
 from fitting.specimen import Specimen
-from fitting.structures.small_modes import small_modes
+from fitting.structures import Beam
+from fitting.structures.small_modes import along, small_modes
 from instrument.cli.options import file_argument, force_option, json_option
 from instrument.cli.output import Output
 from instrument.files.plausible import question_specimen
@@ -33,10 +34,15 @@ def modes(specimen: Path, count: int, insist: bool, json_path: str | None) -> No
     question_specimen(specimen, insist=insist)
     law = read.core.law if read.core is not None else None
     found: Sequence[ModalValue]
-    found = specimen_modes(read, count, bar) if isinstance(read, Specimen) else small_modes(read, law, count)
+    stretched: list[bool] = []
+    if isinstance(read, Specimen):
+        found = specimen_modes(read, count, bar)
+    else:
+        found = shapes = small_modes(read, law, count)
+        stretched = along(read, shapes) if isinstance(read, Beam) else []
     rows = [[str(k + 1), f"{m.frequency_hz:.3f}", f"{m.loss_factor:.5f}"] for k, m in enumerate(found)]
     out.table("", ["mode", "frequency/Hz", "loss factor"], rows)
-    result = modes_from(found, law)
+    result = modes_from(found, law, stretched)
     for remark in result.notes:
         out.say(f"note: {remark}")
     out.result(result)

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import click
 
+from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.planning.sensitivity import ReadingNoise
 from fitting.specimen import Specimen
 from instrument.cli.options import (
@@ -12,12 +13,15 @@ from instrument.cli.options import (
     acceleration_option,
     figures_option,
     file_argument,
+    force_option,
     json_option,
 )
 from instrument.cli.output import Output
 from instrument.cli.print_plan import print_plan
 from instrument.errors import BadInput
+from instrument.files.acceleration import in_both
 from instrument.files.hammer_file import read_hammer
+from instrument.files.plausible import question_specimen
 from instrument.files.structure_file import read_structure
 from instrument.planning.into_experiment import begun, write_into
 from instrument.planning.plan import make_plan
@@ -97,6 +101,7 @@ class Band(click.ParamType):  # type: ignore[type-arg]
     type=click.Path(path_type=Path),
     help="Write the plan as the [sweep] of this experiment file; a new one where there is none.",
 )
+@force_option
 @acceleration_option
 @figures_option("Save the plan on the response, and the map of spots, as PNG.")
 @json_option
@@ -110,6 +115,7 @@ def plan(
     causes: float,
     hammer: Path | None,
     no_spots: bool,
+    insist: bool,
     experiment: Path | None,
     figures: Path | None,
     json_path: str | None,
@@ -130,6 +136,7 @@ def plan(
             f"{specimen}: a plate that a force drives, expected one on a base: what is planned are steps of "
             "a shaker"
         )
+    question_specimen(specimen, insist=insist)
     wish = Wish(
         target=target / 100,
         band_hz=band,
@@ -139,6 +146,9 @@ def plan(
     )
     if noise == 0 and floor == 0:
         raise click.UsageError("--noise 0 and --floor 0: expected one above zero, no reading is exact")
+    limit = wish.settings.limits.base_m_s2
+    if level is not None and level * PUBLISHED_G_M_S2 > limit:
+        raise BadInput(f"--level {level:g}g is {in_both(level * PUBLISHED_G_M_S2)}, limit {in_both(limit)}")
     # Said before the work, not after it.
     text = begun(experiment, specimen) if experiment is not None else ""
     hit = read_hammer(hammer) if hammer is not None else None

@@ -3,7 +3,7 @@
 from fitting.digits import two_digits
 from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.cli.output import Output
-from instrument.facts.plan import EffectForecast, PlanResult, SpotCompared
+from instrument.facts.plan import EffectForecast, PlanResult, SettlingForecast, SpotCompared
 from instrument.files.acceleration import acceleration_unit
 
 _MOST_SPOTS = 8
@@ -37,6 +37,9 @@ def _headline(out: Output, found: PlanResult) -> None:
         f"{two_digits(found.worst_percent)} % on G' and the loss factor from {found.band_low_hz:g} to "
         f"{found.band_high_hz:g} Hz (predicted to first order)"
     )
+    exceeds = next((x.why_not for x in found.levels if x.level_g == found.level_g), "")
+    if exceeds:
+        out.say(f"this level takes more than 80 % of a usual limit: {exceeds}")
     if not found.reached:
         out.say(
             f"{found.target_percent:g} % is out of reach: everything measured would leave "
@@ -44,10 +47,25 @@ def _headline(out: Output, found: PlanResult) -> None:
         )
         for limit in found.limited_by:
             out.say(f"  {limit.name} known exactly would leave {two_digits(limit.worst_percent)} %")
+    if found.settling is not None:
+        out.say(_settling(found.settling, len(found.steps)))
     out.say(
         f"assumed: readings scatter by {found.noise_share_percent:g} %, "
         f"{1e6 * found.noise_floor_m_s:g} um/s over one second\n"
     )
+
+
+def _settling(s: SettlingForecast, steps: int) -> str:
+    said = (
+        f"{s.steps} of {steps} steps do not settle within the usual most_s = {s.usual_s:g} "
+        f"({two_digits(s.left_percent)} % left then): up to {s.longest_s:.0f} s are needed, as the "
+        f"time above has it and [sweep.settle] below with most_s = {s.most_s:g}"
+    )
+    if s.never:
+        said += (
+            f", within which {s.never} do not settle either: the errors above are not those of such readings"
+        )
+    return said
 
 
 def _level(level_g: float) -> str:

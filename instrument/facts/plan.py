@@ -33,6 +33,23 @@ class LawOutlook(Result):
     loss_factor_percent: Number
 
 
+class SettlingForecast(Result):
+    """Steps that the usual `most_s` of a sweep would read before they have come to rest."""
+
+    steps: int
+    """So many do not settle within `usual_s`."""
+    usual_s: Number
+    """`settle.most_s` where an experiment does not name it."""
+    left_percent: Number
+    """Of the transient, by the bound a run reckons with, if that ended the longest wait."""
+    longest_s: Number
+    """Expected of the slowest step."""
+    most_s: Number
+    """What the [sweep] of the plan has instead."""
+    never: int
+    """So many steps do not settle within `most_s` either: what is predicted does not hold for them."""
+
+
 class LevelCompared(Result):
     """The plan at another level."""
 
@@ -96,7 +113,7 @@ class LimitingNumber(Result):
 
     name: str
     worst_percent: Number
-    """That this plan would leave if it were exactly as stated."""
+    """That everything measured would leave if it were exactly as stated."""
 
 
 class PlanResult(Result):
@@ -115,6 +132,8 @@ class PlanResult(Result):
     limited_by: tuple[LimitingNumber, ...] = ()
     seconds: Number
     """Of rig time for the steps; calibration, sentinels and hands come to it."""
+    settling: SettlingForecast | None = None
+    """Null where every step settles within the usual `most_s`."""
     level_g: Number
     x_mm: Number
     y_mm: Number

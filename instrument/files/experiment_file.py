@@ -12,6 +12,7 @@ from pydantic import Field, model_validator
 from instrument.errors import BadInput
 from instrument.files.text import read_text
 from instrument.files.toml import NotNegative, Positive, TomlTable, document_faults, read_document
+from instrument.stepped_sine.patience import LONGEST_S
 from instrument.stepped_sine.settings import Dwell, LevelControl, Settle
 
 Count = Annotated[int, Field(ge=1, le=1000)]
@@ -114,7 +115,7 @@ class SettleTable(TomlTable):
     """When a response counts as steady."""
 
     tolerance_percent: Annotated[float, Field(gt=0, le=20)] = 100 * _SETTLE.tolerance
-    most_s: Annotated[float, Field(ge=0.1, le=300)] = _SETTLE.most_s
+    most_s: Annotated[float, Field(ge=0.1, le=LONGEST_S)] = _SETTLE.most_s
 
 
 class DwellTable(TomlTable):

@@ -37,6 +37,8 @@ _FASTEST_M_S, _SLOWEST_M_S = 13_500.0, 2_200.0
 steel have 5000, brass 3500, tin 2600."""
 _METALS_KG_M3 = (2500.0, 9000.0)
 """From aluminium to copper: lead and gold are slower."""
+_DENSE_KG_M3, _DENSE_POISSON = 600.0, 0.05
+"""What is heavier than foam and cork widens nearly as rubber does; glassy polymers have 0.3 and more."""
 SPOT_MM = 0.3
 """No laser's spot is so near an edge: it would be half beside it."""
 
@@ -73,7 +75,11 @@ _PAIR = {
     "area_mm2": Usual(3.0, 1e6, "discs 100 to 10 000", {"cm2": 100.0, "m2": 1e6}),
 }
 _PLACED = {"mass_kg": Usual(1e-5, 2.0, "sensors and known masses 0.0005 to 0.1", {"g": 1e-3, "mg": 1e-6})}
-_BASE = {"acceleration_m_s2": Usual(1e-3, 2_000.0, f"1 g is {PUBLISHED_G_M_S2:g}", {"mm/s^2": 1e-3})}
+_BASE = {
+    "acceleration_m_s2": Usual(
+        1e-3, 500.0, f"1 g is {PUBLISHED_G_M_S2:g}, shakers up to 100 g", {"cm/s^2 or mm/s^2": 1e-2}
+    )
+}
 
 
 def question_specimen(path: Path, *, insist: bool = False) -> None:
@@ -98,6 +104,7 @@ def specimen_doubts(tables: dict[str, Any]) -> list[str]:
         found += outside("mass", mass, _PLACED)
     return [
         *found,
+        *_dense_core(tables),
         *_damping(tables),
         *_pickup(tables),
         *_tolerances(tables),
@@ -142,6 +149,21 @@ def _mistaken(value: float, usual: Usual) -> str:
         return ""
     unit = min(fits, key=lambda u: abs(math.log(max(fits[u], 1e-12) / middle)))
     return f": is it in {unit}?"
+
+
+def _dense_core(tables: dict[str, Any]) -> Iterator[str]:
+    """Whether a core that is no foam or cork has Poisson's ratio of one."""
+    core = tables.get("core")
+    if not isinstance(core, dict):
+        return
+    ratio, density = core.get("poisson"), core.get("density_kg_m3")
+    if not (isinstance(ratio, int | float) and isinstance(density, int | float)):
+        return
+    if ratio < _DENSE_POISSON and density > _DENSE_KG_M3:
+        yield (
+            f"core.poisson = {ratio:g} with density_kg_m3 = {density:g}: rubber has 0.45 to 0.5, only "
+            "foam and cork so little"
+        )
 
 
 def _damping(tables: dict[str, Any]) -> Iterator[str]:

@@ -5,6 +5,9 @@ from collections.abc import Callable
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.specimen import Specimen
+from instrument.check.forecast import OWN_RATIO
+from instrument.stepped_sine.expected_time import settling_s, step_s
 from instrument.stepped_sine.settings import SweepSettings
 
 _REACH = 1.3
@@ -17,18 +20,20 @@ def dwell_seconds(frequency_hz: Array, settings: SweepSettings) -> Array:
 
 
 def step_seconds(frequency_hz: Array, poles_hz: Complex, settings: SweepSettings) -> Array:
-    """Of whole steps, each settling from nothing to the tolerance. Shape (points,)."""
+    """Of whole steps, each settling from nothing to the tolerance or for `most_s`. Shape (points,)."""
     decay = decay_of(poles_hz)
-    wait = float(np.log(1 / settings.settle.tolerance))
-    return np.array(
-        [
-            settings.control.ramp_s
-            + 2 * settings.block_s(f)
-            + min(wait / decay(f), settings.settle.most_s)
-            + settings.dwell_s(f)
-            for f in frequency_hz
-        ]
-    )
+    return np.array([step_s(f, decay(f), settings) for f in frequency_hz])
+
+
+def settle_seconds(frequency_hz: Array, poles_hz: Complex, settings: SweepSettings) -> Array:
+    """Of the settling alone, whatever `most_s` is. Shape (points,)."""
+    decay = decay_of(poles_hz)
+    return np.array([settling_s(f, decay(f), settings) for f in frequency_hz])
+
+
+def as_run(poles_hz: Complex, specimen: Specimen) -> Complex:
+    """Poles with the damping that a run assumes of a bare plate where none is stated. Shape as given."""
+    return poles_hz if specimen.modal_ratios else poles_hz + 1j * OWN_RATIO * poles_hz.real
 
 
 def decay_of(poles_hz: Complex) -> Callable[[float], float]:

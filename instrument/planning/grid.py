@@ -22,8 +22,8 @@ from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen, StatedSpecimen
 from fitting.sweep import Integers, Sweep
 from instrument.models.set_up import Hammer, set_up
-from instrument.planning.costs import dwell_seconds, step_seconds
-from instrument.planning.outlook import visible
+from instrument.planning.costs import as_run, dwell_seconds, step_seconds
+from instrument.planning.outlook import first_hz, visible
 from instrument.planning.plan import catalogue
 from instrument.stepped_sine.settings import SweepSettings
 
@@ -122,11 +122,13 @@ class Grid:
     def of(cls, ground: Ground, law: CoreLaw, z: Array, measured_hz: Sequence[float]) -> "Grid":
         """Laid out for a law that may bend and stated numbers (shape (stated numbers,))."""
         low, high = ground.band_hz
-        poles = resonances_hz(PlatePoles(ground.plate, law), min(low, _LOWEST_HZ), high)
+        of_plate = PlatePoles(ground.plate, law)
+        poles = resonances_hz(of_plate, min(low, _LOWEST_HZ), high)
         f = candidate_frequencies(poles, low, high)
         f = np.unique(np.concatenate([f, np.array(measured_hz)]))
         s = ground.settings
-        candidates = Candidates(f, ground.region(f), dwell_seconds(f, s), step_seconds(f, poles, s))
+        seconds = step_seconds(f, as_run(poles if len(poles) else first_hz(of_plate), ground.specimen), s)
+        candidates = Candidates(f, ground.region(f), dwell_seconds(f, s), seconds)
         problem = ground.problem(f)
         v = response_of(problem, ()).velocity(law, z)
         errors = model_error(problem, ground.reduced, law, v)

@@ -17,7 +17,7 @@ from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.models.set_up import Hammer, SetUp, set_up
-from instrument.planning.costs import dwell_seconds, step_seconds
+from instrument.planning.costs import as_run, dwell_seconds, step_seconds
 from instrument.progress import Progress, quiet
 from instrument.stepped_sine.settings import SweepSettings
 
@@ -30,6 +30,8 @@ _USUAL = 3
 _EDGE = (0.08, 0.22)
 """How far such a band goes beyond its outer resonances, in shares of their frequency, by their loss
 factor."""
+_LOSSLESS = 1e-9
+"""Loss factor below which there is none: a law with as good as none is taken at its word."""
 
 Band = tuple[float, float]
 
@@ -41,7 +43,7 @@ class Outlook:
     specimen: Specimen
     setup: SetUp
     poles_hz: Complex
-    """Of the plate, by the law it starts from."""
+    """Of the plate, by the law it starts from, and as it rings."""
     band_hz: Band
     candidates: Candidates
 
@@ -100,16 +102,36 @@ def outlook_of(
     if specimen.core is None:
         raise OutsideModel("a bare plate has no core to plan for, expected [core] and [constraining]")
     law = specimen.core.law
+    if not law.names:
+        raise OutsideModel(
+            f"core law {law.kind} has no numbers that a sweep could find, expected one that has, as "
+            "fractional-zener"
+        )
     ends = np.array(band_hz or _WIDEST_HZ)
     few = Sweep(ends, np.ones(2, complex), np.ones(2), np.ones(2, np.intp), np.ones(2, np.intp))
     setup = set_up(few, specimen, hammer, progress, with_effects=with_effects)
     poles = PlatePoles(setup.problem.plate, law.lifted())
     low, high = band_hz or usual_band(setup, resonances_hz(poles, *_WIDEST_HZ))
+    if np.max(law.storage_and_loss(2 * np.pi * np.geomspace(low, high))[1]) < _LOSSLESS:
+        raise OutsideModel(
+            f"the core's law has no loss from {low:g} to {high:g} Hz, and nothing is a percentage of it: "
+            "expected the loss that is supposed"
+        )
     every = resonances_hz(poles, min(low, _WIDEST_HZ[0]), high)
     f = candidate_frequencies(every, low, high)
     seen = every[visible(setup, every)]
-    candidates = Candidates(f, regions(f, seen), dwell_seconds(f, settings), step_seconds(f, every, settings))
-    return Outlook(setup.specimen, setup, every, (float(f[0]), float(f[-1])), candidates)
+    ringing = as_run(every if len(every) else first_hz(poles), setup.specimen)
+    seconds = step_seconds(f, ringing, settings)
+    candidates = Candidates(f, regions(f, seen), dwell_seconds(f, settings), seconds)
+    return Outlook(setup.specimen, setup, ringing, (float(f[0]), float(f[-1])), candidates)
+
+
+def first_hz(poles: PlatePoles) -> Complex:
+    """The lowest resonance: it rings below it too. Shape (1,). Raises `OutsideModel` without any."""
+    found = resonances_hz(poles, *_WIDEST_HZ)[:1]
+    if not len(found):
+        raise OutsideModel(f"no resonance between {_WIDEST_HZ[0]:g} and {_WIDEST_HZ[1]:g} Hz: nothing rings")
+    return found
 
 
 def usual_band(setup: SetUp, poles_hz: Complex) -> Band:

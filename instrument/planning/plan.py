@@ -18,13 +18,17 @@ from fitting.planning.sensitivity import Sensitivity, bent
 from fitting.planning.signatures import judged_elsewhere, signatures_of
 from fitting.specimen import Specimen, StatedSpecimen
 from fitting.sweep import Integers
+from instrument.facts.plan import SettlingForecast
 from instrument.models.set_up import Hammer
 from instrument.models.theory import theory_remark
 from instrument.planning.levels import Level, chosen_level, levels_of
 from instrument.planning.outlook import Outlook, outlook_of
 from instrument.planning.spots import Spot, spots_of
+from instrument.planning.waits import settling_forecast
 from instrument.planning.wish import Wish
 from instrument.progress import Progress, quiet
+from instrument.stepped_sine.expected_time import loop_checks_s
+from instrument.stepped_sine.settings import SweepSettings
 
 LEAST_A_REGION = 5
 """Steps in every resonance region, wanted for the law or not: with fewer nothing checks it."""
@@ -35,6 +39,7 @@ class Plan:
     """What is proposed."""
 
     outlook: Outlook
+    settings: SweepSettings
     aims: Aims
     sensitivity: Sensitivity
     levels: tuple[Level, ...]
@@ -45,6 +50,7 @@ class Plan:
     errors: Array
     """Relative, of G' and eta at the frequencies of `aims`. Shape (2, frequencies)."""
     limits: tuple[tuple[str, float], ...]
+    """Stated numbers, with what everything measured would leave if each were exact."""
     spots: tuple[Spot, ...]
     effects: tuple[EffectOutlook, ...]
     not_judged: tuple[tuple[str, str], ...]
@@ -56,9 +62,17 @@ class Plan:
         return counted(len(self.outlook.candidates), [*self.for_law, *self.for_causes])
 
     @property
-    def seconds(self) -> float:
-        """Of rig time."""
-        return float(self.outlook.candidates.seconds @ self.taken)
+    def seconds(self) -> Array:
+        """Rig time of each step in the order of frequency, with the loop checks. Shape (steps,)."""
+        c, at = self.outlook.candidates, np.flatnonzero(self.taken)
+        checks = loop_checks_s(c.frequency_hz[at].tolist(), self.settings)
+        return np.asarray(c.seconds[at] + np.array(checks))
+
+    @property
+    def settling(self) -> SettlingForecast | None:
+        """Where steps need more time to settle than a sweep usually gives them."""
+        f = self.outlook.candidates.frequency_hz[np.flatnonzero(self.taken)]
+        return settling_forecast(f, self.outlook.poles_hz, self.settings)
 
 
 def make_plan(
@@ -93,6 +107,7 @@ def make_plan(
     remark = theory_remark(outlook.specimen, law, np.array(outlook.band_hz))
     return Plan(
         outlook,
+        wish.settings,
         aims,
         s,
         tuple(levels),
@@ -100,7 +115,8 @@ def make_plan(
         for_law,
         for_causes,
         aims.errors(s.covariance(taken)),
-        tuple(limited_by(s, aims, taken, problem.nuisances.each)),
+        # Of everything measured, as the limit is: the plan's own steps would leave more than it in any case.
+        tuple(limited_by(s, aims, np.ones(len(c)), problem.nuisances.each)),
         tuple(spots),
         tuple(outlooks(s, taken, signatures)),
         tuple(_not_judged(effects, problem)),

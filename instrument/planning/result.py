@@ -12,6 +12,7 @@ from instrument.facts.plan import (
     PlannedStep,
     PlanResult,
     RivalEffect,
+    SettlingForecast,
     SpotCompared,
 )
 from instrument.planning.plan import Plan
@@ -28,10 +29,10 @@ def result_of(plan: Plan, wish: Wish) -> PlanResult:
         PlannedStep(
             frequency_hz=float(c.frequency_hz[k]),
             segment=int(c.region[k]),
-            seconds=float(c.seconds[k]),
+            seconds=float(seconds),
             teaches="law" if k in law else "causes",
         )
-        for k in np.flatnonzero(plan.taken)
+        for k, seconds in zip(np.flatnonzero(plan.taken), plan.seconds, strict=True)
     )
     worst = float(plan.errors.max())
     return PlanResult(
@@ -44,7 +45,8 @@ def result_of(plan: Plan, wish: Wish) -> PlanResult:
         limited_by=tuple(
             LimitingNumber(name=name, worst_percent=100 * left) for name, left in plan.limits[:_MOST_LIMITS]
         ),
-        seconds=plan.seconds,
+        seconds=float(plan.seconds.sum()),
+        settling=plan.settling,
         level_g=plan.level.level_g,
         x_mm=1e3 * spot[0],
         y_mm=1e3 * spot[1],
@@ -92,17 +94,21 @@ def result_of(plan: Plan, wish: Wish) -> PlanResult:
             for e in plan.effects
         ),
         not_judged=tuple(NotJudged(name=name, why=why) for name, why in plan.not_judged),
-        sweep_toml=sweep_toml(steps, plan.level.level_g),
+        sweep_toml=sweep_toml(steps, plan.level.level_g, plan.settling),
         notes=plan.notes,
     )
 
 
-def sweep_toml(steps: tuple[PlannedStep, ...], level_g: float) -> str:
-    """The steps as the [sweep] of an experiment file."""
+def sweep_toml(
+    steps: tuple[PlannedStep, ...], level_g: float, settling: SettlingForecast | None = None
+) -> str:
+    """The steps as the [sweep] of an experiment file, with the patience that they need."""
     lines = ["[sweep]", f"level_g = {level_g:g}"]
     for part in _segments(steps):
         listed = ", ".join(f"{s.frequency_hz:g}" for s in steps if s.segment == part.segment)
         lines += ["", "[[sweep.segments]]", f"frequencies_hz = [{listed}]"]
+    if settling is not None:
+        lines += ["", "[sweep.settle]", f"most_s = {settling.most_s:g}"]
     return "\n".join(lines) + "\n"
 
 

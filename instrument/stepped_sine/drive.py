@@ -2,7 +2,7 @@
 
 import numpy as np
 
-_FAR = 0.05
+FAR = 0.05
 """Beyond this share of the frequency the gain is not carried over: a loop check measures it. A choice."""
 
 _STEEP = 0.1
@@ -11,7 +11,7 @@ the usual abort band: slopes grow where a resonance begins. One narrower than a 
 """
 
 _WINDOW = 0.15
-"""Of ln frequency: slopes known within it say how steep the gain may be here. Three steps of `_FAR`: two
+"""Of ln frequency: slopes known within it say how steep the gain may be here. Three steps of `FAR`: two
 gains alike on both sides of an anti-resonance do not hide it."""
 
 _HOP = 1.1
@@ -31,7 +31,7 @@ class DriveModel:
     def knows(self, frequency_hz: float) -> bool:
         """Whether a measured gain is near enough to begin with, for how steep gains are hereabouts."""
         distance = min((abs(np.log(f / frequency_hz)) for f in self._gains), default=np.inf)
-        near = any(abs(f / frequency_hz - 1) < _FAR for f in self._gains)
+        near = any(abs(f / frequency_hz - 1) < FAR for f in self._gains)
         return near and distance * self._steepest(frequency_hz) <= _STEEP
 
     def drive_v(self, frequency_hz: float, level_m_s2: float) -> float:

@@ -102,6 +102,11 @@ def test_a_number_a_unit_away_is_questioned_with_the_unit_it_would_be_usual_in(t
     (doubt,) = specimen_doubts({"damping": {"modal_percent": [30.0, 1.0]}})
     assert "100 times less?" in doubt
     assert specimen_doubts({"substrate": {"young_gpa": 69.0}}) == []
+    (doubt,) = specimen_doubts({"base": {"acceleration_m_s2": 981.0}})
+    assert doubt.endswith("is it in cm/s^2 or mm/s^2?")
+    (doubt,) = specimen_doubts({"core": {"poisson": -0.2, "density_kg_m3": 1000.0}})
+    assert "rubber has 0.45 to 0.5" in doubt
+    assert specimen_doubts({"core": {"poisson": 0.0, "density_kg_m3": 180.0}}) == []
     path = written(tmp_path, "[plate]\nlength_mm = 0.3\n", "plate.toml")
     question_specimen(path, insist=True)
     with pytest.raises(BadInput, match=INSIST):

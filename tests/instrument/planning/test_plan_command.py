@@ -69,13 +69,16 @@ def test_a_target_is_met_by_the_plans_own_prediction_or_said_to_be_out_of_reach(
     assert found["limit_percent"] <= worst
     if not found["reached"]:
         assert found["limited_by"]
+    # Nothing more known leaves less than that, with the same readings.
+    assert all(one["worst_percent"] < found["limit_percent"] for one in found["limited_by"])
 
 
 def test_a_share_of_the_time_separates_causes(planned):
     seconds = {"law": 0.0, "causes": 0.0}
     for s in planned[0]["steps"]:
         seconds[s["teaches"]] += s["seconds"]
-    assert 0 < seconds["causes"] <= 0.25 * sum(seconds.values()) + 1e-9
+    # A quarter as they are chosen; the loop checks of the whole come to it, wherever they fall.
+    assert 0 < seconds["causes"] <= 0.3 * sum(seconds.values())
 
 
 def test_spots_are_ranked_and_hold_the_stated_one(planned):
@@ -119,6 +122,7 @@ def test_figures_are_saved(planned):
         (("--target", "0"), "target"),
         (("--noise", "0", "--floor", "0"), "no reading is exact"),
         (("--hammer", "nothing.json"), "nothing.json"),
+        (("--level", "20g"), "--level 20g is 196 m/s^2"),
     ],
 )
 def test_a_wrong_wish_is_refused_in_one_line(capsys, specimen, arguments, said):
@@ -147,3 +151,58 @@ def test_an_experiment_that_cannot_be_read_is_left_as_it_is(capsys, specimen, tm
     assert status == 2
     assert str(path) in err
     assert Path(path).read_text() == "nonsense = true\n"
+
+
+LAW = r"kind = .*?(?=\n\s*\n|\n\[)"
+
+
+@pytest.mark.parametrize(
+    ("law", "said"),
+    [
+        ('kind = "isd112"', "core law isd112 has no numbers that a sweep could find"),
+        (
+            'kind = "fractional-zener"\ng0_mpa = 1.0\nginf_mpa = 1.0\ntau_s = 1e-4\nalpha = 0.5',
+            "the core's law has no loss from 15 to 120 Hz",
+        ),
+        ('kind = "constant"\ng_mpa = 1.0\nloss_factor = 0.0', "the core's law has no loss from 15 to 120 Hz"),
+    ],
+)
+def test_a_law_without_numbers_or_without_loss_is_refused_in_one_line(capsys, specimen, tmp_path, law, said):
+    path = tmp_path / "specimen.toml"
+    path.write_text(re.sub(LAW, law, specimen.read_text(), count=1, flags=re.S))
+    status, out, err = call(capsys, "plan", path, *BAND, "--no-spots")
+    assert (status, out) == (2, "")
+    assert said in err
+    assert len(err.splitlines()) == 1
+
+
+def test_below_the_first_resonance_it_is_that_which_rings(capsys, specimen):
+    status, out, err = call(capsys, "plan", specimen, "--band", "2:6", "--no-spots", "--json", "-")
+    assert status == 0, err
+    steps = json.loads(out)["steps"]
+    assert [steps[0]["frequency_hz"], steps[-1]["frequency_hz"]] == [2.0, 6.0]
+
+
+def test_a_spot_beside_the_clamp_is_planned_for(capsys, specimen, tmp_path):
+    # A shorter free length puts it onto the clamp, where nothing moves.
+    path = tmp_path / "specimen.toml"
+    path.write_text(re.sub(r"x_mm = \S+", "x_mm = 5.0", specimen.read_text(), count=1))
+    assert "x_mm = 5.0" in path.read_text()
+    status, out, err = call(capsys, "plan", path, *BAND, "--no-spots", "--json", "-")
+    assert status == 0, err
+    assert json.loads(out)["x_mm"] == pytest.approx(5.0)
+
+
+def test_impossible_stated_numbers_are_asked_about_as_by_check(capsys, specimen, tmp_path):
+    path = tmp_path / "specimen.toml"
+    path.write_text(re.sub(r"young_gpa = \S+", "young_gpa = 68900.0", specimen.read_text(), count=1))
+    status, out, err = call(capsys, "plan", path, *BAND, "--no-spots")
+    assert (status, out) == (2, "")
+    assert "is it in MPa?; --force to go on all the same" in err
+    assert len(err.splitlines()) == 1
+
+
+def test_a_level_that_exceeds_a_limit_is_said_beside_the_headline(capsys, specimen):
+    status, out, err = call(capsys, "plan", specimen, *BAND, "--no-spots", "--level", "4.6g")
+    assert status == 0, err
+    assert "this level takes more than 80 % of a usual limit: base acceleration 45.1 m/s^2" in out

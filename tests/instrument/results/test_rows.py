@@ -65,6 +65,8 @@ def test_modes_beyond_the_law_s_table_are_noted():
     assert modes_from(modes, law).notes == ("beyond",)
     assert modes_from(modes[:1], law).notes == ()
     assert [row.frequency_hz for row in modes_from(modes).modes] == [10.0, 500.0]
+    (note,) = modes_from(modes, along=[False, True]).notes
+    assert note.startswith("mode 2 at 500 Hz goes along the beam")
 
 
 def test_predictions_of_several_spots_are_numbered_one_is_not():
