@@ -30,6 +30,8 @@ _LARGEST_ERROR = 0.15
 """Of a ratio, as of any mode."""
 _ABOUT = 3.0
 """Half bandwidths from the one pole, within which another fit's pole speaks of the same mode."""
+_SAME_POLE = 0.5
+"""Half bandwidths within which two channels show one pole."""
 _SHOWS = 2.0
 """Standard errors by which two poles have another ratio, from which it is said."""
 _NEAR = 1.25
@@ -93,9 +95,8 @@ def pairs_among(
                 for other in (curved, two):
                     if one.cost - other.cost > _SURELY:
                         doubt = _larger(doubt, _doubt(one, other, is_two=asks and other is two))
-            # What one channel shows and another does not may be a mode, or the channel's own.
             split = [two for two in pairs if two is not None]
-            if split and len(split) == len(pairs):
+            if split and len(split) == len(pairs) and _agree(split):
                 found += min(split, key=lambda two: two.cost).frequencies_hz[:2].tolist()
                 continue
             found.append(centre)
@@ -146,6 +147,13 @@ def _is_pair(two: RationalFit) -> bool:
         and heights.min() > max(_LEAST_HEIGHT * two.noise, _LEAST_SHARE * heights.max())
         and high - low < _NEAR * 2 * ratios.max() * high
     )
+
+
+def _agree(split: Sequence[RationalFit]) -> bool:
+    """Whether all channels show the same two: a mode has one pole, wherever it is read."""
+    f = np.sort([two.frequencies_hz[:2] for two in split], axis=1)
+    half = float(np.mean([two.ratios[:2] for two in split])) * float(f.mean())
+    return bool(np.all(np.ptp(f, axis=0) < _SAME_POLE * half))
 
 
 def _in_each(alone: Sequence[Frf], centre: float, start_ratio: float, others: tuple[float, ...]) -> bool:

@@ -20,6 +20,8 @@ _TAPER = 0.5
 _STANDS_OUT, _LEAST_BLOW = 7.0, 2e-3
 """Scatters of the force, and share of the blow, above which a sample of it is a blow and not noise: of a
 million samples of noise none."""
+_PULLS = 2.0
+"""Times the deepest pull that a blow must push."""
 _PULSES = 4
 """The force is kept for so many lengths of the blow after its end."""
 
@@ -113,7 +115,12 @@ def force_window(judged: Judged) -> Array:
     w[stop:end] = 0.5 * (1 + np.cos(np.pi * (np.arange(end - stop) + 1) / (taper + 1)))
     rest = judged.hit.force_n[end:]
     if len(rest):
-        least = max(_STANDS_OUT * robust_scatter(rest), _LEAST_BLOW * float(judged.hit.force_n.max()))
+        least = max(
+            _STANDS_OUT * robust_scatter(rest),
+            _LEAST_BLOW * float(judged.hit.force_n.max()),
+            # No blow pulls: what goes down as far is the hammer's own ringing.
+            -_PULLS * float(rest.min()),
+        )
         for at in end + np.flatnonzero(rest > least):
             w[max(0, at - width) : at + width + 1] = 1.0
     return w
