@@ -238,7 +238,7 @@ def _verdict(
         said.append(f"half power refused: {half.why}")
     if lines < 2:
         said.append(
-            f"{lines:.1f} lines in its bandwidth: record {seconds * 2 / max(lines, 0.05):.0f} s or more"
+            f"{lines:.1f} lines in its bandwidth: record {seconds * 2 / max(lines, 0.05):.3g} s or more"
         )
     if apart < 5:
         said.append(f"a neighbour {apart:.1f} bandwidths away")
@@ -283,6 +283,8 @@ def _seconds_for(mode: Mode, seconds: float) -> float:
 
 
 def marks(frf: Frf, mode: Mode) -> tuple[float, float, float] | None:
-    """Half-power frequencies and peak for drawing."""
+    """Half-power frequencies and peak for drawing; None where half power refused the mode."""
+    if isinstance(mode.half_power, Refusal):
+        return None
     found = half_power_marks(frf, mode.frequency_hz)
     return None if isinstance(found, Refusal) else found[:3]

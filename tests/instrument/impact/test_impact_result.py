@@ -7,7 +7,7 @@ import pytest
 from impact_cases import AMPLITUDES, BARE_HZ, TABLE_3, clean_hit, noisy_hits
 
 from fitting.bare_modes import CarriedSensor
-from fitting.modal.frf import Frf, Refusal
+from fitting.modal.frf import DampingEstimate, Frf, Refusal
 from instrument.errors import BadInput
 from instrument.impact.damping import damping_of_frfs, damping_of_hits
 from instrument.impact.figures import frf_figure, highest_hz, hits_figure, modes_figure, save_figures
@@ -119,9 +119,13 @@ def test_each_hit_has_its_blow_and_its_decay_and_says_why_it_was_left_out(found)
 def test_each_mode_has_its_lines_its_fit_and_its_half_power_marks(found):
     axes = modes_figure(found).axes
     for ax, mode in zip(axes, found.modes, strict=True):
-        lines, fit, low, high = ax.lines
+        lines, fit, *marks = ax.lines
         np.testing.assert_allclose(fit.get_ydata(), np.abs(mode.fit.H))
         assert len(lines.get_xdata()) == len(mode.fit.H)
+        assert bool(marks) == isinstance(mode.half_power, DampingEstimate)
+        if not marks:
+            continue
+        low, high = marks
         width = high.get_xdata()[0] - low.get_xdata()[0]
         # The window of half power is counted in: it is no narrower than the mode.
         assert width > 2 * mode.damping_ratio * mode.frequency_hz * 0.97
