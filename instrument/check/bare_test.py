@@ -86,9 +86,10 @@ def bare_test_objections(experiment: Experiment, hammer: Hammer) -> Iterator[str
         )
     f = found.frequency_hz
     if not np.any((f >= low) & (f <= high)) and low < f[-1]:
+        asked = ": is it in kHz?" if np.any((f >= 1e3 * low) & (f <= 1e3 * high)) else ""
         yield (
             f"{experiment.path}: hammer.band_hz = [{low:g}, {high:g}] has none of the modes of the bare "
-            f"{specimen.kind}, expected some of {_listed(f[:4])} Hz and above"
+            f"{specimen.kind}, expected some of {_listed(f[:4])} Hz and above{asked}"
         )
 
 
