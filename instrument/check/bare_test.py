@@ -13,6 +13,7 @@ from fitting.specimen import Specimen
 from fitting.structures import Beam
 from fitting.structures.small_modes import small_modes
 from instrument.files.experiment_file import Hammer
+from instrument.files.plausible_rig import LOWEST_BAND_HZ
 from instrument.session.configuration import Experiment
 from instrument.session.setup import bare_beam_record_s, record_length_s
 
@@ -85,11 +86,11 @@ def bare_test_objections(experiment: Experiment, hammer: Hammer) -> Iterator[str
             f"{rate / 2:g} Hz"
         )
     f = found.frequency_hz
-    if not np.any((f >= low) & (f <= high)) and low < f[-1]:
-        asked = ": is it in kHz?" if np.any((f >= 1e3 * low) & (f <= 1e3 * high)) else ""
+    # Below that it is asked whether it is in kHz.
+    if high >= LOWEST_BAND_HZ and not np.any((f >= low) & (f <= high)) and low < f[-1]:
         yield (
             f"{experiment.path}: hammer.band_hz = [{low:g}, {high:g}] has none of the modes of the bare "
-            f"{specimen.kind}, expected some of {_listed(f[:4])} Hz and above{asked}"
+            f"{specimen.kind}, expected some of {_listed(f[:4])} Hz and above"
         )
 
 

@@ -28,7 +28,7 @@ _LIMITS = {
 }
 _MOUNTING = {"torque_n_m": Usual(0.05, 2_000.0, "bolts 1 to 200", {"N mm": 1e-3})}
 _PLACES = ("hit_x_mm", "hit_y_mm", "response_x_mm", "response_y_mm")
-_LOWEST_BAND_HZ = 5.0
+LOWEST_BAND_HZ = 5.0
 """A bare plate that a hammer rings has its modes above."""
 
 
@@ -57,9 +57,9 @@ def experiment_doubts(tables: dict[str, Any]) -> Iterator[str]:
     for key in _PLACES:
         if 0 < hammer.get(key, 0) < SPOT_MM:
             yield f"hammer.{key} = {hammer[key]:g} is nearer to the edge than a tip is wide: is it in m?"
-    highest = max(hammer.get("band_hz", [_LOWEST_BAND_HZ]))
-    if highest < _LOWEST_BAND_HZ:
-        yield f"hammer.band_hz up to {highest:g} Hz, plates ring above {_LOWEST_BAND_HZ:g}: is it in kHz?"
+    highest = max(hammer.get("band_hz", [LOWEST_BAND_HZ]))
+    if highest < LOWEST_BAND_HZ:
+        yield f"hammer.band_hz up to {highest:g} Hz, plates ring above {LOWEST_BAND_HZ:g}: is it in kHz?"
 
 
 def _question(path: Path, doubts: Callable[[dict[str, Any]], Iterator[str]]) -> None:
