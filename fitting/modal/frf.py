@@ -1,6 +1,7 @@
 """A frequency response function and what an estimator says of a mode in it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import hypot
 from typing import Literal
 
 import numpy as np
@@ -44,6 +45,18 @@ class DampingEstimate:
     """Of `ratio`, by the scatter of the data about the method's model; NaN where it has none."""
     frequency_error_hz: float = float("nan")
     """Standard error of the frequency; NaN where the method does not say."""
+
+    def off_by(self, other: "DampingEstimate") -> "DampingEstimate":
+        """The same, known so much worse as another way of reading it differs."""
+        return self.wider(abs(other.ratio - self.ratio), abs(other.frequency_hz - self.frequency_hz))
+
+    def wider(self, ratio: float, frequency_hz: float) -> "DampingEstimate":
+        """With these errors besides its own."""
+        return replace(
+            self,
+            standard_error=hypot(self.standard_error, ratio),
+            frequency_error_hz=hypot(self.frequency_error_hz, frequency_hz),
+        )
 
 
 @dataclass(frozen=True)

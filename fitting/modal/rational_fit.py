@@ -8,7 +8,7 @@ The residues are linear: variable projection leaves the poles to a small least s
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial.legendre import legvander
@@ -90,13 +90,10 @@ def rational_fit(
     About a heavily damped one the remainder gets as many terms as the lines ask for, up to `most_terms`; what
     one more would change is in the error. More than the fewest are for where all neighbours are known.
     """
-    reach = _reach_hz(frf, near_hz, start_ratio)
-    window = frf.between(near_hz - reach, near_hz + reach)
-    inside = [f for f in neighbours_hz if abs(f - near_hz) < reach * 1.2 and f != near_hz]
+    window, inside, is_wide = _about(frf, near_hz, start_ratio, neighbours_hz)
     starts = [near_hz, *inside]
     fits = list[_Fitted]()
-    wide = reach > _WIDE * near_hz
-    for terms in range(FEWEST_TERMS, (most_terms if wide else FEWEST_TERMS) + 1):
+    for terms in range(FEWEST_TERMS, (most_terms if is_wide else FEWEST_TERMS) + 1):
         unknowns = 2 * (2 * len(starts) + terms)
         if 2 * len(window.H) < unknowns + _SPARE:
             break
@@ -110,27 +107,21 @@ def rational_fit(
         )
     terms = int(np.argmin([f.cost for f in fits]))
     best = fits[terms]
-    own = complex(best.poles[0])
-    omega_n = abs(own)
-    ratio = -own.real / omega_n
-    if not 0 < ratio < _MOST_RATIO or not is_near(omega_n / (2 * np.pi), near_hz):
+    found = best.estimate(window)
+    if not 0 < best.ratios[0] < _MOST_RATIO or not is_near(found.frequency_hz, near_hz):
         return Refusal("the fit found no decaying pole at the peak")
-    errors = best.errors / np.abs(best.poles)
-    # What a term more would change is not in the scatter of the lines.
-    beyond = [f for f in fits[terms + 1 : terms + 2] if f.is_like(best)]
-    changed = abs(-beyond[0].poles[0].real / abs(beyond[0].poles[0]) - ratio) if beyond else 0.0
-    error = float(np.hypot(errors[0], changed))
-    f_n = omega_n / (2 * np.pi)
-    adopted = corrected(f_n, ratio, frf.added_decay_1_s)
-    if not error <= _MOST_RELATIVE_ERROR * abs(adopted):
-        return Refusal(f"its own standard error is {100 * error / abs(adopted):.0f} % of the ratio")
+    for beyond in fits[terms + 1 : terms + 2]:
+        if beyond.is_like(best):
+            # What a term more would change is not in the scatter of the lines.
+            found = found.off_by(beyond.estimate(window))
+    known = found.standard_error / abs(found.ratio)
+    if not known <= _MOST_RELATIVE_ERROR:
+        return Refusal(f"its own standard error is {100 * known:.0f} % of the ratio")
     if best.heights[0] < _LEAST_HEIGHT * best.noise:
         return Refusal(
             f"it stands only {best.heights[0] / best.noise:.1f} times above the scatter of the lines"
         )
-    moved = abs(abs(beyond[0].poles[0]) - omega_n) if beyond else 0.0
-    known_hz = float(np.hypot(best.frequency_errors[0], moved)) / (2 * np.pi)
-    return replace(best.of(window, frf), estimate=DampingEstimate(f_n, adopted, error, known_hz))
+    return best.said(window, found)
 
 
 @dataclass(frozen=True)
@@ -140,7 +131,7 @@ class Freer:
     curved: RationalFit
     """One pole beside a curve."""
     two: RationalFit
-    """Two poles near one another; the estimate is the higher one's."""
+    """Two poles near one another; the estimate is the first one's."""
 
 
 @refusing
@@ -148,9 +139,7 @@ def freer_fits(
     frf: Frf, near_hz: float, start_ratio: float, neighbours_hz: tuple[float, ...] = ()
 ) -> Freer | Refusal:
     """Their cost beside that of `rational_fit` says what the lines ask for."""
-    reach = _reach_hz(frf, near_hz, start_ratio)
-    window = frf.between(near_hz - reach, near_hz + reach)
-    inside = [f for f in neighbours_hz if abs(f - near_hz) < reach * 1.2 and f != near_hz]
+    window, inside, _ = _about(frf, near_hz, start_ratio, neighbours_hz)
     if 2 * len(window.H) < 2 * (2 * (len(inside) + 2) + FEWEST_TERMS) + _SPARE:
         return Refusal(f"{len(window.H)} lines about the mode, too few for two")
     apart = start_ratio * near_hz
@@ -160,15 +149,20 @@ def freer_fits(
         for both in places
     )
     curved = _fitted(window, [near_hz, *inside], start_ratio, _CURVED_TERMS)
-    return Freer(*(fit.of(window, frf) for fit in (curved, min(tried, key=lambda fit: fit.cost))))
+    two = min(tried, key=lambda fit: fit.cost)
+    return Freer(*(fit.said(window, fit.estimate(window)) for fit in (curved, two)))
 
 
-def _reach_hz(frf: Frf, near_hz: float, start_ratio: float) -> float:
-    """Of the window, either side."""
+def _about(
+    frf: Frf, near_hz: float, start_ratio: float, neighbours_hz: tuple[float, ...]
+) -> tuple[Frf, list[float], bool]:
+    """The window's lines, the neighbours that show in it, and whether it is a wide one."""
     step = float(np.median(np.diff(frf.frequency_hz)))
     reach = max(_HALF_WIDTH_LINES * step, _HALF_WIDTH_BANDWIDTHS * 2 * start_ratio * near_hz)
     reach = min(reach, _MOST_LINES / 2 * step)
-    return max(min(reach, _WIDEST * near_hz), _HALF_WIDTH_LINES * step)
+    reach = max(min(reach, _WIDEST * near_hz), _HALF_WIDTH_LINES * step)
+    inside = [f for f in neighbours_hz if abs(f - near_hz) < reach * 1.2 and f != near_hz]
+    return frf.between(near_hz - reach, near_hz + reach), inside, reach > _WIDE * near_hz
 
 
 @dataclass(frozen=True)
@@ -185,21 +179,30 @@ class _Fitted:
     H: Complex
     cost: float
 
-    def of(self, window: Frf, frf: Frf) -> RationalFit:
-        """What is said of it; the estimate is of the highest of the first two poles."""
-        k, errors = int(np.argmax(self.heights[:2])), self.errors / np.abs(self.poles)
-        omega_n = abs(self.poles[k])
-        f_n, ratio = omega_n / (2 * np.pi), -self.poles[k].real / omega_n
-        adopted = corrected(float(f_n), float(ratio), frf.added_decay_1_s)
-        known_hz = float(self.frequency_errors[k]) / (2 * np.pi)
+    @property
+    def ratios(self) -> Array:
+        return np.asarray(-self.poles.real / np.abs(self.poles))
+
+    def estimate(self, window: Frf) -> DampingEstimate:
+        """Of the first pole, what a window added taken off."""
+        omega_n = float(abs(self.poles[0]))
+        f_n = omega_n / (2 * np.pi)
+        return DampingEstimate(
+            f_n,
+            corrected(f_n, float(self.ratios[0]), window.added_decay_1_s),
+            float(self.errors[0]) / omega_n,
+            float(self.frequency_errors[0]) / (2 * np.pi),
+        )
+
+    def said(self, window: Frf, estimate: DampingEstimate) -> RationalFit:
         return RationalFit(
             window.frequency_hz,
             self.H,
             self.poles,
             self.noise,
-            DampingEstimate(float(f_n), adopted, float(errors[k]), known_hz),
+            estimate,
             self.heights,
-            errors,
+            self.errors / np.abs(self.poles),
             self.cost,
         )
 

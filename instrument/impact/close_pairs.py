@@ -61,11 +61,7 @@ class Pairs:
         doubt, found = self.doubts.get(centre), mode.rational_fit
         if doubt is None or not isinstance(found, DampingEstimate):
             return mode
-        wider = replace(
-            found,
-            standard_error=float(np.hypot(found.standard_error, doubt.ratio)),
-            frequency_error_hz=float(np.hypot(found.frequency_error_hz, doubt.frequency_hz)),
-        )
+        wider = found.wider(doubt.ratio, doubt.frequency_hz)
         shows = doubt.is_two and doubt.ratio > _SHOWS * found.standard_error
         said = "one pole does not follow its lines: a close pair, or hits that differ?" if shows else ""
         return replace(mode, rational_fit=wider, why="; ".join(part for part in (mode.why, said) if part))

@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array, Mask
 from fitting.modal.frf import DampingEstimate, Frf
-from fitting.modal.rational_fit import RationalFit, rational_fit
+from fitting.modal.rational_fit import MOST_TERMS, RationalFit, rational_fit
 from instrument.impact.judge import Judged
 from instrument.impact.mode import Mode
 
@@ -42,7 +42,8 @@ def told_apart(
                 continue
             others = tuple(m.frequency_hz for m in modes if m is not mode)
             fits = [
-                rational_fit(of[mode.channel], mode.frequency_hz, mode.damping_ratio, others) for of in alone
+                rational_fit(of[mode.channel], mode.frequency_hz, mode.damping_ratio, others, MOST_TERMS)
+                for of in alone
             ]
             each = {k: f.estimate for k, f in enumerate(fits) if isinstance(f, RationalFit)}
             apart = _apart(list(each.values()))

@@ -6,7 +6,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fitting.modal.frf import Frf
-from fitting.modal.rational_fit import RationalFit, rational_fit
+from fitting.modal.rational_fit import MOST_TERMS, RationalFit, rational_fit
 from instrument.impact.damping import Damping
 from instrument.impact.mode import Mode
 from instrument.impact.spectra import spectra
@@ -40,7 +40,7 @@ def _of_mode(mode: Mode, modes: tuple[Mode, ...], alone: list[dict[str, Frf]]) -
     if not mode.damping_ratio > 0:
         return None
     f, others = mode.frequency_hz, tuple(m.frequency_hz for m in modes if m is not mode)
-    fits = [rational_fit(frfs[mode.channel], f, mode.damping_ratio, others) for frfs in alone]
+    fits = [rational_fit(one[mode.channel], f, mode.damping_ratio, others, MOST_TERMS) for one in alone]
     values = np.array(
         [(fit.estimate.frequency_hz, fit.estimate.ratio) for fit in fits if isinstance(fit, RationalFit)]
     )

@@ -60,7 +60,7 @@ def test_hits_of_plates_with_other_frequencies_are_no_pair():
 
 
 def test_what_one_pole_does_not_follow_is_known_so_much_worse():
-    """A pair a fifth of a bandwidth apart in one hit's noise: its one ratio is nobody's."""
+    """Half a bandwidth apart, nearly opposite, in noise of 3 %: two modes, or one whose ratio is nobody's."""
     f, ratio, amplitude = pair(0.5, -0.97)
     hits = [judge(h) for h in noisy_hits(clean_hit(f, ratio, amplitude), np.random.default_rng(3), 3, 0.03)]
     frfs = spectra(hits).frfs

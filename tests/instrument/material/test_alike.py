@@ -34,11 +34,9 @@ def measured(rng, thicker):
     return TABLE_4.with_values(TABLE_4.values * np.exp(off))
 
 
-def twice(law_of, rng, by=0.0):
+def twice(law_of, rng):
     thicker = rng.standard_normal()
-    a, b = measured(rng, thicker), measured(rng, thicker)
-    b = b.with_values(b.values * np.exp(by * np.ones(4)))
-    return law_of(of_tolerances(a)), law_of(of_tolerances(b))
+    return tuple(law_of(of_tolerances(measured(rng, thicker))) for _ in range(2))
 
 
 def test_only_what_stays_with_the_specimen_is_alike(law_of):
