@@ -37,6 +37,8 @@ _TRIM = 0.5
 """Share of the control tolerance at which the drive is corrected: drift has room until the point is read."""
 _CHECK_BLOCKS = 2.0
 """A loop check reads so many blocks at once."""
+_BOUND = 3.0
+"""What may be left of a transient is bounded; a third of that counts as a standard deviation of each part."""
 _CLIPPED = 0.98
 """Share of the vibrometer's full scale from which its output counts as clipped."""
 
@@ -74,6 +76,7 @@ class StepAnalysis:
         self._remarks: list[str] = []
         self._base: float | None = None
         self._settle_s = 0.0
+        self._left = 0.0
         self._restart()
 
     # What the runner asks
@@ -151,8 +154,7 @@ class StepAnalysis:
         settled = self._settling.add(complex(velocity / base), noise, block_s)
         held = abs(error) <= self._settings.control.tolerance or not self._may_correct()
         if settled and held:
-            self._phase = "dwelling"
-            self._settle_s = waited
+            self._dwell(waited)
             return [
                 StepSettled(
                     self._began.step,
@@ -163,13 +165,17 @@ class StepAnalysis:
                 )
             ]
         if waited > self._settings.settle.most_s:
-            self._phase = "dwelling"
-            self._settle_s = waited
+            self._dwell(waited)
             remaining, limit = 100 * self._settling.remaining, 100 * self._settings.settle.tolerance
             if not settled and not any(r.startswith("not settled") for r in self._remarks):
                 self._remarks.append(f"not settled: {remaining:.2g} % left, limit {limit:.2g} %")
             return [SettlingTimedOut(self._began.step, waited, min(remaining, 1e6), limit)]
         return []
+
+    def _dwell(self, waited_s: float) -> None:
+        self._phase = "dwelling"
+        self._settle_s = waited_s
+        self._left = min(self._settling.remaining, 1.0)
 
     def _dwelt(self, first: int, x: Array, fit: SineFit) -> list[Derived]:
         """The reading itself."""
@@ -187,7 +193,8 @@ class StepAnalysis:
 
     def _point(self, first: int, x: Array, fit: SineFit, error: float) -> PointMeasured:
         b, f = self._began, self._began.frequency_hz
-        velocity, velocity_std = fit.phasor[1], fit.std[1]
+        velocity = fit.phasor[1]
+        velocity_std = np.hypot(fit.std[1], self._left * abs(velocity) / _BOUND)
         if self._calibration is not None:
             calibration = self._calibration(self._range.name)
             if calibration is None:

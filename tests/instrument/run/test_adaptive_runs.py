@@ -29,6 +29,7 @@ rig = "rig.toml"
 plan = "adaptive"
 sentinel = false
 calibration = { frequencies_hz = [20.0, 40.0, 60.0] }
+settle = { tolerance_percent = 0.001 }
 [sweep.adaptive]
 band_hz = [13.5, 60.0]
 target_percent = 1.0

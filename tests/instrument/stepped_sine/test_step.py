@@ -67,7 +67,22 @@ def test_a_transient_of_any_beat_is_waited_for(free_hz):
 
 def test_settling_is_no_slower_than_waiting_for_the_whole_transient():
     point = point_of(follow(Station(stirred=0.3, gain_m_s2_v=9.81 / 1.9)))
-    assert point.settle_s < np.log(1000) / 8.0
+    block_s = SETTINGS.block_s(20.0)
+    whole_s = np.ceil(np.log(1000) / 8.0 / block_s) * block_s
+    assert point.settle_s == pytest.approx(whole_s, rel=1e-3) or point.settle_s < whole_s
+
+
+def test_what_may_be_left_of_a_transient_is_in_the_readings_error():
+    truth = 0.004 - 0.002j
+    patient, hasty = SETTINGS, replace(SETTINGS, settle=Settle(most_s=0.3))
+    at_rest, moving = (
+        point_of(follow(Station(stirred=1.0, gain_m_s2_v=9.81 / 1.9), settings=s)) for s in (patient, hasty)
+    )
+    assert "not settled" in moving.remarks[0]
+    off = [abs(p.velocity_m_s / p.base_m_s2 - truth) * abs(p.base_m_s2) for p in (at_rest, moving)]
+    assert off[0] < 3 * at_rest.velocity_std_m_s < 0.002 * abs(at_rest.velocity_m_s)
+    assert off[1] < 3 * moving.velocity_std_m_s < abs(moving.velocity_m_s)
+    assert moving.velocity_std_m_s > 20 * at_rest.velocity_std_m_s
 
 
 def test_the_level_is_corrected_from_a_drive_that_is_far_off():
