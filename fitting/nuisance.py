@@ -44,7 +44,7 @@ def felt(specimen: Specimen, plate: EnrichedReducedPlate, *, has_phase: bool) ->
     heard = share > _UNHEARD * share.max(initial=0.0)
     damping = tolerance(specimen, "damping")
     found += [
-        Nuisance(f"damping_{r + 1}", "damping", damping)
+        Nuisance(f"damping_{r + 1}", "damping", specimen.tolerances.get(f"damping_{r + 1}", damping))
         for r, ratio in enumerate(specimen.modal_ratios[: len(heard)])
         if ratio > 0 and heard[r] and plate.d[r] > 0
     ]

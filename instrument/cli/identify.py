@@ -233,7 +233,7 @@ def identify(
     read = given.specimen
     assert isinstance(read, Specimen)
     if no_viscous_damping:
-        read = replace(read, modal_ratios=())
+        read = replace(read, modal_ratios=(0.0,))
     if pointwise:
         # Said before the work, not after it.
         phase_is_kept(given.sweep)

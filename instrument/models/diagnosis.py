@@ -14,7 +14,12 @@ from fitting.errors import OutsideModel
 from fitting.specimen import Specimen, StatedSpecimen
 from fitting.sweep import Sweep
 from instrument.errors import BadInput
-from instrument.models.remarks import remarks_on_law, remarks_on_noise, remarks_on_tolerances
+from instrument.models.remarks import (
+    remarks_on_damping,
+    remarks_on_law,
+    remarks_on_noise,
+    remarks_on_tolerances,
+)
 from instrument.models.second_process import executor
 from instrument.models.set_up import Hammer, set_up
 from instrument.models.theory import theory_over, theory_remark
@@ -126,6 +131,7 @@ def diagnose(
         *remarks_on_law(start, sweep.frequency_hz),
         *remarks_on_noise(sweep.take(why_aside == "")),
         *remarks_on_tolerances(specimen),
+        *remarks_on_damping(specimen, tested=hammer is not None),
     )
     before = theory_remark(specimen, result.before.law, sweep.frequency_hz)
     if before:

@@ -30,6 +30,7 @@ from fitting.sweep import Sweep
 from fitting.theory_error import TheoryError
 from instrument.models.remarks import (
     remarks_on_bend,
+    remarks_on_damping,
     remarks_on_law,
     remarks_on_noise,
     remarks_on_strays,
@@ -109,6 +110,7 @@ def identify(
     further += (*remarks_on_law(stated, sweep.frequency_hz), *remarks_on_noise(sweep))
     if method == "direct":
         further += remarks_on_tolerances(specimen)
+        further += remarks_on_damping(specimen, tested=hammer is not None)
     elif not specimen.exact:
         further += ("the paper's method takes what is stated for exact: tolerances are not in its band",)
     for widened in range(_MOST_WIDENINGS + 1):

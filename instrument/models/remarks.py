@@ -9,6 +9,7 @@ from fitting.noise import scatter_over_stated
 from fitting.specimen import Specimen
 from fitting.strays import BEYOND, strays
 from fitting.sweep import Sweep
+from fitting.unstated_damping import RATIO, with_unstated_damping
 from instrument.models.tolerance_words import asked, not_named
 
 _NAMED = 6
@@ -24,6 +25,16 @@ def remarks_on_tolerances(specimen: Specimen) -> tuple[str, ...]:
         return ()
     count = "" if len(missing) == len(every) else f"{len(missing)} of {len(every)} "
     return (f"{count}tolerances not named: typical values of a careful laboratory (docs/specimen.md)",)
+
+
+def remarks_on_damping(specimen: Specimen, *, tested: bool) -> tuple[str, ...]:
+    """Where neither the file nor a hammer test says how a plate rings without its core."""
+    if tested or with_unstated_damping(specimen) is specimen:
+        return ()
+    return (
+        f"no [damping] and no hammer test: the bare plate's ratios are taken as {100 * RATIO:g} % of "
+        "critical, known to a factor of 2.7; a hammer test narrows the loss factor's band",
+    )
 
 
 def remarks_on_law(law: CoreLaw, sweep_hz: Array) -> tuple[str, ...]:

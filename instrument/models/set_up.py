@@ -22,6 +22,7 @@ from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from fitting.tolerances import tolerance
+from fitting.unstated_damping import with_unstated_damping
 from instrument.models.cache import cached
 from instrument.models.specimen_models import Models
 from instrument.progress import Progress, quiet
@@ -97,13 +98,15 @@ def set_up(
 def with_hammer(specimen: Specimen, hammer: Hammer | None) -> tuple[Specimen, BareModes | None]:
     """The specimen with the ratios of its bare plate's test, and what else that says.
 
+    Those that neither file nor test have are in it with a wide tolerance.
+
     Raises `TooFewPoints` where the test is not of this plate.
     """
     if hammer is None:
-        return specimen, None
+        return with_unstated_damping(specimen), None
     modes = match_modes(specimen, *hammer)
-    specimen = replace(specimen, modal_ratios=modes.ratios)
-    return specimen, bare_of(modes, specimen)
+    tested = with_unstated_damping(replace(specimen, modal_ratios=modes.ratios), specimen)
+    return tested, bare_of(modes, tested)
 
 
 def set_up_spots(

@@ -1,6 +1,7 @@
 """A cantilever plate of any size on the simulated rig: from the file that names it to its plant."""
 
 from drivers.simulated.plant import specimen as published
+from drivers.simulated.plant.bare import OTHER_RATIO
 from drivers.simulated.plant.built import refuse_effects
 from drivers.simulated.plant.built_plate import (
     ReducedPlate,
@@ -17,6 +18,7 @@ from drivers.simulated.plant.solid_plate import PlateStated
 from drivers.simulated.plant.structure import Structure
 from drivers.simulated.plates import Hang, Mount, Struck
 from fitting.specimen import Specimen
+from fitting.unstated_damping import MODES
 from instrument.models.cache import cached
 from instrument.progress import Progress, quiet
 from instrument.simulated_case.layers import core_sheet, face_sheet, series_of
@@ -53,8 +55,13 @@ def plate_mount(plate: Specimen, effects: Effects, progress: Progress = quiet) -
 
     reduced = cached("plate", [stated, law], ReducedPlate, build)
     return lambda effects, by_hand: mounted_plate(
-        stated, reduced, law, plate.modal_ratios, spot_m, effects, by_hand
+        stated, reduced, law, _ratios(plate), spot_m, effects, by_hand
     )
+
+
+def _ratios(plate: Specimen) -> tuple[float, ...]:
+    """Of the treated plate: a file that states none has the bare plate's."""
+    return plate.modal_ratios or (OTHER_RATIO,) * MODES
 
 
 def plate_struck(plate: Specimen, effects: Effects, progress: Progress = quiet) -> Struck:
