@@ -7,7 +7,7 @@ import pytest
 
 from fitting.diagnosis.response import SweepResponse
 from instrument.files.sweep_file import read_sweep
-from instrument.models.identification import identify_sweep
+from instrument.models.identification import identify
 from instrument.models.remarks import remarks_on_damping
 from instrument.models.set_up import set_up
 from tests.conftest import DATA
@@ -29,17 +29,19 @@ def sweep(unstated):
     problem = set_up(like, replace(unstated, modal_ratios=(RATIO,) * 8)).problem
     v = SweepResponse(problem, ()).velocity(problem.stated_law, problem.as_stated)
     rng = np.random.default_rng(3)
-    scatter = NOISE * np.abs(v).max() * (rng.normal(size=len(v)) + 1j * rng.normal(size=len(v))) / 3
-    return replace(like, velocity=v + scatter, velocity_std=np.full(len(v), NOISE * np.abs(v).max() / 3))
+    std = NOISE * np.abs(v).max() / 3
+    noise = std * (rng.normal(size=len(v)) + 1j * rng.normal(size=len(v)))
+    # Velocity over the base that was measured is what the fit reads.
+    turned = like.commanded_m_s2 if like.base_m_s2 is None else like.base_m_s2
+    return replace(like, velocity_m_s=(v + noise) / like.commanded_m_s2 * turned, std_m_s=None)
 
 
 def off(sweep, plate):
     """How far the loss factor is off at each frequency of the band, in standard errors; and the notes."""
-    found = identify_sweep(sweep, plate).identification
-    f = np.geomspace(20, 280, 9)
-    true = plate.core.law.modulus(2 * np.pi * f)
-    band = found.law_band(f)
-    return (band.loss_factor - true.imag / true.real) / band.loss_factor_std, found.warnings
+    found = identify(sweep, plate).result
+    band = found.band
+    true = plate.core.law.modulus(2 * np.pi * band.frequency_hz)
+    return (band.loss_factor - true.imag / true.real) / band.loss_factor_standard_error, found.warnings
 
 
 def test_the_band_holds_the_loss_factor_though_nobody_stated_what_the_plate_loses(sweep, unstated):
