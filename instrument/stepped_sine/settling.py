@@ -25,7 +25,9 @@ _CLEAR = 5.0
 _LEAST_FALL = 1.0
 """... and from a fall by e at least."""
 _SLOWER = 0.1
-"""Of the decay as it is known: what seems slower does not decay, and `most_s` ends the wait."""
+"""Of the decay as it is known: what seems slower is no transient, hum for instance, and says nothing of one."""
+_EARLY = 2.0
+"""A transient stands out of its noise within so many decay times, or not at all."""
 _SLOWEST_1_S = 1e-6
 """What has no damping at all never settles: weeks are as good as that."""
 _NOTHING_KNOWN = 1e300
@@ -79,15 +81,16 @@ class Settling:
         return self.remaining <= self.tolerance
 
     def _look_at_decay(self, drift: float, std: float) -> None:
-        """Slower than expected? What was bounded by the decay expected is bounded anew then."""
+        """Of a drift that stands out of its noise: what is left is bounded by it alone, and it shows the decay."""
+        usual, now = self._expected_1_s, self.elapsed_s
         if drift <= _CLEAR * std:
             return
+        # Two modes may have hidden each other for a moment: what was bounded then does not count.
+        self._bound = _NOTHING_KNOWN
         if self._first_clear is None:
-            self._first_clear = self.elapsed_s, drift
-            return
+            self._first_clear = now, drift
         since, first = self._first_clear
-        fall = np.log(first / drift)
-        decay = max(float(fall / (self.elapsed_s - since)), _SLOWER * self._expected_1_s)
-        if abs(fall) >= _LEAST_FALL or self.elapsed_s - since > 2 * _LEAST_FALL / self._expected_1_s:
-            self.decay_1_s = min(self._expected_1_s, decay)
-            self._bound = _NOTHING_KNOWN
+        fall, decay_times = np.log(first / drift), (now - since) * usual
+        if since * usual <= _EARLY and max(abs(fall), decay_times / _EARLY) >= _LEAST_FALL:
+            slower = float(fall / decay_times)
+            self.decay_1_s = usual * (slower if _SLOWER <= slower < 1 else 1.0)
