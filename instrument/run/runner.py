@@ -1,8 +1,9 @@
 """The runner: does what the plan says on a rig, one loop on one thread.
 
 While a run goes on nothing else reads a device or drives the shaker (others may silence it), and nothing
-else that measures looks at a clock. Whatever ends a part, the shaker is silenced first. Only this loop beats
-the heartbeat: a hung acquisition lets it go stale, and the device goes silent by itself.
+else that measures looks at a clock. Whatever ends a part, the shaker is silenced first, and believed silent
+when it says so. Only this loop beats the heartbeat: a hung acquisition lets it go stale, and the device goes
+silent by itself.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -17,6 +18,7 @@ from instrument.errors import RigStopped
 from instrument.files.experiment_file import TemperatureTable
 from instrument.hammer_test.struck import OVERLOADED
 from instrument.run.analysis import Analysis
+from instrument.run.at_rest import silenced
 from instrument.run.control import RunControl
 from instrument.run.rig import Rig
 from instrument.run.soaking import Soaking, read_temperature
@@ -58,6 +60,8 @@ HITS_IN_VAIN = 20
 """Blows refused one after the other before a hammer test is given up: more of them would be no better."""
 _REST_S, _LOOK_S = 5.0, 0.01
 """After a stop, before the run says that the shaker does not obey; and how often it looks."""
+_MARGIN_S = 2.0
+"""Behind the device's own watchdog, until a shaker that was told to stop is taken to run on."""
 _CHOICE_LOOK_S = 0.05
 """Within a wait for a choice, the heartbeat has its turn this often."""
 
@@ -146,9 +150,17 @@ class Runner:
         Soaking(self._rig, self._emit, self._control, self._watch).run(wanted)
 
     def silence(self) -> None:
-        """The shaker to zero, whatever state it is in. Raises `DriverError` where nobody answers."""
+        """The shaker to zero, whatever state it is in. Raises `RigStopped` where it does not say that it is.
+
+        Its own watchdog has its time first: nobody beats the heartbeat meanwhile.
+        """
+        watchdog_s = self._rig.document.shaker.heartbeat_timeout_s
+        if problem := silenced(self._rig.shaker, watchdog_s + _MARGIN_S):
+            raise RigStopped(
+                f"the shaker does not say that it is silent ({problem}): SWITCH THE AMPLIFIER OFF; its own "
+                f"watchdog should have silenced it after {watchdog_s:g} s, which nobody knows"
+            )
         self._drive_v = 0.0
-        self._rig.shaker.stop()
 
     def _wait_for_rest(self) -> None:
         """Until the drive of what was before is zero: a ramp counts from there. Raises `RigStopped`."""
@@ -292,18 +304,31 @@ class Runner:
         front_end = self._rig.front_end
         front_end.start(inputs, self._rig.sample_rate_hz)
         self._names = names
+        ended: BaseException | None = None
         try:
             self._acquisitions, self._samples = self._acquisitions + 1, 0
             self._emit(AcquisitionBegan(self._acquisitions, part, front_end.sample_rate_hz, names))
             yield
+        except BaseException as error:
+            ended = error
+            raise
         finally:
-            # Silence first: what follows may take as long as a time-out. Where nobody answers, the heartbeat,
-            # no longer beaten, does it, and the first error is the one to tell.
-            if part not in ("hammer", "struck"):
+            try:
+                # Silence first: what follows may take as long as a time-out.
+                if part not in ("hammer", "struck"):
+                    self._silence_after(ended)
+            finally:
                 with suppress(DriverError):
-                    self.silence()
-            with suppress(DriverError):
-                front_end.stop()
+                    front_end.stop()
+
+    def _silence_after(self, ended: BaseException | None) -> None:
+        """Silence; where it fails that is told, with what had ended the part before."""
+        try:
+            self.silence()
+        except RigStopped as loud:
+            if isinstance(ended, RigStopped | DriverError):
+                raise RigStopped(f"{' '.join(str(ended).split())}; {loud}") from ended
+            raise
 
 
 def _too_narrow(refused: list[str]) -> bool:
