@@ -98,6 +98,11 @@ class Analysis:
         return self.step.wanted() if self.step is not None else 1
 
     @property
+    def concludes(self) -> bool:
+        """Whether the samples that are next belong to a reading that may become a point."""
+        return not self._strikes and self.step is not None and self.step.concludes
+
+    @property
     def _strikes(self) -> bool:
         return self._acquisition is not None and self._acquisition.part in ("hammer", "struck")
 
@@ -171,6 +176,9 @@ class Analysis:
         if self._acquisition is None:
             return []
         self._latest = block.first_sample + block.samples
+        if any(block.cable_fault):
+            # The run ends for it; nothing of these samples may become a reading before.
+            return []
         if self._strikes:
             return self.hammer.block(block) if self.hammer is not None else []
         if self.step is None:

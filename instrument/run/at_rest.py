@@ -1,7 +1,7 @@
-"""A shaker brought to rest: told to stop, told again where it does not obey, believed when it says it is silent.
+"""A shaker brought to rest: told to stop, again where it does not obey, believed when it says it is silent.
 
-A stop can be refused by a device that is busy, acknowledged and not carried out, or lost on a line. So nothing
-that ends with silence relies on having sent it.
+A stop can be refused by a device that is busy, acknowledged and not carried out, or lost on a line. So
+nothing that ends with silence relies on having sent it.
 """
 
 import _thread

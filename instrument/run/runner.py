@@ -12,7 +12,7 @@ from time import monotonic, sleep
 
 from drivers.errors import DriverError
 from drivers.front_end import Block, InputChannel
-from drivers.shaker import Alarm
+from drivers.shaker import Alarm, ShakerStatus
 from drivers.vibrometer import Range
 from instrument.errors import RigStopped
 from instrument.files.experiment_file import TemperatureTable
@@ -26,6 +26,7 @@ from instrument.stepped_sine.drive import lowers_first
 from instrument.stepped_sine.plan import Action, ChoiceWanted, Plan, RangeWanted, Result, WordWanted
 from instrument.stepped_sine.settings import SweepSettings
 from instrument.stepped_sine.settling_trace import begins_at
+from instrument.stepped_sine.soundness import MOST_OFF
 from instrument.stream.derived import (
     DriveRequested,
     HitJudged,
@@ -62,6 +63,8 @@ _REST_S, _LOOK_S = 5.0, 0.01
 """After a stop, before the run says that the shaker does not obey; and how often it looks."""
 _MARGIN_S = 2.0
 """Behind the device's own watchdog, until a shaker that was told to stop is taken to run on."""
+_ECHO_OFF = 1e-3
+"""Relative: more than was asked, by rounding, is none."""
 _CHOICE_LOOK_S = 0.05
 """Within a wait for a choice, the heartbeat has its turn this often."""
 
@@ -214,6 +217,11 @@ class Runner:
             if (read := read_temperature(self._rig)) is not None:
                 self._emit(read)
             self._emit(SignalLevelRead(self._rig.vibrometer.signal_level()))
+            if self._range is not None and began.frequency_hz > self._range.highest_hz:
+                raise RigStopped(
+                    f"at {began.frequency_hz:g} Hz: the vibrometer's range {self._range.name} reads up to "
+                    f"{self._range.highest_hz:g} Hz: choose another in [[sweep.segments]], or its filter"
+                )
             if lowers_first(self._frequency_hz, self._drive_v, began.frequency_hz, began.drive_v):
                 self._lower(began.drive_v)
             self._emit(began)
@@ -250,8 +258,11 @@ class Runner:
         """The next samples into the stream; what follows from them."""
         self._watch()
         most = max(1, int(_LONGEST_READ_S * self._rig.front_end.sample_rate_hz))
+        concludes = self._analysis.concludes
         block = self._rig.front_end.read(min(samples, most))
         self._samples = block.first_sample + block.samples
+        if concludes:
+            self._confirm_range()
         derived = self._emit(_acquired(block))
         if block.cable_fault.any():
             names = [n for n, bad in zip(self._names, block.cable_fault, strict=True) if bad]
@@ -274,6 +285,19 @@ class Runner:
             )
         if status.interlock_open:
             raise RigStopped("shaker interlock open: close it, then begin again")
+        self._question(status)
+
+    def _question(self, status: ShakerStatus) -> None:
+        """Whether the shaker does what it was told. Raises `RigStopped`."""
+        if self._drive_v == 0:
+            return
+        if not status.running:
+            raise RigStopped("the shaker was switched off by somebody else: begin again when it is free")
+        if abs(status.frequency_hz / self._frequency_hz - 1) > MOST_OFF:
+            raise RigStopped(
+                f"the shaker says that it runs at {status.frequency_hz:g} Hz, "
+                f"it was told {self._frequency_hz:g} Hz"
+            )
 
     def _lower(self, drive_v: float) -> None:
         """Less drive at the frequency it has, and until it is there: these samples are of no step."""
@@ -286,6 +310,8 @@ class Runner:
         ramp_s = self._settings.control.ramp_s
         change = max(abs(drive_v - self._drive_v), 1e-6)
         echo = self._rig.shaker.command(frequency_hz, drive_v, change / ramp_s)
+        if not 0 < echo.drive_v <= drive_v * (1 + _ECHO_OFF):
+            raise RigStopped(f"the shaker took {drive_v:.4g} V for {echo.drive_v:.4g} V: does its map hold?")
         self._frequency_hz, self._drive_v = frequency_hz, echo.drive_v
         command = ShakerCommanded(echo.sequence, frequency_hz, echo.drive_v, ramp_s, echo.sample)
         self._emit(command)
@@ -296,6 +322,18 @@ class Runner:
             self._range = self._rig.vibrometer.set_range(name)
             r = self._range
             self._emit(RangeSet(r.name, r.scale_m_s_v, r.full_scale_v, r.highest_hz, r.delay_s))
+
+    def _confirm_range(self) -> None:
+        """Before a reading counts: the range is still the one it is scaled by. Raises `RigStopped`.
+
+        Somebody at its panel, or a mains plug, changes it, and every velocity is wrong by the ratio.
+        """
+        found, wanted = self._rig.vibrometer.range(), self._range
+        if wanted is not None and found.name != wanted.name:
+            raise RigStopped(
+                f"the vibrometer's range is {found.name}, it was set to {wanted.name}: "
+                "was it changed at its panel, or switched off and on? this step does not count"
+            )
 
     @contextmanager
     def _acquisition(self, part: Part, names: tuple[str, ...]) -> Iterator[None]:

@@ -105,7 +105,7 @@ def quick_watchdog(monkeypatch):
 def test_a_run_whose_shaker_runs_on_at_its_end_does_not_end_well(tmp_path, quick_watchdog):
     with formula_rig(tmp_path) as (rig, experiment):
         honest = rig.device.stop
-        with pytest.raises(RigStopped, match="SWITCH THE AMPLIFIER OFF.*15 steps kept"):
+        with pytest.raises(RigStopped, match=r"SWITCH THE AMPLIFIER OFF.*15 steps kept"):
             run(experiment, tmp_path, companion=RunAtPoint(3, lambda: deafen(rig)))
         rig.device.stop = honest
         honest(rig.world.clock()[1])
@@ -120,7 +120,7 @@ def test_what_ended_the_run_is_told_too(tmp_path, quick_watchdog):
 
     with formula_rig(tmp_path) as (rig, experiment):
         honest = rig.device.stop
-        with pytest.raises(RigStopped, match="^enough; .*AMPLIFIER OFF"):
+        with pytest.raises(RigStopped, match=r"^enough; .*AMPLIFIER OFF"):
             run(experiment, tmp_path, control=control, companion=RunAtPoint(3, lambda: end(rig)))
         rig.device.stop = honest
         honest(rig.world.clock()[1])
