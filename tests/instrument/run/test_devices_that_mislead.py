@@ -13,6 +13,7 @@ from drivers.vibrometer.serial_port import PolytecVibrometer
 from instrument.errors import RigStopped
 from instrument.run.companion import Companion
 from instrument.run.experiment import run_experiment
+from instrument.session.configuration import read_whole_experiment
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import PointMeasured, StepSettled
 
@@ -146,3 +147,14 @@ def test_drivers_errors_are_still_told_first(tmp_path):
         run(experiment, tmp_path, companion=RunAtPoint(3, lambda: unplug(rig)))
     assert isinstance(stopped.value.__cause__, DriverError)
     assert "AMPLIFIER" not in str(stopped.value)
+
+
+def test_a_sensor_turned_round_ends_a_calibration(tmp_path):
+    with formula_rig(tmp_path) as (rig, experiment):
+        text = experiment.path.read_text().replace("calibration = false\n", "")
+        experiment.path.write_text(text)
+        sensor = rig.world.wiring.inputs[1]
+        rig.world.wiring.inputs[1] = replace(sensor, volts_per_unit=-sensor.volts_per_unit)
+        with pytest.raises(RigStopped, match=r"no delay explains.*invert = true"):
+            run(read_whole_experiment(experiment.path), tmp_path)
+        assert is_silent(rig)
