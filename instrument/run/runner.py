@@ -272,6 +272,8 @@ class Runner:
 
     def _watch(self) -> None:
         """Between blocks: is the run to end, is the shaker well, and the heartbeat."""
+        if self._control.interrupted:
+            raise KeyboardInterrupt
         if self._control.aborted is not None:
             raise RigStopped(self._control.aborted)
         if monotonic() - self._beaten < _BEAT_S:

@@ -10,8 +10,9 @@ from run_at_point import RunAtPoint
 from drivers.errors import DriverError
 from drivers.simulated.lan_xi_measurement import Acquired
 from drivers.vibrometer.serial_port import PolytecVibrometer
-from instrument.errors import RigStopped
+from instrument.errors import RigStopped, StoppedByUser
 from instrument.run.companion import Companion
+from instrument.run.control import RunControl
 from instrument.run.experiment import run_experiment
 from instrument.session.configuration import read_whole_experiment
 from instrument.session.storage import SessionFile
@@ -157,4 +158,13 @@ def test_a_sensor_turned_round_ends_a_calibration(tmp_path):
         rig.world.wiring.inputs[1] = replace(sensor, volts_per_unit=-sensor.volts_per_unit)
         with pytest.raises(RigStopped, match=r"no delay explains.*invert = true"):
             run(read_whole_experiment(experiment.path), tmp_path)
+        assert is_silent(rig)
+
+
+def test_a_stop_of_the_user_that_python_lost_is_heard_between_blocks(tmp_path):
+    """An exception raised in a destructor or a weak reference's callback goes nowhere."""
+    control = RunControl()
+    with formula_rig(tmp_path) as (rig, experiment):
+        with pytest.raises(StoppedByUser, match="3 steps kept"):
+            run(experiment, tmp_path, control=control, companion=RunAtPoint(3, control.interrupt))
         assert is_silent(rig)
