@@ -1,5 +1,6 @@
 """Instruments that answer well and do something else: no step of theirs counts, and the shaker is silent."""
 
+import time
 from dataclasses import replace
 
 import pytest
@@ -168,3 +169,26 @@ def test_a_stop_of_the_user_that_python_lost_is_heard_between_blocks(tmp_path):
         with pytest.raises(StoppedByUser, match="3 steps kept"):
             run(experiment, tmp_path, control=control, companion=RunAtPoint(3, control.interrupt))
         assert is_silent(rig)
+
+
+def drive(rig):
+    with rig.world.lock:
+        now_s = rig.world.clock()[1]
+        rig.device.start(now_s, time.monotonic())
+        rig.device.command(50.0, 0.5, 100.0, now_s)
+
+
+def test_a_rig_that_another_program_drives_is_left_to_it(tmp_path, monkeypatch):
+    monkeypatch.setattr("instrument.run.rig._MARGIN_S", -1.9)
+    with formula_rig(tmp_path, virtual=False) as (rig, experiment):
+        drive(rig)
+        with pytest.raises(RigStopped, match="another program uses this rig"):
+            run(experiment, tmp_path)
+        with rig.world.lock:
+            assert rig.device.status(rig.world.clock()[1]).drive_v > 0
+
+
+def test_the_shaker_of_a_program_that_was_killed_is_waited_out(tmp_path):
+    with formula_rig(tmp_path, heartbeat_timeout_s=0.5) as (rig, experiment):
+        drive(rig)
+        assert len(run(experiment, tmp_path).points) == 15
