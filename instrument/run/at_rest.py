@@ -9,7 +9,7 @@ import threading
 from time import monotonic, sleep
 
 from drivers.errors import DriverError, Refused, TimedOut
-from drivers.shaker import Shaker
+from drivers.shaker import Shaker, ShakerStatus
 
 AT_REST_S = 1.0
 """How long a stopped shaker may take to be at zero where a person waits for it."""
@@ -30,12 +30,15 @@ def bring_to_rest(shaker: Shaker, within_s: float = AT_REST_S) -> None:
             shaker.stop()
             break
         except Refused:
+            # Its watchdog may have done it meanwhile.
+            if _is_at_rest(shaker.status()):
+                return
             if monotonic() > deadline:
                 raise
             sleep(_REFUSED_AGAIN_S)
     while True:
         status = shaker.status()
-        if status.drive_v == 0 and not status.running:
+        if _is_at_rest(status):
             return
         if monotonic() > deadline:
             raise TimedOut(
@@ -44,6 +47,10 @@ def bring_to_rest(shaker: Shaker, within_s: float = AT_REST_S) -> None:
         if status.running:
             shaker.stop()
         sleep(_LOOK_S)
+
+
+def _is_at_rest(status: ShakerStatus) -> bool:
+    return status.drive_v == 0 and not status.running
 
 
 def came_to_rest(shaker: Shaker, within_s: float = AT_REST_S) -> str:

@@ -53,6 +53,15 @@ def test_a_busy_device_is_told_again():
     assert shaker.stops == 3
 
 
+def test_one_that_refuses_and_is_silent_by_its_watchdog_is_at_rest():
+    class Silenced(Deaf):
+        def status(self):
+            self._obeys = 0
+            return super().status()
+
+    assert came_to_rest(Silenced(10**9, refuse), 0.05) == ""
+
+
 def test_one_that_never_obeys_is_told_of():
     with pytest.raises(TimedOut, match="still 2 V"):
         bring_to_rest(Deaf(10**9), 0.05)
