@@ -29,6 +29,10 @@ from drivers.front_end.lan_xi_stream import StreamReader
 _DETECTION_S = 60.0
 """Sensors with a chip are read one by one; longer than this the module hangs."""
 _POLL_S = 0.05
+_LONGEST_BODY = 1 << 22
+"""Bytes: a set-up of twelve channels is a hundredth of it."""
+_BODIES = 2.0
+"""Time-outs that a whole answer may take: one until it begins."""
 _PIECE_BYTES = 1 << 20
 _CREDIT = struct.Struct("<I")
 
@@ -133,9 +137,17 @@ class LanXiFrontEnd:
             raise Refused(f"{self._me}: it is not sampling: start it first")
         if self._paced and reader.available < samples:
             self._send_credit(samples - reader.available)
+        had, deadline = reader.available, time.monotonic() + self._timeout_s
         while reader.available < samples:
             for message in self._decoder.feed(self._receive()):
                 reader.take(message)
+            # Bytes that trickle in, or a channel that gives none, are no samples: the time-out is of those.
+            if reader.available > had:
+                had, deadline = reader.available, time.monotonic() + self._timeout_s
+            elif time.monotonic() > deadline:
+                raise TimedOut(
+                    f"{self._me}: the stream has had no sample of every channel for {self._timeout_s:g} s"
+                )
         return _in_order(reader.block(samples), self._order)
 
     def stop(self) -> None:
@@ -274,14 +286,29 @@ class LanXiFrontEnd:
     ) -> httpx.Response:
         what = f"{self._me}: {method} {path}"
         try:
-            response = self._http.request(method, path, json=body, params=query)
+            response = self._whole(what, method, path, body, query)
         except httpx.TimeoutException as error:
             raise TimedOut(f"{what}: no answer in {self._timeout_s:g} s") from error
         except httpx.RequestError as error:
             raise Unreachable(f"{what}: {error}: is the module switched on and in this network?") from error
-        if response.is_error:
+        # A redirection is no yes: what was asked has not been done here.
+        if not response.is_success:
             raise Refused(f"{what}: status {response.status_code}: {response.text.strip()[:100]}")
         return response
+
+    def _whole(
+        self, what: str, method: str, path: str, body: Any, query: Mapping[str, int] | None
+    ) -> httpx.Response:
+        """The answer with its body, which may neither trickle in for ever nor fill the memory."""
+        deadline, content = time.monotonic() + _BODIES * self._timeout_s, bytearray()
+        with self._http.stream(method, path, json=body, params=query) as response:
+            for piece in response.iter_bytes():
+                content += piece
+                if len(content) > _LONGEST_BODY:
+                    raise Garbled(f"{what}: over {_LONGEST_BODY} bytes came: is it a LAN-XI module?")
+                if time.monotonic() > deadline:
+                    raise TimedOut(f"{what}: no whole answer in {_BODIES * self._timeout_s:g} s")
+        return httpx.Response(response.status_code, content=bytes(content))
 
 
 def _in_order(block: Block, order: Any) -> Block:

@@ -109,6 +109,8 @@ class StreamReader:
     def _take_interpretation(self, message: Interpretation) -> None:
         for one in message.descriptors:
             if one.type == DescriptorType.SCALE_FACTOR and isinstance(one.value, float):
+                if not 0 < one.value < np.inf:
+                    raise Garbled(f"stream: signal {one.id} has a scale factor of {one.value}")
                 self._scale[self._index(one.id)] = one.value
             elif one.type == DescriptorType.UNIT and one.value != "V":
                 raise Garbled(f"stream: signal {one.id} is in {one.value!r}, expected 'V'")

@@ -13,6 +13,7 @@ from pymodbus.client import ModbusSerialClient, ModbusTcpClient
 from pymodbus.constants import ExcCodes
 from pymodbus.exceptions import ConnectionException, ModbusIOException
 from pymodbus.pdu import ModbusPDU
+from pymodbus.pdu.register_message import ReadHoldingRegistersResponse, WriteMultipleRegistersResponse
 
 from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
 from drivers.modbus.turns import Turns
@@ -89,6 +90,7 @@ class ModbusLine:
         answer = self._transact(
             f"reading {what}",
             lambda: self._client.read_holding_registers(address, count=count, device_id=self._unit),
+            lambda found: _read_objection(found, address, count),
         )
         return list(answer.registers)
 
@@ -97,6 +99,7 @@ class ModbusLine:
         self._transact(
             f"writing {what}",
             lambda: self._client.write_registers(address, list(words), device_id=self._unit),
+            lambda found: _write_objection(found, address, len(words)),
         )
 
     def close(self) -> None:
@@ -104,19 +107,30 @@ class ModbusLine:
         with self._turns:
             self._client.close()  # type: ignore[no-untyped-call]
 
-    def _transact(self, what: str, ask: Callable[[], ModbusPDU]) -> ModbusPDU:
+    def _transact(
+        self, what: str, ask: Callable[[], ModbusPDU], object_to: Callable[[ModbusPDU], str]
+    ) -> ModbusPDU:
+        """`object_to` says why what came is no answer to this; nothing where it is one."""
         for attempt in range(self._attempts):
             if attempt:
                 time.sleep(FIRST_PAUSE_S * 2 ** (attempt - 1))
             with self._turns:
                 try:
-                    return self._once(what, ask)
+                    return self._once(what, ask, object_to)
+                except Refused:
+                    raise
                 except (Unreachable, TimedOut, Garbled) as problem:
                     self._client.close()  # type: ignore[no-untyped-call]
                     last: DriverError = problem
+                except BaseException:
+                    # Broken off by a signal: the answer that is still to come is nobody's.
+                    self._client.close()  # type: ignore[no-untyped-call]
+                    raise
         raise last
 
-    def _once(self, what: str, ask: Callable[[], ModbusPDU]) -> ModbusPDU:
+    def _once(
+        self, what: str, ask: Callable[[], ModbusPDU], object_to: Callable[[ModbusPDU], str]
+    ) -> ModbusPDU:
         here = f"{self.name}, {what}"
         tried = f"in each of {self._attempts} attempts"
         if not self._client.connect():
@@ -137,7 +151,26 @@ class ModbusLine:
             raise Garbled(f"{here}: a Modbus answer expected: {problem}") from problem
         if answer.isError():
             raise Refused(f"{here}: refused with {_exception_name(answer)}")
+        if objection := object_to(answer):
+            raise Garbled(f"{here}: {objection} {tried}")
         return answer
+
+
+# A serial line numbers nothing: a late answer to another question must not pass for this one's.
+
+
+def _read_objection(found: ModbusPDU, address: int, count: int) -> str:
+    if not isinstance(found, ReadHoldingRegistersResponse):
+        return "registers expected, another's answer came"
+    came = len(found.registers)
+    return "" if came == count else f"{count} registers from {address} expected, {came} came"
+
+
+def _write_objection(found: ModbusPDU, address: int, count: int) -> str:
+    right = isinstance(found, WriteMultipleRegistersResponse)
+    if right and (found.address, found.count) == (address, count):
+        return ""
+    return f"the receipt of {count} registers from {address} expected, another's came"
 
 
 def _exception_name(answer: ModbusPDU) -> str:

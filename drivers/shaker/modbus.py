@@ -26,6 +26,8 @@ from drivers.shaker.register_map import COMMAND, DEFAULT, ECHO, IDENTITY, STATUS
 ECHO_TIMEOUT_S = 1.0
 """How long a command may take to be taken by the device."""
 ECHO_POLL_S = 0.01
+_KEPT = 1e-3
+"""Relative: a device may round a time it is told, a float32 does."""
 
 
 class ModbusShaker:
@@ -163,6 +165,14 @@ class ModbusShaker:
         if objection:
             raise Refused(f"{self._line.name}: {objection}")
         self._write("heartbeat_timeout_s", timeout_s)
+        # What was acknowledged may have been lost on the way, or held at the device's own: without a watchdog
+        # nothing silences the shaker of a program that was killed.
+        kept_s = self.heartbeat_timeout_s()
+        if abs(kept_s - timeout_s) > _KEPT * timeout_s:
+            raise Refused(
+                f"{self._line.name}: heartbeat_timeout_s {timeout_s:g} was asked, the device keeps "
+                f"{kept_s:g}: its watchdog is off, or its map another"
+            )
 
     def _identity(self) -> Identity:
         values = self._read(IDENTITY)
@@ -181,8 +191,8 @@ class ModbusShaker:
         while True:
             # The number first: what is read after it belongs to it, wherever the registers lie.
             seen = int(self._read(("echo_sequence",))["echo_sequence"])
-            if seen == sequence:
-                return self._echo()
+            if seen == sequence and (echo := self._echo()).sequence == sequence:
+                return echo
             if time.monotonic() > deadline:
                 raise TimedOut(
                     f"{self._line.name}: receipt of command {sequence} expected within "

@@ -1,11 +1,13 @@
 """A run stopped or held from outside.
 
-Ctrl-C is the user's stop; a closed terminal or SIGTERM a safe one; Ctrl-Z holds, and again resumes.
+Ctrl-C is the user's stop; a closed terminal or SIGTERM a safe one; Ctrl-Z holds, and again resumes. The first
+stop counts: another would break off the silencing and the keeping that follow it.
 """
 
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
+from time import monotonic
 from types import FrameType
 
 import click
@@ -15,19 +17,39 @@ from instrument.run.control import RunControl
 
 _SIGNALS = ("SIGTERM", "SIGHUP")
 _HOLD = getattr(signal, "SIGTSTP", None)
+_INSISTS_S = 10.0
+"""After so long a further Ctrl-C counts again: something hangs, and a person wants to get out."""
+_STOPPING = "stopping already: the shaker is silenced, what is complete is kept"
 
 
 @contextmanager
 def safe_stop(control: RunControl) -> Iterator[None]:
-    """While this is open, SIGTERM and SIGHUP raise `RigStopped`, once; the shaker is silenced on the way."""
+    """While this is open SIGTERM and SIGHUP raise `RigStopped`, Ctrl-C `KeyboardInterrupt`: the first counts.
+
+    What is raised may be lost where Python runs code that nobody waits for; the run hears of it by `control`
+    then, between two blocks.
+    """
     known = [getattr(signal, name) for name in _SIGNALS if hasattr(signal, name)]
-    before = {number: signal.getsignal(number) for number in known}
+    before = {number: signal.getsignal(number) for number in (*known, signal.SIGINT)}
+    stopped_s: list[float] = []
 
     def stop(number: int, _: FrameType | None) -> None:
         for other in known:
             signal.signal(other, signal.SIG_IGN)
+        if stopped_s:
+            return
+        stopped_s.append(monotonic())
         what = "the terminal was closed" if number == getattr(signal, "SIGHUP", None) else "terminated"
+        control.abort(what)
         raise RigStopped(what)
+
+    def interrupt(_: int, __: FrameType | None) -> None:
+        if stopped_s and monotonic() - stopped_s[0] < _INSISTS_S:
+            click.echo(_STOPPING, err=True)
+            return
+        stopped_s[:] = [monotonic()]
+        control.interrupt()
+        raise KeyboardInterrupt
 
     def hold_or_resume(_: int, __: FrameType | None) -> None:
         if control.held:
@@ -39,6 +61,7 @@ def safe_stop(control: RunControl) -> Iterator[None]:
 
     for number in known:
         signal.signal(number, stop)
+    signal.signal(signal.SIGINT, interrupt)
     if _HOLD is not None:
         before[_HOLD] = signal.signal(_HOLD, hold_or_resume)
     try:

@@ -12,8 +12,8 @@ from time import monotonic
 from drivers.errors import DriverError
 from drivers.shaker.driver import ShakerOptions
 from instrument.engine.messages import Message, ShakerSeen, StopPathChanged
-from instrument.engine.stoppable import came_to_rest
 from instrument.files.devices import SHAKERS
+from instrument.run.at_rest import came_to_rest
 from instrument.run.rig import open_shaker
 
 _LOOKS_EVERY_S = 0.2

@@ -4,14 +4,9 @@ The device has no such latch. A stop that reaches it just before the run's own `
 so after a stop for good the start leads nowhere: no command follows it, and without one the drive is zero.
 """
 
-from time import monotonic, sleep
-
-from drivers.errors import DriverError, Refused, TimedOut
+from drivers.errors import Refused
 from drivers.shaker import Echo, Shaker, ShakerStatus
-
-AT_REST_S = 1.0
-"""How long a stopped shaker may take to be at zero."""
-_LOOK_S = 0.01
+from instrument.run.at_rest import bring_to_rest
 
 
 class StoppableShaker:
@@ -70,29 +65,3 @@ class StoppableShaker:
     def _refuse(self) -> None:
         if self._stopped:
             raise Refused("the shaker was stopped for good: begin a new run")
-
-
-def bring_to_rest(shaker: Shaker) -> None:
-    """Stop it, and again where it was started meanwhile, until it says so. Raises `DriverError`."""
-    deadline = monotonic() + AT_REST_S
-    shaker.stop()
-    while True:
-        status = shaker.status()
-        if status.drive_v == 0 and not status.running:
-            return
-        if monotonic() > deadline:
-            raise TimedOut(
-                f"shaker: stopped, but its drive is still {status.drive_v:.3g} V after {AT_REST_S:g} s"
-            )
-        if status.running:
-            shaker.stop()
-        sleep(_LOOK_S)
-
-
-def came_to_rest(shaker: Shaker) -> str:
-    """`bring_to_rest`, and why it did not come; empty where it did."""
-    try:
-        bring_to_rest(shaker)
-    except DriverError as error:
-        return " ".join(str(error).split())
-    return ""

@@ -8,7 +8,7 @@ from fitting.errors import TooFewPoints
 from instrument.hammer_test.analysis import HammerAnalysis
 from instrument.hammer_test.struck import StruckAnalysis
 from instrument.session.setup import Setup
-from instrument.stepped_sine.calibration import Calibration, calibrate
+from instrument.stepped_sine.calibration import Calibration, calibrate, phase_left
 from instrument.stepped_sine.step import StepAnalysis
 from instrument.stream.clock import SessionClock
 from instrument.stream.derived import (
@@ -43,6 +43,9 @@ from instrument.stream.scaling import Scaling
 
 _MOST_GAIN, _MOST_GAIN_STD = 0.3, 0.05
 """Off one, and uncertain, relative: beyond these a calibration is none."""
+_MOST_PHASE_RAD = 0.2
+"""Root mean square that a delay may leave of a calibration's phases: a sensor turned round leaves one or
+more, a base that rocks some hundredths. A choice."""
 
 
 class Analysis:
@@ -96,6 +99,11 @@ class Analysis:
         if self._strikes and self.hammer is not None:
             return self.hammer.wanted()
         return self.step.wanted() if self.step is not None else 1
+
+    @property
+    def concludes(self) -> bool:
+        """Whether the samples that are next belong to a reading that may become a point."""
+        return not self._strikes and self.step is not None and self.step.concludes
 
     @property
     def _strikes(self) -> bool:
@@ -156,11 +164,12 @@ class Analysis:
                 return self._compared(event)
             case CalibrationFound():
                 self.calibrations[event.range_name] = event
+                own = [p for p in self._calibration_points if p.range_name == event.range_name]
                 # A run that is carried on must not take these points for another range's.
                 self._calibration_points = [
                     p for p in self._calibration_points if p.range_name != event.range_name
                 ]
-                return _refused(event)
+                return _refused(event, own)
             case DampingFound():
                 self.damping = event
             case StruckFound():
@@ -171,6 +180,9 @@ class Analysis:
         if self._acquisition is None:
             return []
         self._latest = block.first_sample + block.samples
+        if any(block.cable_fault):
+            # The run ends for it; nothing of these samples may become a reading before.
+            return []
         if self._strikes:
             return self.hammer.block(block) if self.hammer is not None else []
         if self.step is None:
@@ -264,16 +276,20 @@ class Analysis:
         return Scaling.of(self._acquisition.channels, self._setup.sensors.named())
 
 
-def _refused(found: CalibrationFound) -> list[Derived]:
+def _refused(found: CalibrationFound, points: list[PointMeasured]) -> list[Derived]:
     """What no laser on the base gives."""
     remedy = "is the laser on the base beside the accelerometer? are both sensitivities right?"
     off = max(abs(found.gain - 1) / _MOST_GAIN, found.gain_std / found.gain / _MOST_GAIN_STD)
-    if off <= 1:
+    if off > 1:
+        gain = f"gain {found.gain:.3g} +- {found.gain_std:.2g}, times the likely"
+        return [LimitExceeded(0, f"calibration in {found.range_name}: {gain}", off, 1.0, "", remedy)]
+    left, turned = phase_left(points, found.delay_s) if points else (0.0, False)
+    if left <= _MOST_PHASE_RAD:
         return []
-    what = (
-        f"calibration in {found.range_name}: gain {found.gain:.3g} +- {found.gain_std:.2g}, times the likely"
-    )
-    return [LimitExceeded(0, what, off, 1.0, "", remedy)]
+    if turned:
+        remedy = "one of the two faces the other way: invert = true of the accelerometer's or laser's channel"
+    what = f"calibration in {found.range_name}: phase that no delay explains"
+    return [LimitExceeded(0, what, left, _MOST_PHASE_RAD, "rad", remedy)]
 
 
 def sentinel_compared(first: PointMeasured, again: PointMeasured) -> SentinelCompared:

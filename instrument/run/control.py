@@ -11,6 +11,7 @@ class RunControl:
     def __init__(self) -> None:
         self._held = threading.Event()
         self._abort: str | None = None
+        self._interrupted = False
         self._declines = threading.Event()
         self._words: deque[tuple[Literal["add", "end"], float | None]] = deque()
 
@@ -25,6 +26,10 @@ class RunControl:
     def abort(self, why: str) -> None:
         """End the run safely."""
         self._abort = why
+
+    def interrupt(self) -> None:
+        """End the run as the user's own stop."""
+        self._interrupted = True
 
     def decline(self) -> None:
         """Leave out the step that is being measured."""
@@ -48,6 +53,11 @@ class RunControl:
     def held(self) -> bool:
         """Whether to wait."""
         return self._held.is_set()
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether the user has stopped the run."""
+        return self._interrupted
 
     @property
     def aborted(self) -> str | None:

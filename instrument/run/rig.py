@@ -9,10 +9,11 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Timer
+from time import monotonic, sleep
 
 from drivers.chamber import Chamber
 from drivers.chamber.driver import ChamberOptions
-from drivers.errors import Unreachable
+from drivers.errors import Refused, Unreachable
 from drivers.front_end import FrontEnd
 from drivers.front_end.interface import ReadsMemories
 from drivers.shaker import Shaker
@@ -28,6 +29,10 @@ log = logging.getLogger(__name__)
 
 _SIMULATOR_STARTS_S = 120.0
 """A bound: one that has not come up by then is taken to hang. A beam is built when it is first used."""
+_MARGIN_S = 1.0
+"""Behind the shaker's watchdog, until one that is driven counts as somebody's."""
+_LOOK_S = 0.05
+"""Between two looks at it."""
 _SIMULATOR_ENDS_S = 6.0
 """Until it is killed."""
 
@@ -83,6 +88,7 @@ def open_rig(document: RigDocument, path: Path, hammer: Hammer | None) -> Iterat
             document = _at(document, addresses)
         shaker = open_shaker(document.shaker)
         stack.callback(shaker.close)
+        wait_until_free(shaker, document.shaker.heartbeat_timeout_s)
         shaker.set_heartbeat_timeout_s(document.shaker.heartbeat_timeout_s)
         vibrometer = VIBROMETERS[document.vibrometer.kind].open(document.vibrometer)
         stack.callback(vibrometer.close)
@@ -104,6 +110,21 @@ def open_rig(document: RigDocument, path: Path, hammer: Hammer | None) -> Iterat
             document,
             chamber,
         )
+
+
+def wait_until_free(shaker: Shaker, watchdog_s: float) -> None:
+    """Nothing of the rig is taken from a program that drives its shaker; one that was killed is waited out.
+
+    Raises `Refused` where somebody still beats its heartbeat after that many seconds and a little.
+    """
+    deadline = monotonic() + watchdog_s + _MARGIN_S
+    while shaker.status().drive_v > 0:
+        if monotonic() > deadline:
+            raise Refused(
+                f"the shaker is driven, and was for {watchdog_s + _MARGIN_S:g} s: "
+                "another program uses this rig, or its watchdog is off: stop it first"
+            )
+        sleep(_LOOK_S)
 
 
 def open_shaker(table: ShakerOptions, *, timeout_s: float = 1.0, retries: int = 2) -> Shaker:

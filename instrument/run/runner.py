@@ -1,8 +1,9 @@
 """The runner: does what the plan says on a rig, one loop on one thread.
 
 While a run goes on nothing else reads a device or drives the shaker (others may silence it), and nothing
-else that measures looks at a clock. Whatever ends a part, the shaker is silenced first. Only this loop beats
-the heartbeat: a hung acquisition lets it go stale, and the device goes silent by itself.
+else that measures looks at a clock. Whatever ends a part, the shaker is silenced first, and believed silent
+when it says so. Only this loop beats the heartbeat: a hung acquisition lets it go stale, and the device goes
+silent by itself.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -11,12 +12,13 @@ from time import monotonic, sleep
 
 from drivers.errors import DriverError
 from drivers.front_end import Block, InputChannel
-from drivers.shaker import Alarm
+from drivers.shaker import Alarm, ShakerStatus
 from drivers.vibrometer import Range
 from instrument.errors import RigStopped
 from instrument.files.experiment_file import TemperatureTable
 from instrument.hammer_test.struck import OVERLOADED
 from instrument.run.analysis import Analysis
+from instrument.run.at_rest import silenced
 from instrument.run.control import RunControl
 from instrument.run.rig import Rig
 from instrument.run.soaking import Soaking, read_temperature
@@ -24,6 +26,7 @@ from instrument.stepped_sine.drive import lowers_first
 from instrument.stepped_sine.plan import Action, ChoiceWanted, Plan, RangeWanted, Result, WordWanted
 from instrument.stepped_sine.settings import SweepSettings
 from instrument.stepped_sine.settling_trace import begins_at
+from instrument.stepped_sine.soundness import MOST_OFF
 from instrument.stream.derived import (
     DriveRequested,
     HitJudged,
@@ -58,6 +61,10 @@ HITS_IN_VAIN = 20
 """Blows refused one after the other before a hammer test is given up: more of them would be no better."""
 _REST_S, _LOOK_S = 5.0, 0.01
 """After a stop, before the run says that the shaker does not obey; and how often it looks."""
+_MARGIN_S = 2.0
+"""Behind the device's own watchdog, until a shaker that was told to stop is taken to run on."""
+_ECHO_OFF = 1e-3
+"""Relative: more than was asked, by rounding, is none."""
 _CHOICE_LOOK_S = 0.05
 """Within a wait for a choice, the heartbeat has its turn this often."""
 
@@ -146,9 +153,17 @@ class Runner:
         Soaking(self._rig, self._emit, self._control, self._watch).run(wanted)
 
     def silence(self) -> None:
-        """The shaker to zero, whatever state it is in. Raises `DriverError` where nobody answers."""
+        """The shaker to zero, whatever state it is in. Raises `RigStopped` where it does not say that it is.
+
+        Its own watchdog has its time first: nobody beats the heartbeat meanwhile.
+        """
+        watchdog_s = self._rig.document.shaker.heartbeat_timeout_s
+        if problem := silenced(self._rig.shaker, watchdog_s + _MARGIN_S):
+            raise RigStopped(
+                f"the shaker does not say that it is silent ({problem}): SWITCH THE AMPLIFIER OFF; its own "
+                f"watchdog should have silenced it after {watchdog_s:g} s, which nobody knows"
+            )
         self._drive_v = 0.0
-        self._rig.shaker.stop()
 
     def _wait_for_rest(self) -> None:
         """Until the drive of what was before is zero: a ramp counts from there. Raises `RigStopped`."""
@@ -202,6 +217,11 @@ class Runner:
             if (read := read_temperature(self._rig)) is not None:
                 self._emit(read)
             self._emit(SignalLevelRead(self._rig.vibrometer.signal_level()))
+            if self._range is not None and began.frequency_hz > self._range.highest_hz:
+                raise RigStopped(
+                    f"at {began.frequency_hz:g} Hz: the vibrometer's range {self._range.name} reads up to "
+                    f"{self._range.highest_hz:g} Hz: choose another in [[sweep.segments]], or its filter"
+                )
             if lowers_first(self._frequency_hz, self._drive_v, began.frequency_hz, began.drive_v):
                 self._lower(began.drive_v)
             self._emit(began)
@@ -238,8 +258,11 @@ class Runner:
         """The next samples into the stream; what follows from them."""
         self._watch()
         most = max(1, int(_LONGEST_READ_S * self._rig.front_end.sample_rate_hz))
+        concludes = self._analysis.concludes
         block = self._rig.front_end.read(min(samples, most))
         self._samples = block.first_sample + block.samples
+        if concludes:
+            self._confirm_range()
         derived = self._emit(_acquired(block))
         if block.cable_fault.any():
             names = [n for n, bad in zip(self._names, block.cable_fault, strict=True) if bad]
@@ -249,6 +272,8 @@ class Runner:
 
     def _watch(self) -> None:
         """Between blocks: is the run to end, is the shaker well, and the heartbeat."""
+        if self._control.interrupted:
+            raise KeyboardInterrupt
         if self._control.aborted is not None:
             raise RigStopped(self._control.aborted)
         if monotonic() - self._beaten < _BEAT_S:
@@ -262,6 +287,19 @@ class Runner:
             )
         if status.interlock_open:
             raise RigStopped("shaker interlock open: close it, then begin again")
+        self._question(status)
+
+    def _question(self, status: ShakerStatus) -> None:
+        """Whether the shaker does what it was told. Raises `RigStopped`."""
+        if self._drive_v == 0:
+            return
+        if not status.running:
+            raise RigStopped("the shaker was switched off by somebody else: begin again when it is free")
+        if abs(status.frequency_hz / self._frequency_hz - 1) > MOST_OFF:
+            raise RigStopped(
+                f"the shaker says that it runs at {status.frequency_hz:g} Hz, "
+                f"it was told {self._frequency_hz:g} Hz"
+            )
 
     def _lower(self, drive_v: float) -> None:
         """Less drive at the frequency it has, and until it is there: these samples are of no step."""
@@ -274,6 +312,8 @@ class Runner:
         ramp_s = self._settings.control.ramp_s
         change = max(abs(drive_v - self._drive_v), 1e-6)
         echo = self._rig.shaker.command(frequency_hz, drive_v, change / ramp_s)
+        if not 0 < echo.drive_v <= drive_v * (1 + _ECHO_OFF):
+            raise RigStopped(f"the shaker took {drive_v:.4g} V for {echo.drive_v:.4g} V: does its map hold?")
         self._frequency_hz, self._drive_v = frequency_hz, echo.drive_v
         command = ShakerCommanded(echo.sequence, frequency_hz, echo.drive_v, ramp_s, echo.sample)
         self._emit(command)
@@ -285,6 +325,18 @@ class Runner:
             r = self._range
             self._emit(RangeSet(r.name, r.scale_m_s_v, r.full_scale_v, r.highest_hz, r.delay_s))
 
+    def _confirm_range(self) -> None:
+        """Before a reading counts: the range is still the one it is scaled by. Raises `RigStopped`.
+
+        Somebody at its panel, or a mains plug, changes it, and every velocity is wrong by the ratio.
+        """
+        found, wanted = self._rig.vibrometer.range(), self._range
+        if wanted is not None and found.name != wanted.name:
+            raise RigStopped(
+                f"the vibrometer's range is {found.name}, it was set to {wanted.name}: "
+                "was it changed at its panel, or switched off and on? this step does not count"
+            )
+
     @contextmanager
     def _acquisition(self, part: Part, names: tuple[str, ...]) -> Iterator[None]:
         sensors = self._rig.sensors
@@ -292,18 +344,31 @@ class Runner:
         front_end = self._rig.front_end
         front_end.start(inputs, self._rig.sample_rate_hz)
         self._names = names
+        ended: BaseException | None = None
         try:
             self._acquisitions, self._samples = self._acquisitions + 1, 0
             self._emit(AcquisitionBegan(self._acquisitions, part, front_end.sample_rate_hz, names))
             yield
+        except BaseException as error:
+            ended = error
+            raise
         finally:
-            # Silence first: what follows may take as long as a time-out. Where nobody answers, the heartbeat,
-            # no longer beaten, does it, and the first error is the one to tell.
-            if part not in ("hammer", "struck"):
+            try:
+                # Silence first: what follows may take as long as a time-out.
+                if part not in ("hammer", "struck"):
+                    self._silence_after(ended)
+            finally:
                 with suppress(DriverError):
-                    self.silence()
-            with suppress(DriverError):
-                front_end.stop()
+                    front_end.stop()
+
+    def _silence_after(self, ended: BaseException | None) -> None:
+        """Silence; where it fails that is told, with what had ended the part before."""
+        try:
+            self.silence()
+        except RigStopped as loud:
+            if isinstance(ended, RigStopped | DriverError):
+                raise RigStopped(f"{' '.join(str(ended).split())}; {loud}") from ended
+            raise
 
 
 def _too_narrow(refused: list[str]) -> bool:

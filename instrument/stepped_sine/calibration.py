@@ -5,6 +5,7 @@ With the laser on the base beside the accelerometer, reading over truth is
     V(f) i omega / A(f) = gain e^{-i omega delay}
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -59,6 +60,24 @@ def calibrate(points: list[PointMeasured], utc: str = "") -> CalibrationFound:
         points=len(points),
         utc=utc,
     )
+
+
+def phase_left(points: Sequence[PointMeasured], delay_s: float) -> tuple[float, bool]:
+    """What a delay leaves of the phases, and whether turning one sensor round explains it.
+
+    Root mean square in rad, of one range's points.
+    """
+    points = sorted(points, key=lambda p: float(p.frequency_hz))
+    omega = 2 * np.pi * np.array([p.frequency_hz for p in points])
+    ratio = np.array([p.velocity_m_s / p.base_m_s2 for p in points]) * 1j * omega
+
+    def left(phase: Array, seconds: float) -> float:
+        return float(np.sqrt(np.mean((phase + omega * seconds) ** 2)))
+
+    turned = np.unwrap(np.angle(-ratio))
+    as_turned = left(turned, -float(omega @ turned / (omega @ omega)))
+    as_it_is = left(np.unwrap(np.angle(ratio)), delay_s)
+    return as_it_is, as_turned < as_it_is / 2
 
 
 def _scatter(rest: Array, weight: Array) -> float:

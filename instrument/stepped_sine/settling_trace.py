@@ -11,15 +11,24 @@ from instrument.stepped_sine.settling import Settling
 from instrument.stepped_sine.sine_fit import sine_fit
 from instrument.stream.raw import RangeSet, ShakerCommanded
 
+_AHEAD_S = 5.0
+"""So far behind the samples' own counter a reader may be; a receipt of later samples is none. A choice."""
+
 
 def begins_at(
     change: ShakerCommanded | RangeSet, latest: int, sample_rate_hz: float, settings: SweepSettings
 ) -> int:
-    """First sample that belongs to a new drive or range; `latest` is the last one when it came."""
+    """First sample that belongs to a new drive or range; `latest` is the last one when it came.
+
+    A receipt with a sample that was read before the command, or is far ahead, counts other samples than
+    these: it is taken for one without. Waiting for the latter a run would drive for ever.
+    """
     allowed = latest + round(settings.latency_s * sample_rate_hz)
     if isinstance(change, RangeSet):
         return allowed
-    at = allowed if change.sample is None else change.sample
+    at = change.sample
+    if at is None or not latest <= at <= latest + _AHEAD_S * sample_rate_hz:
+        at = allowed
     return at + int(np.ceil(change.ramp_s * sample_rate_hz)) + 1
 
 

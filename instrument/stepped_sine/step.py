@@ -20,6 +20,15 @@ from instrument.stepped_sine.settings import SweepSettings
 from instrument.stepped_sine.settling import Settling
 from instrument.stepped_sine.settling_trace import begins_at
 from instrument.stepped_sine.sine_fit import SineFit, sine_fit
+from instrument.stepped_sine.soundness import (
+    CLEAR,
+    FLAT_DISTORTION,
+    MARKED_DISTORTION,
+    MARKED_OFF,
+    MOST_OFF,
+    frequency_off,
+    is_flat,
+)
 from instrument.stream.derived import (
     DriveRequested,
     LimitExceeded,
@@ -39,6 +48,13 @@ _CHECK_BLOCKS = 2.0
 """A loop check reads so many blocks at once."""
 _BOUND = 3.0
 """What may be left of a transient is bounded; a third of that counts as a standard deviation of each part."""
+_LOST = 0.55
+"""Share of its level under which the base is no matter of correction: known gains are right within a tenth,
+and the drive it takes would be nearly twice what was reckoned with. A choice."""
+_LOST_BLOCKS = 3
+"""So many in a row, until the loop counts as lost: a build-up rises meanwhile. A choice."""
+_RISES = 1.1
+"""From block to block, by which a base that is only building up rises. A choice."""
 _CLIPPED = 0.98
 """Share of the vibrometer's full scale from which its output counts as clipped."""
 
@@ -75,6 +91,8 @@ class StepAnalysis:
         self._phase: Literal["settling", "dwelling", "done"] = "settling"
         self._remarks: list[str] = []
         self._base: float | None = None
+        self._far_under = 0
+        self._flattened = False
         self._settle_s = 0.0
         self._left = 0.0
         self._restart()
@@ -85,6 +103,11 @@ class StepAnalysis:
     def done(self) -> bool:
         """Whether the point is measured."""
         return self._phase == "done"
+
+    @property
+    def concludes(self) -> bool:
+        """Whether it has settled, and what it reads next may become the point."""
+        return self._phase == "dwelling"
 
     def wanted(self) -> int:
         """Samples that complete the next reading, counted from the last one received."""
@@ -145,6 +168,10 @@ class StepAnalysis:
         base, velocity = fit.phasor[:2]
         error = abs(base) / self._level - 1
         before, self._base = self._base, abs(base)
+        if lost := self._lost(float(abs(base)), before):
+            return lost
+        if self._far_under:
+            return []
         steady = before is not None and abs(abs(base) / before - 1) < max(abs(error) / 2, self._trim / 2)
         if abs(error) > self._trim and steady and self._may_correct():
             return self._correct(abs(base), error)
@@ -182,14 +209,49 @@ class StepAnalysis:
         error = abs(fit.phasor[0]) / self._level - 1
         if abs(error) > self._settings.control.tolerance:
             if self._may_correct():
-                return self._correct(abs(fit.phasor[0]), error)
+                # However far: a base that fell in the dwell is judged by the blocks after it.
+                drop = max(abs(fit.phasor[0]), _LOST * self._level)
+                return self._correct(float(drop), error)
             if abs(error) > self._settings.control.abort:
                 level, base = self._level, abs(fit.phasor[0])
                 what, remedy = "base acceleration under its level", "lower the level or raise the drive limit"
                 return [self._guard.stop(what, float(base), level, "m/s^2", remedy)]
             self._remarks.append(f"level {100 * error:+.2g} % off, limit {self._tolerance_percent:.2g} %")
+        if unsound := self._unsound(first, x, fit):
+            return unsound
         self._phase = "done"
         return [self._point(first, x, fit, error)]
+
+    def _unsound(self, first: int, x: Array, fit: SineFit) -> list[Derived]:
+        """What makes this reading none; what makes it doubtful is remarked."""
+        f = self._began.frequency_hz
+        off, noise = frequency_off(x[0], first, self._rate, f)
+        if abs(off) > MOST_OFF and abs(off) > CLEAR * noise:
+            remedy = (
+                "does the shaker run at the frequency it is told? do its clock and the front-end's agree, "
+                "is the sample rate right?"
+            )
+            what = "frequency at the base, by the front-end's clock, off by"
+            return [self._guard.stop(what, 100 * abs(off), 100 * MOST_OFF, "%", remedy)]
+        if is_flat(x, fit, 0):
+            remedy = "accelerometer, its input or the amplifier saturates: lower the level or raise range_v"
+            what = "base acceleration has a flat top, harmonics"
+            return [
+                self._guard.stop(what, 100 * float(fit.distortion[0]), 100 * FLAT_DISTORTION, "%", remedy)
+            ]
+        if is_flat(x, fit, 1):
+            if self._wider and not self._flattened:
+                self._flattened = True
+                why = f"a flat top in {self._range.name}"
+                self._samples.clear()
+                return [RangeRequested(self._began.step, self._wider[0], why)]
+            self._remarks.append("velocity has a flat top: does the laser or its input saturate?")
+        if abs(off) > MARKED_OFF and abs(off) > CLEAR * noise:
+            self._remarks.append(f"frequency {100 * off:+.2g} % off by the front-end's clock")
+        for name, distortion in zip(("base", "velocity"), fit.distortion[:2], strict=True):
+            if distortion > MARKED_DISTORTION:
+                self._remarks.append(f"{name} distorted: harmonics of {100 * distortion:.2g} %")
+        return []
 
     def _point(self, first: int, x: Array, fit: SineFit, error: float) -> PointMeasured:
         b, f = self._began, self._began.frequency_hz
@@ -263,6 +325,26 @@ class StepAnalysis:
             self._corrections = self._settings.control.most_corrections
         return [DriveRequested(self._began.step, drive, f"base {100 * error:+.2g} % off its level")]
 
+    def _lost(self, base: float, before: float | None) -> list[Derived]:
+        """The base far under what the known gain promises is no level to correct: no drive is raised for it.
+
+        A sensor that came off, an amplifier that fell silent, a shaker that does not follow: with the drive
+        at its limit, whatever comes back comes back at full force.
+        """
+        least = _LOST * self._level
+        held = self._command_drive() >= self._settings.limits.drive_v
+        if base >= least or held:
+            self._far_under = 0
+            return []
+        rises = before is not None and base > _RISES * before
+        self._far_under = 1 if rises else self._far_under + 1
+        if self._far_under < _LOST_BLOCKS:
+            return []
+        remedy = (
+            "is the accelerometer on, its cable whole, the amplifier on? the drive is not raised to find out"
+        )
+        return [self._guard.stop("base acceleration lost: it is", base, least, "m/s^2", remedy)]
+
     def _may_correct(self) -> bool:
         return self._corrections < self._settings.control.most_corrections
 
@@ -270,6 +352,7 @@ class StepAnalysis:
         self._samples.clear()
         self._settling = Settling(self._began.decay_1_s, self._settings.settle.tolerance)
         self._base = None
+        self._far_under = 0
         if self._phase == "dwelling":
             self._phase = "settling"
 

@@ -10,6 +10,8 @@ from drivers.front_end import lan_xi_documents as documents
 from drivers.front_end.interface import InputChannel, ReadsMemories, Transducer
 from drivers.front_end.lan_xi import LanXiFrontEnd
 from drivers.front_end.lan_xi_documents import HEADROOM
+from drivers.front_end.lan_xi_frames import Data
+from drivers.front_end.lan_xi_stream import StreamReader
 from drivers.simulated.lan_xi_measurement import Acquired
 from drivers.simulated.lan_xi_server import LanXiServer
 
@@ -320,3 +322,27 @@ def test_a_port_that_is_taken_is_said_by_what_wanted_it(server):
     port = int(server.url.rpartition(":")[2])
     with pytest.raises(Unreachable, match=f"front-end: cannot serve at 127.0.0.1:{port}: Address already"):
         LanXiServer(Ramps(), channels=6, sample_rates=RATES, port=port)
+
+
+def test_a_channel_that_gives_no_samples_ends_in_bounded_time(server, source, monkeypatch):
+    """The stream is alive, one channel in it is not."""
+    device = LanXiFrontEnd(server.url, timeout_s=0.5, paced_by_reader=True)
+    try:
+        device.start(CHANNELS, 4096)
+        device.read(100)
+        first_alone = StreamReader.take
+
+        def without_the_second(reader, message):
+            if isinstance(message, Data):
+                message = Data(message.time, tuple(s for s in message.signals if s.id != 2))
+            first_alone(reader, message)
+
+        monkeypatch.setattr(StreamReader, "take", without_the_second)
+        receive = device._receive
+        monkeypatch.setattr(device, "_receive", lambda: (device._send_credit(10), receive())[1])
+        began = time.monotonic()
+        with pytest.raises(TimedOut, match="no sample of every channel"):
+            device.read(100)
+        assert time.monotonic() - began < 5.0
+    finally:
+        device.close()

@@ -124,3 +124,9 @@ def test_what_does_not_fit_the_setup_is_garbled(message, said):
 def test_samples_before_their_scale_are_garbled():
     with pytest.raises(Garbled, match="before its scale factor"):
         StreamReader(np.ones(1), RATE).take(data(0, [1]))
+
+
+@pytest.mark.parametrize("scale", [0.0, -10.0, float("inf"), float("nan")])
+def test_a_scale_factor_that_cannot_be_is_garbled(scale):
+    with pytest.raises(Garbled, match="scale factor of"):
+        reader().take(Interpretation(at(0), (Descriptor(1, DescriptorType.SCALE_FACTOR, scale),)))

@@ -181,3 +181,9 @@ def test_another_map_version_is_told(rig):
         shaker.start()
     assert rig.whats() == []
     shaker.close()
+
+
+def test_a_watchdog_that_keeps_another_time_is_refused(rig, shaker):
+    rig.device.set_heartbeat_timeout = lambda timeout_s: None
+    with pytest.raises(Refused, match="5 was asked, the device keeps 2: its watchdog is off"):
+        shaker.set_heartbeat_timeout_s(5.0)

@@ -5,7 +5,8 @@ from engine_cases import drive_v, engine_rig, is_silent
 
 from drivers.errors import DriverError, Refused
 from drivers.shaker.modbus import ModbusShaker
-from instrument.engine.stoppable import StoppableShaker, bring_to_rest, came_to_rest
+from instrument.engine.stoppable import StoppableShaker
+from instrument.run.at_rest import bring_to_rest, came_to_rest
 
 
 @pytest.fixture

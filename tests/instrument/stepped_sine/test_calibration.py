@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from sessions import point
 
 from fitting.errors import TooFewPoints
-from instrument.stepped_sine.calibration import Calibration, calibrate
+from instrument.stepped_sine.calibration import Calibration, calibrate, phase_left
 
 FREQUENCIES = (40.0, 80.0, 120.0, 160.0, 200.0, 240.0, 280.0)
 
@@ -60,3 +60,15 @@ def test_a_calibration_undoes_what_it_found():
 def test_two_points_are_too_few():
     with pytest.raises(TooFewPoints, match="2 calibration points, expected 3"):
         calibrate(points(1.0, 0.0)[:2])
+
+
+def test_what_no_delay_explains_is_seen_and_a_sensor_turned_round_named():
+    left, turned = phase_left(points(1.0, 1.1e-3, 1e-3), 1.1e-3)
+    assert left < 0.01
+    assert not turned
+    against = points(-1.0, 1.1e-3, 1e-3)
+    left, turned = phase_left(against, calibrate(against).delay_s)
+    assert left > 0.5
+    assert turned
+    scattered = points(1.0, 1.1e-3, 0.8, seed=3)
+    assert not phase_left(scattered, calibrate(scattered).delay_s)[1]

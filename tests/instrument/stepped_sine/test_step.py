@@ -170,7 +170,7 @@ def test_travel_is_limited_and_warned_of():
 
 
 def test_a_drive_at_its_limit_is_marked_not_exceeded():
-    events = follow(Station(gain_m_s2_v=1.0), began(drive_v=4.0))
+    events = follow(Station(gain_m_s2_v=1.4), began(drive_v=4.0))
     assert max(e.drive_v for e in of_kind(events, DriveRequested)) <= SETTINGS.limits.drive_v
     assert any("drive held at its limit" in r for r in point_of(events).remarks)
 
@@ -229,3 +229,91 @@ def test_a_settled_step_says_when_and_how_well():
     (settled,) = of_kind(follow(Station(gain_m_s2_v=9.81 / 1.9)), StepSettled)
     assert settled.remaining_percent <= 0.1
     assert 0 < settled.predicted_seconds < 2.0
+
+
+class Failing(Station):
+    """Its base is what `fail` makes of it, in m/s^2, by the time in s."""
+
+    def __init__(self, fail, **station):
+        super().__init__(stirred=0.0, **{"gain_m_s2_v": 9.81 / 1.9, **station})
+        self._fail = fail
+
+    def read(self, samples, range_scale=RANGE.scale_m_s_v):
+        first, x = super().read(samples)
+        t = (first + np.arange(samples)) / RATE
+        x[0] = self._fail(x[0] / BASE_V, t) * BASE_V
+        return first, x
+
+
+def test_a_base_that_is_lost_is_no_level_to_correct():
+    """A cable that came off, an amplifier that fell silent: the drive is not raised to its limit for it."""
+    events = follow(Failing(lambda y, t: np.where(t > 0.1, 1e-4 * y, y), noise_v=1e-7))
+    assert not of_kind(events, DriveRequested)
+    (stop,) = of_kind(events, LimitExceeded)
+    assert stop.what.startswith("base acceleration lost")
+    assert "cable" in stop.message
+
+
+def test_half_the_base_at_once_is_lost_too():
+    (stop,) = of_kind(follow(Failing(lambda y, t: 0.5 * y)), LimitExceeded)
+    assert stop.what.startswith("base acceleration lost")
+
+
+def test_a_base_that_builds_up_slowly_is_waited_for():
+    events = follow(Failing(lambda y, t: y * (1 - np.exp(-4 * t))))
+    assert not of_kind(events, LimitExceeded)
+    assert abs(point_of(events).control_error_percent) < 1.0
+
+
+@pytest.mark.parametrize(("off", "said"), [(2e-3, "stopped"), (5e-4, "marked"), (5e-5, "")])
+def test_a_shaker_at_another_frequency_than_told_is_seen(off, said):
+    base = lambda y, t: 9.81 * np.cos(2 * np.pi * 20.0 * (1 + off) * t)  # noqa: E731
+    events = follow(Failing(base, noise_v=1e-6))
+    if said == "stopped":
+        (stop,) = of_kind(events, LimitExceeded)
+        assert "clock" in stop.message
+        assert stop.value == pytest.approx(100 * off, rel=0.05)
+    else:
+        assert any("frequency" in r for r in point_of(events).remarks) == (said == "marked")
+
+
+def test_an_accelerometer_that_saturates_is_no_level():
+    events = follow(Failing(lambda y, t: np.clip(y, -8.5, 8.5)))
+    (stop,) = of_kind(events, LimitExceeded)
+    assert "flat top" in stop.message
+
+
+def test_a_laser_that_saturates_below_its_full_scale_is_read_in_the_next_range():
+    class Flat(Station):
+        def read(self, samples, range_scale=RANGE.scale_m_s_v):
+            first, x = super().read(samples)
+            x[1] = np.clip(x[1], -1.8, 1.8)
+            return first, x
+
+    station = Flat(stirred=0.0, gain_m_s2_v=9.81 / 1.9)
+    (request,) = of_kind(follow(station, wider=("50mm/s/V",)), RangeRequested)
+    assert request.name == "50mm/s/V"
+    assert any("flat top" in r for r in point_of(follow(station)).remarks)
+
+
+def test_strong_harmonics_are_marked():
+    class Distorted(Station):
+        def read(self, samples, range_scale=RANGE.scale_m_s_v):
+            first, x = super().read(samples)
+            t = (first + np.arange(samples)) / RATE
+            x[0] += 0.08 * 9.81 * BASE_V * np.cos(2 * np.pi * 40.0 * t)
+            return first, x
+
+    (remark,) = point_of(follow(Distorted(stirred=0.0, gain_m_s2_v=9.81 / 1.9))).remarks
+    assert remark == "base distorted: harmonics of 8 %"
+
+
+@pytest.mark.parametrize("sample", [0, 10**15])
+def test_a_receipt_that_counts_other_samples_is_taken_for_one_without(sample):
+    station, step = Station(stirred=1.0, gain_m_s2_v=9.81 / 1.9), began()
+    station.now = 5000
+    analysis = StepAnalysis(step, SETTINGS, SCALING, RATE, RANGE, (), None, 0.8, station.now)
+    command = station.command(step.frequency_hz, step.drive_v)
+    analysis.commanded(replace(command, sample=sample))
+    ramped_s = SETTINGS.latency_s + SETTINGS.control.ramp_s
+    assert analysis.wanted() == pytest.approx((ramped_s + SETTINGS.block_s(20.0)) * RATE, abs=2)

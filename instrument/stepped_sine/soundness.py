@@ -1,0 +1,52 @@
+"""What a reading says of itself: whether its sine is at the frequency it is fitted at, and whole.
+
+A fit at a known frequency gives a number for anything. A shaker that did not follow, or clocks that do not
+agree, turn the phasor while it is read; a sensor or an input that saturates makes a flat top.
+"""
+
+import numpy as np
+
+from fitting.arrays import Array
+from instrument.stepped_sine.sine_fit import SineFit, sine_fit
+
+MOST_OFF, MARKED_OFF = 1e-3, 2e-4
+"""Relative, of the frequency: beyond the first a point is none, beyond the second it is marked. Quartz agrees
+within a ten-thousandth, and a thousandth is 0.2 % of stiffness. A choice."""
+CLEAR = 5.0
+"""Standard deviations by which it has to be off."""
+MARKED_DISTORTION = 0.05
+"""Of the fundamental: from there on a point says so. A choice."""
+FLAT_DISTORTION = 0.02
+"""Less than this a flat top does not make."""
+_TOP, _SIDE = 0.02, 0.125
+"""A sine is within 2 % of its amplitude of one peak for 6.4 % of the time; one whose peak is cut by a tenth
+for 14 %, and so is none with less than 7 % of a harmonic. A choice."""
+
+
+def frequency_off(base: Array, first: int, sample_rate_hz: float, frequency_hz: float) -> tuple[float, float]:
+    """By how much the sine is off its frequency, and the standard deviation of that; relative.
+
+    From the phases of the two halves of the record, shape (samples,), beginning at sample `first`.
+    """
+    half = len(base) // 2
+    halves = (
+        sine_fit(base[None, k * half : (k + 1) * half], first + k * half, sample_rate_hz, frequency_hz)
+        for k in (0, 1)
+    )
+    (a, a_std), (b, b_std) = ((fit.phasor[0], fit.std[0]) for fit in halves)
+    turns_to_relative = 1 / (2 * np.pi * frequency_hz * half / sample_rate_hz)
+    off = float(np.angle(b * np.conj(a))) * turns_to_relative
+    noise = float(np.hypot(a_std / max(abs(a), _TINY), b_std / max(abs(b), _TINY))) * turns_to_relative
+    return off, noise
+
+
+def is_flat(x: Array, fit: SineFit, channel: int) -> bool:
+    """Whether a channel's record, of x (channels, samples), has a flat top or bottom."""
+    if fit.distortion[channel] < FLAT_DISTORTION:
+        return False
+    low, high = np.percentile(x[channel], (0.5, 99.5))
+    room = _TOP * (high - low) / 2
+    return bool(max(np.mean(x[channel] > high - room), np.mean(x[channel] < low + room)) > _SIDE)
+
+
+_TINY = float(np.finfo(float).tiny)

@@ -1,0 +1,56 @@
+"""One stop ends a run: those that follow do not break off what the first has begun."""
+
+import os
+import signal
+
+import pytest
+
+from instrument.cli.stopping import safe_stop
+from instrument.errors import RigStopped
+from instrument.run.control import RunControl
+
+
+def send(number):
+    os.kill(os.getpid(), number)
+
+
+def end(kept, first, *others):
+    """As a run does: what it has is kept on the way out, whatever else is sent."""
+    try:
+        send(first)
+    finally:
+        for number in others:
+            send(number)
+        kept.append("all")
+
+
+def test_a_second_ctrl_c_does_not_break_off_the_first(capsys):
+    control, kept = RunControl(), []
+    with pytest.raises(KeyboardInterrupt), safe_stop(control):
+        end(kept, signal.SIGINT, signal.SIGINT, signal.SIGTERM, signal.SIGINT)
+    assert kept == ["all"]
+    assert control.interrupted
+    assert "stopping already" in capsys.readouterr().err
+
+
+def test_a_ctrl_c_after_a_terminate_does_not_break_it_off():
+    control, kept = RunControl(), []
+    with pytest.raises(RigStopped, match="terminated"), safe_stop(control):
+        end(kept, signal.SIGTERM, signal.SIGINT)
+    assert kept == ["all"]
+    assert control.aborted == "terminated"
+
+
+def test_where_something_hangs_a_later_ctrl_c_counts_again(monkeypatch):
+    monkeypatch.setattr("instrument.cli.stopping._INSISTS_S", 0.0)
+    with safe_stop(RunControl()):
+        for _ in range(2):
+            with pytest.raises(KeyboardInterrupt):
+                send(signal.SIGINT)
+
+
+def test_afterwards_signals_mean_what_they_meant():
+    before = [signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)]
+    with safe_stop(RunControl()):
+        assert signal.getsignal(signal.SIGINT) is not before[0]
+    assert [signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)] == before

@@ -1,0 +1,150 @@
+"""A shaker that does not obey its stop: told again, and told of where it does not come to rest."""
+
+import os
+import signal
+import threading
+
+import pytest
+from formula_rig import formula_rig
+from quick_run import no_fit
+from run_at_point import RunAtPoint
+
+from drivers.errors import Refused, TimedOut, Unreachable
+from drivers.shaker import Alarm, ShakerStatus
+from instrument.errors import RigStopped
+from instrument.run.at_rest import bring_to_rest, came_to_rest, silenced
+from instrument.run.control import RunControl
+from instrument.run.experiment import run_experiment
+
+
+class Deaf:
+    """Runs on; obeys the stop of a number alone, before it does what `before` says."""
+
+    def __init__(self, obeys: int, before=lambda: None):
+        self.stops, self._obeys, self._before = 0, obeys, before
+
+    def stop(self):
+        self.stops += 1
+        if self.stops < self._obeys:
+            self._before()
+
+    def status(self):
+        runs = self.stops < self._obeys
+        return ShakerStatus(runs, False, False, False, Alarm.NONE, 2.0 if runs else 0.0, 50.0, 5.0)
+
+
+def refuse():
+    raise Refused("busy")
+
+
+def be_away():
+    raise Unreachable("no connection")
+
+
+def test_a_stop_that_is_acknowledged_and_not_carried_out_is_said_again():
+    shaker = Deaf(4)
+    bring_to_rest(shaker)
+    assert shaker.stops == 4
+
+
+def test_a_busy_device_is_told_again():
+    shaker = Deaf(3, refuse)
+    assert came_to_rest(shaker) == ""
+    assert shaker.stops == 3
+
+
+def test_one_that_refuses_and_is_silent_by_its_watchdog_is_at_rest():
+    class Silenced(Deaf):
+        def status(self):
+            self._obeys = 0
+            return super().status()
+
+    assert came_to_rest(Silenced(10**9, refuse), 0.05) == ""
+
+
+def test_one_that_never_obeys_is_told_of():
+    with pytest.raises(TimedOut, match="still 2 V"):
+        bring_to_rest(Deaf(10**9), 0.05)
+    with pytest.raises(Refused):
+        bring_to_rest(Deaf(10**9, refuse), 0.05)
+
+
+def test_silencing_goes_on_where_the_line_comes_back():
+    shaker = Deaf(3, be_away)
+    assert silenced(shaker, 5.0) == ""
+    assert "no connection" in silenced(Deaf(10**9, be_away), 0.05)
+
+
+def test_a_ctrl_c_does_not_break_it_off():
+    heard = threading.Event()
+    before = signal.signal(signal.SIGINT, lambda *_: (heard.set(), _raise())[0])
+
+    def interrupt_once():
+        if not heard.is_set():
+            os.kill(os.getpid(), signal.SIGINT)
+            assert heard.wait(5.0)
+
+    shaker = Deaf(5, interrupt_once)
+    with pytest.raises(KeyboardInterrupt):
+        silenced(shaker, 5.0)
+    signal.signal(signal.SIGINT, before)
+    assert shaker.stops == 5
+
+
+def _raise():
+    raise KeyboardInterrupt
+
+
+def deafen(rig):
+    """The stop is acknowledged, and nothing happens; no watchdog either."""
+    device = rig.device
+    device.stop = lambda *_: None
+    device.check_heartbeat = lambda *_: None
+
+
+def run(experiment, folder, **options):
+    return run_experiment(experiment, folder, ("sweep",), fit=no_fit, **options)
+
+
+@pytest.fixture
+def quick_watchdog(monkeypatch):
+    monkeypatch.setattr("instrument.run.runner._MARGIN_S", -1.8)
+
+
+def test_a_run_whose_shaker_runs_on_at_its_end_does_not_end_well(tmp_path, quick_watchdog):
+    with formula_rig(tmp_path) as (rig, experiment):
+        honest = rig.device.stop
+        with pytest.raises(RigStopped, match=r"SWITCH THE AMPLIFIER OFF.*15 steps kept"):
+            run(experiment, tmp_path, companion=RunAtPoint(3, lambda: deafen(rig)))
+        rig.device.stop = honest
+        honest(rig.world.clock()[1])
+
+
+def test_what_ended_the_run_is_told_too(tmp_path, quick_watchdog):
+    control = RunControl()
+
+    def end(rig):
+        deafen(rig)
+        control.abort("enough")
+
+    with formula_rig(tmp_path) as (rig, experiment):
+        honest = rig.device.stop
+        with pytest.raises(RigStopped, match=r"^enough; .*AMPLIFIER OFF"):
+            run(experiment, tmp_path, control=control, companion=RunAtPoint(3, lambda: end(rig)))
+        rig.device.stop = honest
+        honest(rig.world.clock()[1])
+
+
+def test_a_hold_that_is_not_obeyed_ends_the_run(tmp_path, quick_watchdog):
+    control = RunControl()
+
+    def hold(rig):
+        deafen(rig)
+        control.hold()
+
+    with formula_rig(tmp_path) as (rig, experiment):
+        honest = rig.device.stop
+        with pytest.raises(RigStopped, match="AMPLIFIER OFF"):
+            run(experiment, tmp_path, control=control, companion=RunAtPoint(3, lambda: hold(rig)))
+        rig.device.stop = honest
+        honest(rig.world.clock()[1])

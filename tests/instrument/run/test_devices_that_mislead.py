@@ -1,0 +1,194 @@
+"""Instruments that answer well and do something else: no step of theirs counts, and the shaker is silent."""
+
+import time
+from dataclasses import replace
+
+import pytest
+from formula_rig import formula_rig, gain
+from quick_run import no_fit
+from run_at_point import RunAtPoint
+
+from drivers.errors import DriverError
+from drivers.simulated.lan_xi_measurement import Acquired
+from drivers.vibrometer.serial_port import PolytecVibrometer
+from instrument.errors import RigStopped, StoppedByUser
+from instrument.run.companion import Companion
+from instrument.run.control import RunControl
+from instrument.run.experiment import run_experiment
+from instrument.session.configuration import read_whole_experiment
+from instrument.session.storage import SessionFile
+from instrument.stream.derived import PointMeasured, StepSettled
+
+
+def run(experiment, folder, **options):
+    return run_experiment(experiment, folder, ("sweep",), fit=no_fit, **options)
+
+
+def points_of(folder):
+    (session,) = folder.glob("*.h5")
+    with SessionFile(session) as file:
+        return [e for e in file.events(with_samples=False) if isinstance(e, PointMeasured)]
+
+
+def all_are_right(points):
+    return all(
+        abs(p.velocity_m_s / p.base_m_s2)
+        == pytest.approx(
+            abs(gain("velocity", p.frequency_hz) / gain("base_acceleration", p.frequency_hz)), rel=2e-3
+        )
+        for p in points
+    )
+
+
+def is_silent(rig):
+    with rig.world.lock:
+        status = rig.device.status(rig.world.clock()[1])
+    return status.drive_v == 0 and not status.running
+
+
+def change_range(rig):
+    """As a hand at the panel does."""
+    with rig.world.lock:
+        rig._head.range_name = "50mm/s/V"
+        rig.world.laser.scale_m_s_v = 0.05
+
+
+def switch_off(rig):
+    with rig.world.lock:
+        rig.device.stop(rig.world.clock()[1])
+
+
+def follow_at(rig, factor):
+    """From now on it makes another frequency than it is told, and says so in its status alone."""
+    honest = rig.device.command
+    rig.device.command = lambda f, *rest: honest(factor * f, *rest)
+
+
+def loosen_cable(rig):
+    """The module flags the base's input from now on."""
+    acquire = rig.world.acquire
+
+    def with_fault(samples):
+        found = acquire(samples)
+        fault = found.cable_fault.copy()
+        fault[0] = True
+        return Acquired(found.first_sample, found.counts, found.overload, fault)
+
+    rig.world.acquire = with_fault
+
+
+MISLEADS = {
+    "its range changed by hand": (change_range, "range is 50mm/s/V, it was set to"),
+    "switched off at its panel": (switch_off, "switched off by somebody|output is not allowed"),
+    "another frequency": (lambda rig: follow_at(rig, 1.01), "runs at|clock"),
+}
+
+
+@pytest.mark.parametrize("name", MISLEADS)
+def test_what_misleads_ends_the_run_before_it_counts(tmp_path, name):
+    mislead, said = MISLEADS[name]
+    with formula_rig(tmp_path) as (rig, experiment):
+        with pytest.raises(RigStopped, match=said):
+            run(experiment, tmp_path, companion=RunAtPoint(3, lambda: mislead(rig)))
+        assert is_silent(rig)
+    points = points_of(tmp_path)
+    assert 3 <= len(points) < 6
+    assert all_are_right(points)
+
+
+class AtSettled(Companion):
+    """Does something once a step of a number has settled: what is read next would be its point."""
+
+    def __init__(self, number, do):
+        self._left, self._do = number, do
+
+    def happened(self, event):
+        if isinstance(event, StepSettled):
+            self._left -= 1
+            if self._left == 0:
+                self._do()
+
+
+def test_a_dwell_in_which_a_cable_came_loose_is_no_point(tmp_path):
+    with formula_rig(tmp_path) as (rig, experiment):
+        with pytest.raises(RigStopped, match="cable fault on base"):
+            run(experiment, tmp_path, companion=AtSettled(4, lambda: loosen_cable(rig)))
+        assert is_silent(rig)
+    assert len(points_of(tmp_path)) == 3
+
+
+@pytest.mark.parametrize("took", [lambda drive_v: 0.0, lambda drive_v: 1.5 * drive_v])
+def test_a_receipt_of_another_drive_ends_the_run(tmp_path, took):
+    with formula_rig(tmp_path) as (rig, experiment):
+        honest = rig.device.command
+        rig.device.command = lambda f, v, *rest: took(honest(f, v, *rest))
+        with pytest.raises(RigStopped, match=r"took 0\.1 V for"):
+            run(experiment, tmp_path)
+        assert is_silent(rig)
+
+
+def test_a_step_beyond_what_its_range_reads_is_not_measured(tmp_path, monkeypatch):
+    chosen = PolytecVibrometer.set_range
+
+    def with_a_filter(self, name):
+        return replace(chosen(self, name), highest_hz=100.0)
+
+    monkeypatch.setattr(PolytecVibrometer, "set_range", with_a_filter)
+    with formula_rig(tmp_path) as (rig, experiment):
+        with pytest.raises(RigStopped, match=r"101 Hz: the vibrometer's range .* reads up to 100 Hz"):
+            run(experiment, tmp_path)
+        assert is_silent(rig)
+    assert max(p.frequency_hz for p in points_of(tmp_path)) < 100.0
+
+
+def test_drivers_errors_are_still_told_first(tmp_path):
+    def unplug(rig):
+        rig.vibrometer.unplug()
+
+    with formula_rig(tmp_path) as (rig, experiment), pytest.raises(RigStopped) as stopped:
+        run(experiment, tmp_path, companion=RunAtPoint(3, lambda: unplug(rig)))
+    assert isinstance(stopped.value.__cause__, DriverError)
+    assert "AMPLIFIER" not in str(stopped.value)
+
+
+def test_a_sensor_turned_round_ends_a_calibration(tmp_path):
+    with formula_rig(tmp_path) as (rig, experiment):
+        text = experiment.path.read_text().replace("calibration = false\n", "")
+        experiment.path.write_text(text)
+        sensor = rig.world.wiring.inputs[1]
+        rig.world.wiring.inputs[1] = replace(sensor, volts_per_unit=-sensor.volts_per_unit)
+        with pytest.raises(RigStopped, match=r"no delay explains.*invert = true"):
+            run(read_whole_experiment(experiment.path), tmp_path)
+        assert is_silent(rig)
+
+
+def test_a_stop_of_the_user_that_python_lost_is_heard_between_blocks(tmp_path):
+    """An exception raised in a destructor or a weak reference's callback goes nowhere."""
+    control = RunControl()
+    with formula_rig(tmp_path) as (rig, experiment):
+        with pytest.raises(StoppedByUser, match="3 steps kept"):
+            run(experiment, tmp_path, control=control, companion=RunAtPoint(3, control.interrupt))
+        assert is_silent(rig)
+
+
+def drive(rig):
+    with rig.world.lock:
+        now_s = rig.world.clock()[1]
+        rig.device.start(now_s, time.monotonic())
+        rig.device.command(50.0, 0.5, 100.0, now_s)
+
+
+def test_a_rig_that_another_program_drives_is_left_to_it(tmp_path, monkeypatch):
+    monkeypatch.setattr("instrument.run.rig._MARGIN_S", -1.9)
+    with formula_rig(tmp_path, virtual=False) as (rig, experiment):
+        drive(rig)
+        with pytest.raises(RigStopped, match="another program uses this rig"):
+            run(experiment, tmp_path)
+        with rig.world.lock:
+            assert rig.device.status(rig.world.clock()[1]).drive_v > 0
+
+
+def test_the_shaker_of_a_program_that_was_killed_is_waited_out(tmp_path):
+    with formula_rig(tmp_path, heartbeat_timeout_s=0.5) as (rig, experiment):
+        drive(rig)
+        assert len(run(experiment, tmp_path).points) == 15
