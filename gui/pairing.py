@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from gui.short_name import short_name
 from instrument.interchange.given import is_session
 
 SPECIMEN_ENDING = ".toml"
@@ -55,7 +56,7 @@ def fault_of(files: Sequence[PairedFile]) -> str:
         return "A session by itself is opened (Ctrl+O): add others, or choose a specimen for it."
     for k, one in enumerate(files, start=1):
         if one.specimen is None and not is_session(one.data):
-            return f"File {k}, {one.data.name}: no specimen, expected one: choose it."
+            return f"File {k}, {short_name(one.data.name)}: no specimen, expected one: choose it."
     own = [k for k, one in enumerate(files, start=1) if one.specimen is None]
     if own and len(own) < len(files):
         said = ", ".join(map(str, own))

@@ -8,6 +8,7 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 
 from fitting.arrays import Array
+from gui.short_name import short_name
 from gui.theme import Role, current_theme
 
 Symbol = Literal["o", "s", "t", "t1", "d", "+", "x", "star"]
@@ -92,7 +93,7 @@ def items_of(name: str | None, kind: Kind) -> tuple[Any, ...]:
     if kind == "band":
         edges = pg.PlotDataItem(), pg.PlotDataItem()
         return (*edges, pg.FillBetweenItem(*edges))
-    return (pg.PlotDataItem(name=name),)
+    return (pg.PlotDataItem(name=short_name(name) if name is not None else None),)
 
 
 def _thin_out(item: pg.PlotDataItem, few: bool) -> None:

@@ -12,6 +12,7 @@ from gui.file_stamp import Stamp
 from gui.mark import Mark
 from gui.pages.together.looked import Looked, look
 from gui.pairing import SPECIMEN_ENDING, PairedFile, fault_of
+from gui.short_name import short_name
 from gui.tables import Cell, ReadTable
 from gui.taking_together import ask_specimen, ask_together
 from gui.together import Together
@@ -53,6 +54,8 @@ class ChosenFiles(QWidget):
         self.remove = button("Remove", "Take the selected file away (Del)")
         self.fault = Mark()
         self.fault.setWordWrap(True)
+        # A long path has no place to be broken at, and would widen the window.
+        self.fault.setMinimumWidth(1)
         self._looked: dict[_As, Looked | str] = {}
         self._looking: dict[_As, _Look] = {}
         self._owned: dict[int, list[str]] = {}
@@ -117,6 +120,7 @@ class ChosenFiles(QWidget):
             self.table.selectRow(chosen)
         said = fault_of(files) or self._first_fault()
         self.fault.say(said, "bad" if len(files) > 1 else "faint")
+        self.fault.setToolTip(said)
         self.fault.setVisible(bool(said))
         self._show_buttons()
 
@@ -129,7 +133,7 @@ class ChosenFiles(QWidget):
     def _cells(self, number: int, file: PairedFile) -> list[Cell]:
         looked = self._looked.get(self._as_it_is(file), "" if _lacks(file) else "...")
         effects = self._owned.get(number, [])
-        named = file.specimen.name if file.specimen is not None else "" if _lacks(file) else _OWN
+        named = short_name(file.specimen.name) if file.specimen is not None else "" if _lacks(file) else _OWN
         if isinstance(looked, Looked):
             holds = Cell(f"{looked.specimen}; {looked.data}", left=True)
         elif looked in ("", "..."):
@@ -138,7 +142,7 @@ class ChosenFiles(QWidget):
             holds = Cell(f"{_FAULTY}{looked}", looked, left=True, fill="bad", alpha=0.2)
         return [
             Cell(str(number), ", ".join(effects), bold=bool(effects), edge="data" if effects else None),
-            Cell(file.data.name, str(file.data), left=True, bold=bool(effects)),
+            Cell(short_name(file.data.name), str(file.data), left=True, bold=bool(effects)),
             Cell(
                 named or f"{_FAULTY}none",
                 str(file.specimen or "The session's own" if named else "Choose one"),

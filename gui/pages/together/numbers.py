@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from fitting.aside import DISTURBED
 from fitting.diagnosis.of_files import ALIKE, EACH, FILE
 from gui.pages.together.fits import FAR_STD, FittedFile
+from gui.short_name import short_name
 from gui.together import Fitted
 from instrument.facts.diagnosis import CandidateFitted, DiagnosisResult
 from instrument.facts.modal import ModalResult
@@ -186,4 +187,4 @@ def _unit(unit: str) -> str:
 
 
 def _titled(number: int, files: Sequence[str]) -> str:
-    return f"{number} {files[number - 1]}" if number <= len(files) else str(number)
+    return f"{number} {short_name(files[number - 1])}" if number <= len(files) else str(number)
