@@ -32,6 +32,8 @@ class AppController(QObject):
     -------
     changed
         Another feed, or none: `feed`, `live`, `recorded` say which.
+    began
+        A run was asked for.
     refused
         One line: something could not be done. What was there is untouched.
     said
@@ -49,6 +51,7 @@ class AppController(QObject):
     """
 
     changed = Signal()
+    began = Signal()
     refused = Signal(str)
     said = Signal(str)
     busy = Signal(str)
@@ -66,7 +69,7 @@ class AppController(QObject):
         self.rediagnosis = Rediagnosis(self)
         self.together = Together(self.rediagnosis, self)
         self.changed.connect(self.together.let_go)
-        self.changed.connect(self.rediagnosis.forget)
+        self.changed.connect(self.rediagnosis.let_go)
         self.ending: Ended | None = None
         """Of the last run; None while one goes on."""
         self._opening: RecordedFeed | None = None
@@ -130,6 +133,9 @@ class AppController(QObject):
             self.refused.emit(f"{path}: ending {path.suffix!r}, expected one of {known}")
 
     def _choose_experiment(self, path: Path) -> None:
+        if self.running or self.starting:
+            self.refused.emit(f"{path.name}: not opened: a run goes on")
+            return
         kind = other_kind(path)
         if not kind:
             self.experiment_chosen.emit(path)
@@ -159,6 +165,7 @@ class AppController(QObject):
         if self.running or self.starting:
             self.refused.emit("a run goes on already")
             return
+        self.began.emit()
         self._starting = _Starting(order, self)
         self._starting.done.connect(self._started)
         self._starting.failed.connect(self._not_started)

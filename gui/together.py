@@ -26,6 +26,8 @@ class Together(QObject):
     -------
     changed
         Other files, another result, or work began or ended.
+    began
+        Work was asked for.
     progressed
         What is being worked at, and the fraction of it that is done.
     failed
@@ -35,6 +37,7 @@ class Together(QObject):
     """
 
     changed = Signal()
+    began = Signal()
     progressed = Signal(str, float)
     failed = Signal(str)
     specimen_chosen = Signal(Path, Path)
@@ -205,6 +208,7 @@ class Together(QObject):
         self._command.failed.connect(self._failed)
         self._command.progressed.connect(self.progressed)
         self._command.start()
+        self.began.emit()
         self.changed.emit()
 
     def _diagnose(self) -> None:

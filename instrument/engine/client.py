@@ -211,6 +211,8 @@ class Engine:
         if not self._rig_open or self._over.is_set():
             # The run let go of the shaker at rest. Whoever drives it now is stopped all the same.
             problem = path.silence()
+            if problem and not self._rig_open:
+                problem = f"the run had let go of the shaker at rest before; asked again: {problem}"
             return not problem, problem or "the shaker is silent"
         if self._at_rest.wait(_SILENCES_S):
             return True, "the shaker is silent"

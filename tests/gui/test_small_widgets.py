@@ -20,7 +20,7 @@ from gui.stop_button import StopButton
 from gui.stop_guard import StopGuard
 from gui.style_sheet import PRIMARY, style_sheet
 from gui.tables import Cell, ReadTable
-from gui.theme import DARK, LIGHT, Appearance
+from gui.theme import DARK, LIGHT, Appearance, current_theme
 from gui.top_bar import duration
 from gui.widgets import button, hint, tool
 
@@ -49,6 +49,22 @@ def test_larger_type_reaches_widgets_that_are_there_and_dressed(qtbot, qapp):
     appearance.resize(1.0)
     assert all(b > 1.3 * a for a, b in zip(usual, larger, strict=True))
     qapp.setStyleSheet("")
+
+
+def test_looks_that_are_held_wait_and_are_shown_afterwards(qtbot, qapp):
+    appearance = Appearance(qapp, "light", dressed=False)
+    usual = qapp.font().pointSizeF()
+    appearance.hold(True)
+    appearance.choose("dark")
+    appearance.resize(1.5)
+    assert appearance.waiting
+    assert (current_theme(), qapp.font().pointSizeF()) == (LIGHT, usual)
+    appearance.hold(False)
+    assert not appearance.waiting
+    assert (current_theme(), qapp.font().pointSizeF()) == (DARK, 1.5 * usual)
+    appearance.choose("light")
+    appearance.resize(1.0)
+    assert (current_theme(), qapp.font().pointSizeF()) == (LIGHT, usual)
 
 
 def test_a_sign_without_words_has_them_for_whoever_cannot_see_it(made):

@@ -6,14 +6,15 @@ from session_cases import SyntheticSession, configuration
 
 from gui.asking import SIGNS, ask_open
 from gui.icons import Sign
+from gui.rediagnosis import DiagnosisAsked
 from gui.window import TURN_MS, Window
 from instrument.errors import BadInput
 from instrument.simulated_case import write_case
 
 
-def drop(window, path):
+def drop(window, *paths):
     data = QMimeData()
-    data.setUrls([QUrl.fromLocalFile(str(path))])
+    data.setUrls([QUrl.fromLocalFile(str(path)) for path in paths])
     buttons, keys = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
     window.dropEvent(QDropEvent(QPointF(50, 50), Qt.DropAction.CopyAction, data, buttons, keys))
 
@@ -210,6 +211,66 @@ def test_escape_takes_the_message_away(qtbot, window, tmp_path):
     assert window.notice.isVisible()
     qtbot.keyClick(window, Qt.Key.Key_Escape)
     assert not window.notice.isVisible()
+
+
+def test_what_is_refused_is_not_said_of_what_is_asked_for_next(qtbot, window, session_path, tmp_path):
+    window.open(tmp_path / "no.zip")
+    assert "no.zip" in window.notice.text
+    window.open(session_path)
+    qtbot.waitUntil(lambda: window.controller.recorded is not None)
+    assert window.notice.text == ""
+    window.open(tmp_path / "no.zip")
+    window.controller.rediagnosis.began.emit()
+    assert window.notice.text == ""
+    window.open(tmp_path / "no.zip")
+    window.controller.together.began.emit()
+    assert window.notice.text == ""
+
+
+def test_of_files_dropped_together_a_bad_one_is_named_whichever_comes_after_it(
+    qtbot, window, session_path, tmp_path
+):
+    drop(window, tmp_path / "no.zip", session_path)
+    qtbot.waitUntil(lambda: window.controller.recorded is not None)
+    assert "no.zip" in window.notice.text
+
+
+def test_another_session_ends_a_diagnosis_and_it_is_said(qtbot, opened, tmp_path):
+    rediagnosis, before = opened.controller.rediagnosis, opened.controller.recorded.path
+    other = tmp_path / "other.h5"
+    other.write_bytes(before.read_bytes())
+    rediagnosis.start(DiagnosisAsked(before))
+    opened.open(other)
+    qtbot.waitUntil(lambda: opened.controller.recorded.path == other)
+    assert not rediagnosis.running
+    assert opened.notice.text == f"The diagnosis of {before.name} was ended: another session is shown."
+
+
+def test_a_long_name_widens_nothing(qtbot, opened, session_path, tmp_path):
+    opened.resize(1280, 720)
+    name = "_".join(["everything", "that", "is", "known"] * 10)
+    sweep, session = tmp_path / f"{name}.csv", tmp_path / f"{name}.h5"
+    rows = "".join(f"{f},{0.01 * f},0.002\n" for f in range(15, 25))
+    sweep.write_text("frequency_hz,velocity_re_m_s,velocity_im_m_s\n" + rows)
+    session.write_bytes(session_path.read_bytes())
+    controller = opened.controller
+    opened.open(sweep)
+    controller.compare(session)
+    qtbot.waitUntil(lambda: set(controller.beside) == {sweep, session})
+    controller.rediagnosis.start(DiagnosisAsked(sweep, further=()))
+    controller.together.add([sweep, session])
+    for page in opened.pages:
+        opened.show_page(page.objectName())
+        opened.turn()
+        assert page.minimumSizeHint().width() < 1000, page.title
+    controller.together.pair(None, tmp_path / f"{name}.toml")
+    qtbot.waitUntil(lambda: opened.pages[5].chosen.fault.said.count(name) == 1)
+    assert opened.pages[5].minimumSizeHint().width() < 1000
+    controller.leave()
+    opened.open(sweep)
+    qtbot.waitUntil(lambda: list(controller.beside) == [sweep])
+    assert opened.pages[4].minimumSizeHint().width() < 1000
+    assert opened.width() == 1280
 
 
 def test_a_session_that_was_broken_off_says_why(qtbot, window, tmp_path):
