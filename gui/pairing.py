@@ -64,13 +64,14 @@ def fault_of(files: Sequence[PairedFile]) -> str:
     return ""
 
 
-def arguments_of(files: Sequence[PairedFile]) -> list[str]:
-    """Of the command line: data, then a specimen for each, or one for all."""
+def arguments_of(files: Sequence[PairedFile], hammer: Path | None = None) -> list[str]:
+    """Of the command line: data, then a specimen for each, or one for all; the bare plate's hammer test."""
     said = [str(one.data) for one in files]
     specimens = [str(one.specimen) for one in files if one.specimen is not None]
     if len(set(specimens)) == 1:
         specimens = specimens[:1]
-    return said + [word for name in specimens for word in ("--specimen", name)]
+    said += [word for name in specimens for word in ("--specimen", name)]
+    return said if hammer is None else [*said, "--hammer", str(hammer)]
 
 
 def _same(one: Path, other: Path) -> bool:

@@ -29,6 +29,8 @@ class DiagnosisAsked:
     """Left out of the search."""
     further: tuple[PairedFile, ...] = ()
     """Files that are diagnosed together with the first one."""
+    hammer: Path | None = None
+    """The bare plate's hammer test; a session has its own."""
 
     @property
     def files(self) -> tuple[PairedFile, ...]:
@@ -48,7 +50,7 @@ class DiagnosisAsked:
     @property
     def arguments(self) -> list[str]:
         """Of the command line."""
-        said = ["diagnose", *arguments_of(self.files)]
+        said = ["diagnose", *arguments_of(self.files, self.hammer)]
         if self.accept is not None:
             said += [f"--accept={name}" for name in self.accept or ("none",)]
         return said + [f"--without={name}" for name in self.decline]

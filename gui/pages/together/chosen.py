@@ -14,7 +14,7 @@ from gui.pages.together.looked import Looked, look
 from gui.pairing import SPECIMEN_ENDING, PairedFile, fault_of
 from gui.short_name import short_name
 from gui.tables import Cell, ReadTable
-from gui.taking_together import ask_specimen, ask_together
+from gui.taking_together import ask_hammer, ask_specimen, ask_together
 from gui.together import Together
 from gui.widgets import button, tool
 from instrument.interchange.given import is_session
@@ -28,6 +28,13 @@ _COLUMNS = {
 _As = tuple[PairedFile, tuple[Stamp | None, ...]]
 """A file as it was written last."""
 _OWN = "its own"
+_HAMMER = "Hammer test..."
+_HAMMER_TIP = (
+    "Of the bare plate that all files are of: its damping and its stiffness take part. A session that has "
+    "one, or the JSON of 'viscorig damping'"
+)
+_HAMMER_LETTERS = 22
+"""Of its file on the button: beside the others there is no more room."""
 _FAULTY = "\u2716 "
 
 
@@ -50,6 +57,8 @@ class ChosenFiles(QWidget):
             "Add files...", "Sweeps, sessions, tables of modes of one core (Ctrl+Shift+O)", "plus"
         )
         self.specimen = button("Specimen...", "Of the file selected; of all files where none is")
+        self.hammer = button(_HAMMER, _HAMMER_TIP, "hammer")
+        self.bare = tool("close", "Without the hammer test")
         self.up = tool("up", "Move the selected file up")
         self.remove = button("Remove", "Take the selected file away (Del)")
         self.fault = Mark()
@@ -62,6 +71,8 @@ class ChosenFiles(QWidget):
         self._arrange()
         self.add.clicked.connect(self._ask_files)
         self.specimen.clicked.connect(self._ask_specimen)
+        self.hammer.clicked.connect(self._ask_hammer)
+        self.bare.clicked.connect(self._without_hammer)
         self.up.clicked.connect(self._move_up)
         self.remove.clicked.connect(self._remove)
         delete = QShortcut(QKeySequence.StandardKey.Delete, self.table)
@@ -159,12 +170,23 @@ class ChosenFiles(QWidget):
         self.specimen.setText("Specimen of all..." if row is None else f"Specimen of {row + 1}...")
         self.remove.setEnabled(row is not None)
         self.up.setEnabled(bool(row))
+        hammer = self.together.hammer
+        self.hammer.setEnabled(bool(files))
+        self.hammer.setText(short_name(hammer.name, _HAMMER_LETTERS) if hammer is not None else _HAMMER)
+        self.hammer.setToolTip(f"{_HAMMER_TIP}\n{hammer}" if hammer is not None else _HAMMER_TIP)
+        self.bare.setVisible(hammer is not None)
 
     def _ask_files(self) -> None:
         ask_together(self, self.together)
 
     def _ask_specimen(self) -> None:
         ask_specimen(self, self.together, self.table.selected)
+
+    def _ask_hammer(self) -> None:
+        ask_hammer(self, self.together)
+
+    def _without_hammer(self) -> None:
+        self.together.strike(None)
 
     def _row_activated(self, at: QModelIndex) -> None:
         ask_specimen(self, self.together, at.row())
@@ -182,7 +204,7 @@ class ChosenFiles(QWidget):
 
     def _arrange(self) -> None:
         buttons = QHBoxLayout()
-        for one in (self.add, self.specimen, self.up, self.remove):
+        for one in (self.add, self.specimen, self.up, self.remove, self.hammer, self.bare):
             buttons.addWidget(one)
         buttons.addStretch(1)
         column = QVBoxLayout(self)
