@@ -224,9 +224,12 @@ class Window(Shell):
         self._timer.setInterval(TURN_MS + round(rest_ms))
 
     def _draw_next(self) -> None:
-        """One page a turn of the event loop."""
+        """A page is made in one turn of the event loop and drawn in the next."""
         if not self._undrawn:
             self._first_drawing.stop()
+            return
+        if self._undrawn[-1] not in self._page_set.made:
+            self._page(self._undrawn[-1])
             return
         page, shown = self._page(self._undrawn.pop()), self.tabs.currentWidget()
         if page is not shown:

@@ -31,6 +31,17 @@ def test_every_page_is_drawn_before_it_is_looked_at(qtbot, window):
     qtbot.waitUntil(lambda: all(page.size() == size for page in window.pages))
 
 
+def test_a_page_is_made_in_one_turn_and_drawn_in_another(qtbot, appearance, settings):
+    window = Window(appearance, settings)
+    qtbot.addWidget(window)
+    while window._undrawn:
+        before = len(window._page_set.made), len(window._undrawn)
+        window._draw_next()
+        done = len(window._page_set.made) - before[0], before[1] - len(window._undrawn)
+        assert sum(done) == 1
+    assert len(window._page_set.made) == len(window.page_titles)
+
+
 def test_a_window_that_is_late_looks_less_often_in_a_run_only(window, monkeypatch):
     timer = window._timer
     monkeypatch.setattr("gui.window.monotonic", lambda: window._ticked_s + 1.0)
