@@ -9,6 +9,7 @@ from PySide6.QtGui import QKeyEvent, QShowEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QDialog, QLabel, QPushButton, QWidget
 
+from gui.controller import AppController
 from gui.feeds import feed
 from gui.log_pane import LogPane
 from gui.mark import Mark
@@ -16,12 +17,13 @@ from gui.page import Page
 from gui.replay_bar import Scrubber
 from gui.run_gauges import state_color
 from gui.state.log import Log
+from gui.state.run import WORDS
 from gui.stop_button import StopButton
 from gui.stop_guard import StopGuard
 from gui.style_sheet import PRIMARY, style_sheet
 from gui.tables import Cell, ReadTable
 from gui.theme import DARK, LIGHT, Appearance, current_theme
-from gui.top_bar import duration
+from gui.top_bar import TopBar, duration
 from gui.widgets import button, hint, tool
 
 NO_KEY = Qt.KeyboardModifier.NoModifier
@@ -65,6 +67,16 @@ def test_looks_that_are_held_wait_and_are_shown_afterwards(qtbot, qapp):
     appearance.choose("light")
     appearance.resize(1.0)
     assert (current_theme(), qapp.font().pointSizeF()) == (LIGHT, usual)
+
+
+def test_the_bar_has_room_for_every_state_of_a_recording(made, monkeypatch):
+    controller = AppController()
+    monkeypatch.setattr(AppController, "recorded", object())
+    bar = made(TopBar(controller))
+    for word in WORDS.values():
+        bar._say("#000000", word, "what comes next")
+        assert "RECORDED" in bar.state.text()
+        assert bar.state.sizeHint().width() <= bar.state.width(), word
 
 
 def test_a_sign_without_words_has_them_for_whoever_cannot_see_it(made):

@@ -28,6 +28,7 @@ from instrument.results.diagnosis_words import percent_of, segment_place
 from instrument.results.numbers import format_number
 from instrument.results.set_aside import NAME
 from instrument.results.standing import law_words, one_fit_words, stages_apart
+from instrument.results.typeset import capitalised
 
 _ROOM = 1.12
 _LEAST_LINES = 7
@@ -87,6 +88,14 @@ class ResidualPlots(QWidget):
         place = segment_place(self._found, number) if self._found is not None else ""
         return f", {place}" if place else ""
 
+    def _titled(self, number: int) -> str:
+        """Its file where there are several, and itself where it is not all of that file."""
+        place = self._place(number).removeprefix(", ")
+        if not place or self._found is None:
+            return f"Segment {number}"
+        alone = sum(segment_place(self._found, n) == place for n in segments(self._found)) == 1
+        return capitalised(place) if alone else f"Segment {number}, {place}"
+
     @property
     def drawn(self) -> bool:
         """Whether everything is."""
@@ -123,7 +132,7 @@ class ResidualPlots(QWidget):
         plot = self._plot(number, stage)
         plot.setToolTip(f"Segment {number}{self._place(number)}, {stage}")
         titled, unit = number == self._numbers[-1], "" if quantity == "whitened" else "%"
-        plot.show_axes(Axis("Frequency", "Hz", titled=titled), Axis(f"Segment {number}", unit))
+        plot.show_axes(Axis("Frequency", "Hz", titled=titled), Axis(self._titled(number), unit))
         shown = panel(self._found, number, stage, quantity)
         height = _ROOM * limit(self._found, number, stage, quantity)
         _draw_panel(plot, shown, _FOOT * height)

@@ -224,6 +224,9 @@ def test_the_diagnosis_page_has_all_of_it(qtbot, diagnosed, results):
     assert there.title == "Diagnosis"
     assert there.candidates.table.texts(0)[0] == results["diagnosed"].candidates[0].name
     assert "2 files" in there.finding.origin.said
+    # Numbers of segments go on from file to file: whose a residual is, is said.
+    qtbot.waitUntil(lambda: there.residual.drawn)
+    assert {plot.y.label for plot in there.residual.plots.values()} == {"File 1", "File 2"}
 
 
 def test_a_session_opened_is_shown_and_what_was_found_is_had_back(qtbot, diagnosed, session_path):
