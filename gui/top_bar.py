@@ -133,7 +133,7 @@ class TopBar(QFrame):
         self.progress.setMaximum(_PERMILLE if fraction is not None else 0)
         self.progress.setValue(round(_PERMILLE * (fraction or 0.0)))
         left = feed.left_s if feed is not None else None
-        self.left.setText(f"{duration(left)} left" if live and left is not None else "")
+        self.left.setText(_left_words(left) if live and left is not None else "")
 
     def _show_gauges(self, state: SessionState | None) -> None:
         self.gauges.refresh()
@@ -167,6 +167,11 @@ class TopBar(QFrame):
         whole.setContentsMargins(8, 4, 8, 4)
         whole.addLayout(rows, 1)
         whole.addLayout(buttons)
+
+
+def _left_words(seconds: float) -> str:
+    """What takes longer than foreseen is not over."""
+    return f"{duration(seconds)} left" if seconds >= 1 else "soon done"
 
 
 def duration(seconds: float) -> str:

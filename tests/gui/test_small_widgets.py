@@ -79,6 +79,16 @@ def test_the_bar_has_room_for_every_state_of_a_recording(made, monkeypatch):
         assert bar.state.sizeHint().width() <= bar.state.width(), word
 
 
+def test_what_takes_longer_than_foreseen_has_no_seconds_left(made, monkeypatch):
+    controller = AppController()
+    bar, state = made(TopBar(controller)), SimpleNamespace(run=SimpleNamespace(over=False))
+    for left_s, said in ((45.0, "45 s left"), (1.0, "1 s left"), (0.2, "soon done"), (None, "")):
+        controller.feed = SimpleNamespace(fraction=0.9, left_s=left_s)
+        bar._show_progress(state)
+        assert bar.left.text() == said
+    controller.feed = None
+
+
 def test_a_sign_without_words_has_them_for_whoever_cannot_see_it(made):
     assert made(tool("left", "The point before")).accessibleName() == "The point before"
 
