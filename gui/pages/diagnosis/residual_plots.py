@@ -61,6 +61,8 @@ class ResidualPlots(QWidget):
         )
         self.plots: dict[tuple[int, StageName], Plot] = {}
         self._found: DiagnosisResult | None = None
+        self._wanted = NAMES["both"]
+        """As a person chose it: data without phase have amplitudes alone, and others come after them."""
         self._numbers: list[int] = []
         self._waiting: list[tuple[int, StageName]] = []
         self._timer = QTimer(self)
@@ -71,17 +73,21 @@ class ResidualPlots(QWidget):
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setSpacing(2)
         self._arrange()
+        self.quantity.textActivated.connect(self._want)
         self.quantity.currentIndexChanged.connect(self._draw)
         self.segment.currentIndexChanged.connect(self._draw)
 
     def show_diagnosis(self, found: DiagnosisResult) -> None:
         """Draw what it leaves."""
         self._found = found
-        _offer(self.quantity, {NAMES[q]: q for q in quantities(found)})
+        _offer(self.quantity, {NAMES[q]: q for q in quantities(found)}, self._wanted)
         numbers = segments(found)
         every = {"all segments": _ALL} if len(numbers) > 1 else {}
         _offer(self.segment, {**every, **{f"segment {n}{self._place(n)}": n for n in numbers}})
         self._draw()
+
+    def _want(self, name: str) -> None:
+        self._wanted = name
 
     def _place(self, number: int) -> str:
         """File and pickup of a segment, after a comma, where there are several."""
@@ -244,11 +250,11 @@ def _title(found: DiagnosisResult, stage: StageName) -> str:
     return f"<b>{said}</b><br>{two_digits(rms)} % rms in {percent_of(found)}{noise}"
 
 
-def _offer(box: QComboBox, choices: dict[str, object]) -> None:
-    """These to choose from; what was chosen stays where it can."""
+def _offer(box: QComboBox, choices: dict[str, object], wanted: str = "") -> None:
+    """These to choose from; what is wanted, or was chosen, stays where it can."""
     if [box.itemText(k) for k in range(box.count())] == list(choices):
         return
-    before = box.currentText()
+    before = wanted or box.currentText()
     box.blockSignals(True)
     box.clear()
     for text, data in choices.items():

@@ -28,6 +28,8 @@ _COLUMNS = {
 _As = tuple[PairedFile, tuple[Stamp | None, ...]]
 """A file as it was written last."""
 _OWN = "its own"
+_TABLE_LETTERS = 32
+"""Of a name: what both files hold stands beside them."""
 _HAMMER = "Hammer test..."
 _HAMMER_TIP = (
     "Of the bare plate that all files are of: its damping and its stiffness take part. A session that has "
@@ -144,7 +146,13 @@ class ChosenFiles(QWidget):
     def _cells(self, number: int, file: PairedFile) -> list[Cell]:
         looked = self._looked.get(self._as_it_is(file), "" if _lacks(file) else "...")
         effects = self._owned.get(number, [])
-        named = short_name(file.specimen.name) if file.specimen is not None else "" if _lacks(file) else _OWN
+        named = (
+            short_name(file.specimen.name, _TABLE_LETTERS)
+            if file.specimen is not None
+            else ""
+            if _lacks(file)
+            else _OWN
+        )
         if isinstance(looked, Looked):
             holds = Cell(f"{looked.specimen}; {looked.data}", left=True)
         elif looked in ("", "..."):
@@ -153,7 +161,7 @@ class ChosenFiles(QWidget):
             holds = Cell(f"{_FAULTY}{looked}", looked, left=True, fill="bad", alpha=0.2)
         return [
             Cell(str(number), ", ".join(effects), bold=bool(effects), edge="data" if effects else None),
-            Cell(short_name(file.data.name), str(file.data), left=True, bold=bool(effects)),
+            Cell(short_name(file.data.name, _TABLE_LETTERS), str(file.data), left=True, bold=bool(effects)),
             Cell(
                 named or f"{_FAULTY}none",
                 str(file.specimen or "The session's own" if named else "Choose one"),

@@ -125,6 +125,18 @@ def test_what_is_accepted_as_nothing_has_no_residual_after_it(made, qtbot):
     assert not any(plot.isHidden() for plot in plots.plots.values())
 
 
+def test_data_without_phase_leave_the_quantity_chosen_to_those_after_them(made, qtbot):
+    plots, found = made(ResidualPlots()), diagnosis()
+    plots.show_diagnosis(found)
+    for chosen in ("real and imaginary", "imaginary part"):
+        plots.quantity.setCurrentText(chosen)
+        plots.quantity.textActivated.emit(chosen)
+        plots.show_diagnosis(found.but(points=()))
+        assert plots.quantity.currentText() == "amplitude"
+        plots.show_diagnosis(found)
+        assert plots.quantity.currentText() == chosen
+
+
 def test_a_persons_word_is_not_said_to_be_the_datas(made):
     shown = ShownDiagnosis(diagnosis(), "recorded")
     asked = ShownDiagnosis(diagnosis(), "made here", DiagnosisAsked(Path("one.h5"), accept=("added_mass",)))
