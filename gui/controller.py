@@ -23,6 +23,8 @@ from instrument.interchange.readers import foreign_endings
 from instrument.session.configuration import Configuration, read_whole_experiment
 
 EXPERIMENT_ENDING = ".toml"
+BROKEN_OFF = ".running"
+"""Of the folder of a run that was not completed, beside its session."""
 
 
 class AppController(QObject):
@@ -122,7 +124,9 @@ class AppController(QObject):
     def open(self, path: Path) -> None:
         """A session, an experiment, or another program's data; returns at once."""
         ending = path.suffix.lower()
-        if ending == EXPERIMENT_ENDING:
+        if path.is_dir():
+            self.refused.emit(_said_of_folder(path))
+        elif ending == EXPERIMENT_ENDING:
             self._choose_experiment(path)
         elif is_session(path):
             self._open_session(path)
@@ -314,6 +318,16 @@ class AppController(QObject):
         elif sweeps and self.feed is None:
             where += "; Diagnosis takes it with its specimen"
         self.said.emit(f"{path.name}: {what} {where}")
+
+
+def _said_of_folder(path: Path) -> str:
+    """What is done with the one that a run leaves where it was broken off."""
+    if path.suffix != BROKEN_OFF:
+        return f"{path}: a folder, expected a file"
+    return (
+        f"{path.name}: a run that was broken off: open its experiment and choose it beside Begin; "
+        f"'viscorig recover' makes a session of what is complete"
+    )
 
 
 class _Starting(BackgroundTask[Configuration]):

@@ -126,6 +126,18 @@ def test_a_bad_file_gives_one_message_and_leaves_the_session(qtbot, kept, tmp_pa
     assert opened.controller.state is not None
 
 
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("some.h5", "a folder, expected a file"), ("one-7.running", "choose it beside Begin")],
+)
+def test_a_folder_is_no_file_and_a_broken_off_run_is_named(kept, tmp_path, name, said):
+    (tmp_path / name).mkdir()
+    before = kept.controller.recorded
+    drop(kept, tmp_path / name)
+    assert said in kept.notice.text
+    assert kept.controller.recorded is before
+
+
 def test_a_specimen_is_no_experiment_and_leaves_everything_as_it_was(qtbot, kept, tmp_path):
     specimen = tmp_path / "specimen.toml"
     specimen.write_text("[beam]\nlength_mm = -200.0\n")
