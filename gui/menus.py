@@ -49,7 +49,8 @@ class Menus(QObject):
         super().__init__(window)
         self._window = window
         self._export = Export(window.controller, window)
-        self._export.done.connect(window.notice.say)
+        for said in (self._export.began, self._export.done):
+            said.connect(window.notice.say)
         self._export.failed.connect(window.notice.refuse)
         self._printing = Printing(window.controller, window)
         self._printing.done.connect(window.notice.say)

@@ -172,6 +172,8 @@ def test_every_key_that_is_listed_is_said_with_what_it_does(window, menus, monke
 
 
 def test_what_an_export_says_stands_on_the_window(window, menus):
+    menus._export.began.emit("being written")
+    assert "being written" in window.notice.text
     menus._export.done.emit("saved a.html")
     assert "saved a.html" in window.notice.text
     menus._printing.failed.emit("no printer")

@@ -14,7 +14,7 @@ from gui.feeds import feed
 from gui.log_pane import LogPane
 from gui.mark import Mark
 from gui.page import Page
-from gui.replay_bar import Scrubber
+from gui.replay_bar import ReplayBar, Scrubber
 from gui.run_gauges import state_color
 from gui.state.log import Log
 from gui.state.run import WORDS
@@ -87,6 +87,14 @@ def test_what_takes_longer_than_foreseen_has_no_seconds_left(made, monkeypatch):
         bar._show_progress(state)
         assert bar.left.text() == said
     controller.feed = None
+
+
+def test_why_a_recording_was_not_verified_widens_nothing(made):
+    bar = made(ReplayBar())
+    before = bar.minimumSizeHint().width()
+    bar._not_compared("/measured/" + 20 * "what_is_known_of_it_" + ".h5: no such file")
+    assert bar.minimumSizeHint().width() < before + 50
+    assert "no such file" in bar.verdict.toolTip()
 
 
 def test_a_sign_without_words_has_them_for_whoever_cannot_see_it(made):
