@@ -38,7 +38,7 @@ _NOTHING = (
     "Here will be the core's law: storage modulus G'(f) and loss factor η(f) with their bands, from the "
     "first segment on. Open a session (Ctrl+O), run an experiment, or add laws to compare on the right."
 )
-AMBIGUOUS = "verdict ambiguous"
+AMBIGUOUS = "ambiguous"
 _NO_FIT = "No fit yet: the first follows the first segment."
 _NEVER = "This session holds no fit."
 
