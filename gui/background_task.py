@@ -197,9 +197,10 @@ class BackgroundCommand(QObject):
         self.failed.emit("it gave no result")
 
     def _without_option(self, said: str) -> str:
-        """A window has no options: what goes on all the same is the command line."""
+        """A window has no options: they go by the words on its buttons, or go to the command line."""
         from instrument.files.plausible import INSIST
 
+        said = said.replace("--hammer", "a hammer test")
         return said.replace(INSIST, f"'viscorig {self._command} --force' goes on all the same")
 
     def _broken(self, error: QProcess.ProcessError) -> None:

@@ -23,6 +23,8 @@ from instrument.interchange.readers import foreign_endings
 from instrument.session.configuration import Configuration, read_whole_experiment
 
 EXPERIMENT_ENDING = ".toml"
+BROKEN_OFF = ".running"
+"""Of the folder of a run that was not completed, beside its session."""
 
 
 class AppController(QObject):
@@ -32,6 +34,8 @@ class AppController(QObject):
     -------
     changed
         Another feed, or none: `feed`, `live`, `recorded` say which.
+    began
+        A run was asked for.
     refused
         One line: something could not be done. What was there is untouched.
     said
@@ -49,6 +53,7 @@ class AppController(QObject):
     """
 
     changed = Signal()
+    began = Signal()
     refused = Signal(str)
     said = Signal(str)
     busy = Signal(str)
@@ -66,7 +71,7 @@ class AppController(QObject):
         self.rediagnosis = Rediagnosis(self)
         self.together = Together(self.rediagnosis, self)
         self.changed.connect(self.together.let_go)
-        self.changed.connect(self.rediagnosis.forget)
+        self.changed.connect(self.rediagnosis.let_go)
         self.ending: Ended | None = None
         """Of the last run; None while one goes on."""
         self._opening: RecordedFeed | None = None
@@ -119,7 +124,9 @@ class AppController(QObject):
     def open(self, path: Path) -> None:
         """A session, an experiment, or another program's data; returns at once."""
         ending = path.suffix.lower()
-        if ending == EXPERIMENT_ENDING:
+        if path.is_dir():
+            self.refused.emit(_said_of_folder(path))
+        elif ending == EXPERIMENT_ENDING:
             self._choose_experiment(path)
         elif is_session(path):
             self._open_session(path)
@@ -130,6 +137,9 @@ class AppController(QObject):
             self.refused.emit(f"{path}: ending {path.suffix!r}, expected one of {known}")
 
     def _choose_experiment(self, path: Path) -> None:
+        if self.running or self.starting:
+            self.refused.emit(f"{path.name}: not opened: a run goes on")
+            return
         kind = other_kind(path)
         if not kind:
             self.experiment_chosen.emit(path)
@@ -159,6 +169,7 @@ class AppController(QObject):
         if self.running or self.starting:
             self.refused.emit("a run goes on already")
             return
+        self.began.emit()
         self._starting = _Starting(order, self)
         self._starting.done.connect(self._started)
         self._starting.failed.connect(self._not_started)
@@ -307,6 +318,16 @@ class AppController(QObject):
         elif sweeps and self.feed is None:
             where += "; Diagnosis takes it with its specimen"
         self.said.emit(f"{path.name}: {what} {where}")
+
+
+def _said_of_folder(path: Path) -> str:
+    """What is done with the one that a run leaves where it was broken off."""
+    if path.suffix != BROKEN_OFF:
+        return f"{path}: a folder, expected a file"
+    return (
+        f"{path.name}: a run that was broken off: open its experiment and choose it beside Begin; "
+        f"'viscorig recover' makes a session of what is complete"
+    )
 
 
 class _Starting(BackgroundTask[Configuration]):

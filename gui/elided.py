@@ -28,8 +28,10 @@ class ElidedLabel(QLabel):
         """All of it."""
         return self._whole
 
-    def say(self, text: str) -> None:
-        """Instead of what it said."""
+    def say(self, text: str, tip: str | None = None) -> None:
+        """Instead of what it said; `tip` in place of its own where one is given."""
+        if tip is not None:
+            self._tip = tip
         if text != self._whole:
             self._whole = text
             self.updateGeometry()

@@ -13,12 +13,19 @@ from gui.controller import AppController
 from instrument.facts.written import ExportResult, ReportResult
 from instrument.files.acceleration import shown_as
 
+_DOING = {"report": "the report is being written ...", "export": "the data are being written ..."}
 _NAMED = 2
 """Files of which each is named."""
 
 
 class Export(QObject):
-    """Asks where to, then has it written."""
+    """Asks where to, then has it written.
+
+    Signals
+    -------
+    began, done, failed
+        One line: what is being written, what was, why it is not.
+    """
 
     began = Signal(str)
     done = Signal(str)
@@ -63,7 +70,7 @@ class Export(QObject):
         command = BackgroundCommand(arguments, result, self)
         command.done.connect(self._written)
         command.failed.connect(self._not_written)
-        self.began.emit(arguments[0])
+        self.began.emit(_DOING[arguments[0]])
         command.start()
 
     def _not_written(self, message: str) -> None:

@@ -49,7 +49,8 @@ class Menus(QObject):
         super().__init__(window)
         self._window = window
         self._export = Export(window.controller, window)
-        self._export.done.connect(window.notice.say)
+        for said in (self._export.began, self._export.done):
+            said.connect(window.notice.say)
         self._export.failed.connect(window.notice.refuse)
         self._printing = Printing(window.controller, window)
         self._printing.done.connect(window.notice.say)
@@ -165,6 +166,7 @@ class Menus(QObject):
         mode = self._data()
         if mode in ("system", "light", "dark"):
             self._window.appearance.choose(mode)
+            self._say_waiting()
 
     def _choose_acceleration(self) -> None:
         self._window.show_acceleration_in(str(self._data()))
@@ -180,6 +182,11 @@ class Menus(QObject):
 
     def _resize(self, scale: float) -> None:
         self._window.appearance.resize(scale)
+        self._say_waiting()
+
+    def _say_waiting(self) -> None:
+        if self._window.appearance.waiting:
+            self._window.notice.say("shown once the run has ended: STOP would wait for it meanwhile")
 
     def _full_screen(self) -> None:
         if self._window.isFullScreen():

@@ -20,11 +20,12 @@ class Notice(QFrame):
         super().__init__(parent)
         self._role: Role = "good"
         self._tabs: QTabWidget | None = None
+        self._said = ""
         self._label = QLabel()
         self._label.setWordWrap(True)
         self._label.setTextFormat(Qt.TextFormat.PlainText)
         self._label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        close = tool("close", "Dismiss (Esc)")
+        self._close = close = tool("close", "Dismiss (Esc)")
         close.clicked.connect(self.hide)
         self._row = row = QHBoxLayout(self)
         row.setContentsMargins(10, 2, 4, 2)
@@ -51,13 +52,14 @@ class Notice(QFrame):
         bar, whole = self._tabs.tabBar(), self._tabs.width()
         last = bar.mapTo(self._tabs, bar.tabRect(bar.count() - 1).topRight()).x()
         left = min(last + _GAP_PX, whole // 2)
+        self._fit(whole - left)
         height = max(bar.height() - _FOOT_PX, self._row.totalHeightForWidth(whole - left))
         self.setGeometry(left, 0, whole - left, height)
 
     @property
     def text(self) -> str:
         """What it says; empty while it is not seen."""
-        return self._label.text() if not self.isHidden() else ""
+        return self._said if not self.isHidden() else ""
 
     def refuse(self, message: str) -> None:
         """Something could not be done."""
@@ -74,9 +76,19 @@ class Notice(QFrame):
         painter.fillRect(0, 0, _EDGE_PX, self.height(), current_theme().color(self._role))
         painter.end()
 
+    def _fit(self, room: int) -> None:
+        """A word that no line has room for, as a path, loses its middle; the tool tip has all of it."""
+        margins, metrics = self._row.contentsMargins(), self._label.fontMetrics()
+        room -= margins.left() + margins.right() + self._close.sizeHint().width() + self._row.spacing()
+        middle = Qt.TextElideMode.ElideMiddle
+        shown = " ".join(metrics.elidedText(word, middle, room) for word in self._said.split(" "))
+        self._label.setText(shown)
+        self._label.setToolTip(self._said if shown != self._said else "")
+
     def _show(self, message: str, role: Role) -> None:
         self._role = role
-        self._label.setText(message)
+        self._said = message
+        self._fit(self.width())
         self._place()
         self.show()
         self.raise_()

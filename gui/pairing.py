@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from gui.short_name import short_name
 from instrument.interchange.given import is_session
 
 SPECIMEN_ENDING = ".toml"
@@ -55,7 +56,7 @@ def fault_of(files: Sequence[PairedFile]) -> str:
         return "A session by itself is opened (Ctrl+O): add others, or choose a specimen for it."
     for k, one in enumerate(files, start=1):
         if one.specimen is None and not is_session(one.data):
-            return f"File {k}, {one.data.name}: no specimen, expected one: choose it."
+            return f"File {k}, {short_name(one.data.name)}: no specimen, expected one: choose it."
     own = [k for k, one in enumerate(files, start=1) if one.specimen is None]
     if own and len(own) < len(files):
         said = ", ".join(map(str, own))
@@ -63,13 +64,14 @@ def fault_of(files: Sequence[PairedFile]) -> str:
     return ""
 
 
-def arguments_of(files: Sequence[PairedFile]) -> list[str]:
-    """Of the command line: data, then a specimen for each, or one for all."""
+def arguments_of(files: Sequence[PairedFile], hammer: Path | None = None) -> list[str]:
+    """Of the command line: data, then a specimen for each, or one for all; the bare plate's hammer test."""
     said = [str(one.data) for one in files]
     specimens = [str(one.specimen) for one in files if one.specimen is not None]
     if len(set(specimens)) == 1:
         specimens = specimens[:1]
-    return said + [word for name in specimens for word in ("--specimen", name)]
+    said += [word for name in specimens for word in ("--specimen", name)]
+    return said if hammer is None else [*said, "--hammer", str(hammer)]
 
 
 def _same(one: Path, other: Path) -> bool:

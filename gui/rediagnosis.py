@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, Signal
 
 from gui.background_task import BackgroundCommand
 from gui.pairing import PairedFile, arguments_of
+from gui.short_name import short_name
 from gui.state import SessionState
 from instrument.facts.diagnosis import DiagnosisResult
 
@@ -28,6 +29,8 @@ class DiagnosisAsked:
     """Left out of the search."""
     further: tuple[PairedFile, ...] = ()
     """Files that are diagnosed together with the first one."""
+    hammer: Path | None = None
+    """The bare plate's hammer test; a session has its own."""
 
     @property
     def files(self) -> tuple[PairedFile, ...]:
@@ -47,7 +50,7 @@ class DiagnosisAsked:
     @property
     def arguments(self) -> list[str]:
         """Of the command line."""
-        said = ["diagnose", *arguments_of(self.files)]
+        said = ["diagnose", *arguments_of(self.files, self.hammer)]
         if self.accept is not None:
             said += [f"--accept={name}" for name in self.accept or ("none",)]
         return said + [f"--without={name}" for name in self.decline]
@@ -71,6 +74,8 @@ class Rediagnosis(QObject):
     -------
     changed
         Another diagnosis is to be shown, or work began or ended.
+    began
+        One was asked for.
     progressed
         What is being worked at, and the fraction of it that is done.
     failed
@@ -78,6 +83,7 @@ class Rediagnosis(QObject):
     """
 
     changed = Signal()
+    began = Signal()
     progressed = Signal(str, float)
     failed = Signal(str)
 
@@ -123,6 +129,7 @@ class Rediagnosis(QObject):
         self._command.failed.connect(self._failed)
         self._command.progressed.connect(self.progressed)
         self._command.start()
+        self.began.emit()
         self.changed.emit()
 
     def cancel(self) -> None:
@@ -143,6 +150,14 @@ class Rediagnosis(QObject):
         self._searched = {files: it for files, it in self._searched.items() if not _has(files, path)}
         if _has(of, path) and (self.running or self.found is not None):
             self.forget()
+
+    def let_go(self) -> None:
+        """Another session is shown. What was being looked for of the one before is ended, and it is said."""
+        asked = self._asked
+        if self.running and asked is not None and not asked.further:
+            name = short_name(asked.data.name)
+            self.failed.emit(f"The diagnosis of {name} was ended: another session is shown.")
+        self.forget()
 
     def forget(self) -> None:
         """Back to what is recorded."""
@@ -192,7 +207,7 @@ def _recorded(state: SessionState | None) -> DiagnosisResult | None:
 
 
 def _origin(asked: DiagnosisAsked) -> str:
-    of = f"{len(asked.files)} files" if asked.further else asked.data.name
+    of = f"{len(asked.files)} files" if asked.further else short_name(asked.data.name)
     if not asked.by_hand:
         return f"made here of {of}, not recorded"
     return "by hand, not recorded" if asked.of_session else f"{of}: by hand, not recorded"

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from gui.elided import ElidedLabel
 from gui.feeds.recorded import RecordedFeed
 from gui.icons import Sign
 from gui.top_bar import duration
@@ -73,7 +74,7 @@ class ReplayBar(QFrame):
         self.verify = button(
             _VERIFY, "Compute everything derived again: does it equal the recording?", "verify"
         )
-        self.verdict = QLabel()
+        self.verdict = ElidedLabel()
         self.play.clicked.connect(self.toggle)
         self.back.clicked.connect(self.to_mark_before)
         self.on.clicked.connect(self.to_next_mark)
@@ -102,7 +103,7 @@ class ReplayBar(QFrame):
         """Another recording, or none."""
         self._feed = feed
         self.setVisible(feed is not None)
-        self.verdict.clear()
+        self.verdict.say("")
         if feed is not None:
             feed.moved.connect(self._moved)
             feed.compared.connect(self._compared)
@@ -162,12 +163,12 @@ class ReplayBar(QFrame):
 
     def _compared(self, found: ReplayResult) -> None:
         same = found.equal_to_recorded
-        self._say(_VERIFY, f"{found.derived_events} events {'equal' if same else 'NOT all equal'}")
-        self.verdict.setToolTip("\n".join(found.differences))
+        said = f"{found.derived_events} events {'equal' if same else 'NOT all equal'}"
+        self._say(_VERIFY, said, "\n".join(found.differences))
 
     def _not_compared(self, message: str) -> None:
         self._say(_VERIFY, message)
 
-    def _say(self, button: str, verdict: str) -> None:
+    def _say(self, button: str, verdict: str, tip: str = "") -> None:
         self.verify.setText(button)
-        self.verdict.setText(verdict)
+        self.verdict.say(verdict, tip)

@@ -18,11 +18,22 @@ ENDINGS = tuple(dict.fromkeys((*SESSION_ENDINGS, ".csv", *foreign_endings())))
 """Of data that can be fitted together."""
 
 
+HAMMER_ENDINGS = (*SESSION_ENDINGS, ".json")
+"""Of what a hammer test is kept in."""
+
+
 def ask_together(owner: QWidget, together: Together) -> None:
     """For more of them, beside the last ones."""
     start = str(together.files[-1].data.parent) if together.files else ""
     kinds = f"Sessions and data ({' '.join(f'*{ending}' for ending in ENDINGS)});;Everything (*)"
     ask_open_all(owner, "Files to fit together", start, kinds, together.add)
+
+
+def ask_hammer(owner: QWidget, together: Together) -> None:
+    """For the bare plate's hammer test."""
+    near = together.hammer or next((one.data for one in together.files), None)
+    kinds = f"Sessions and results ({' '.join(f'*{ending}' for ending in HAMMER_ENDINGS)});;Everything (*)"
+    ask_open(owner, "Hammer test of the bare plate", str(near.parent) if near else "", kinds, together.strike)
 
 
 def ask_specimen(owner: QWidget, together: Together, row: int | None) -> None:

@@ -126,6 +126,7 @@ class Appearance(QObject):
         self._points = application.font().pointSizeF()
         self.mode: Mode = mode
         self.scale = scale
+        self._held = self._waiting = False
         application.styleHints().colorSchemeChanged.connect(self._system_changed)
         self.choose(mode)
         self.resize(scale)
@@ -133,14 +134,30 @@ class Appearance(QObject):
     def choose(self, mode: Mode) -> None:
         """Show everything in this mode."""
         self.mode = mode
-        schemes = {"light": Qt.ColorScheme.Light, "dark": Qt.ColorScheme.Dark}
-        # Frames and file dialogs of the system follow this; not every system listens.
-        self._application.styleHints().setColorScheme(schemes.get(mode, Qt.ColorScheme.Unknown))
+        self._tell_system()
         self._show()
+
+    def hold(self, held: bool) -> None:
+        """While held, what is chosen waits: to show it takes a second or two, and STOP would wait too."""
+        if held == self._held:
+            return
+        self._held = held
+        if not held and self._waiting:
+            self._waiting = False
+            self._tell_system()
+            self.resize(self.scale)
+
+    @property
+    def waiting(self) -> bool:
+        """Whether something was chosen that is not shown yet."""
+        return self._waiting
 
     def resize(self, scale: float) -> None:
         """Type so many times its usual size."""
         self.scale = scale
+        if self._held:
+            self._waiting = True
+            return
         font = self._application.font()
         font.setPointSizeF(self._points * scale)
         # A style sheet keeps the type of widgets that are there: it is taken off meanwhile.
@@ -148,10 +165,19 @@ class Appearance(QObject):
         self._application.setFont(font)
         self._show()
 
+    def _tell_system(self) -> None:
+        """Its frames and file dialogs follow; not every system listens."""
+        schemes = {"light": Qt.ColorScheme.Light, "dark": Qt.ColorScheme.Dark}
+        if not self._held:
+            self._application.styleHints().setColorScheme(schemes.get(self.mode, Qt.ColorScheme.Unknown))
+
     def _system_changed(self) -> None:
         self._show()
 
     def _show(self) -> None:
+        if self._held:
+            self._waiting = True
+            return
         system = self._application.styleHints().colorScheme() == Qt.ColorScheme.Dark
         dark = self.mode == "dark" or (self.mode == "system" and system)
         theme = DARK if dark else LIGHT

@@ -26,6 +26,8 @@ class Together(QObject):
     -------
     changed
         Other files, another result, or work began or ended.
+    began
+        Work was asked for.
     progressed
         What is being worked at, and the fraction of it that is done.
     failed
@@ -35,6 +37,7 @@ class Together(QObject):
     """
 
     changed = Signal()
+    began = Signal()
     progressed = Signal(str, float)
     failed = Signal(str)
     specimen_chosen = Signal(Path, Path)
@@ -42,6 +45,8 @@ class Together(QObject):
     def __init__(self, rediagnosis: Rediagnosis, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.files: tuple[PairedFile, ...] = ()
+        self.hammer: Path | None = None
+        """The test of the bare plate that all files are of: a session that has one, or a command's JSON."""
         self.known: dict[Path, Path] = {}
         """Specimens that data had before."""
         self.identified: Fitted | None = None
@@ -116,6 +121,14 @@ class Together(QObject):
             files[row], files[to] = files[to], files[row]
             self._choose(tuple(files))
 
+    def strike(self, hammer: Path | None) -> None:
+        """With this hammer test of the bare plate, or without one: what was found is of other data."""
+        if hammer != self.hammer:
+            self.cancel()
+            self.hammer = hammer
+            self._stamps = self._stamps_now()
+            self._let_go_of_found()
+
     # The work
 
     def identify(self) -> None:
@@ -166,7 +179,7 @@ class Together(QObject):
     @property
     def _asked(self) -> DiagnosisAsked:
         first, *further = self.files
-        return DiagnosisAsked(first.data, first.specimen, further=tuple(further))
+        return DiagnosisAsked(first.data, first.specimen, further=tuple(further), hammer=self.hammer)
 
     @property
     def _diagnosing(self) -> bool:
@@ -191,8 +204,8 @@ class Together(QObject):
         self.changed.emit()
 
     def _stamps_now(self) -> dict[Path, Stamp | None]:
-        paths = (path for one in self.files for path in (one.data, one.specimen) if path is not None)
-        return {path: stamp_of(path) for path in paths}
+        paths = [path for one in self.files for path in (one.data, one.specimen)]
+        return {path: stamp_of(path) for path in (*paths, self.hammer) if path is not None}
 
     def _begin(self, *, then_diagnose: bool) -> None:
         if fault_of(self.files):
@@ -200,11 +213,12 @@ class Together(QObject):
         self.cancel()
         self._then_diagnose, self._leads_then = then_diagnose, True
         results = (IdentificationResult, ModalResult)
-        self._command = BackgroundCommand(["identify", *arguments_of(self.files)], results, self)
+        self._command = BackgroundCommand(["identify", *arguments_of(self.files, self.hammer)], results, self)
         self._command.done.connect(self._done)
         self._command.failed.connect(self._failed)
         self._command.progressed.connect(self.progressed)
         self._command.start()
+        self.began.emit()
         self.changed.emit()
 
     def _diagnose(self) -> None:

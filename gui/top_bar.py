@@ -1,7 +1,7 @@
 """Always seen: how the run stands, what comes next, how near the limits are; and the stop button."""
 
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtGui import QColor, QFontMetrics, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
@@ -26,6 +26,7 @@ from instrument.results.typeset import typeset
 
 _PERMILLE = 1000
 _EDGE_PX = 2
+_RECORDED = "RECORDED"
 _GO_ON = "; Run says how to go on"
 
 
@@ -95,8 +96,11 @@ class TopBar(QFrame):
 
     def _size(self) -> None:
         """Words that change must not move what stands beside them."""
+        bold = self.font()
+        bold.setBold(True)
+        longest_state = max(WORDS.values(), key=QFontMetrics(bold).horizontalAdvance)
+        self.state.setFixedWidth(QFontMetrics(bold).horizontalAdvance(f"{_RECORDED} {longest_state} "))
         for label, longest in (
-            (self.state, "RECORDED calibration"),
             (self.left, "59:59 min left"),
             (self.level, "level 0.123 m/s\u00b2"),
         ):
@@ -104,7 +108,7 @@ class TopBar(QFrame):
 
     def _say(self, color: str, word: str, words: str) -> None:
         recorded = self._controller.recorded is not None
-        sign = "RECORDED" if recorded else "\u25cf"
+        sign = _RECORDED if recorded else "\u25cf"
         self.state.setText(f"<b style='color:{color}'>{sign} {word}</b>")
         self._look(recorded)
         self._words = typeset(words)
@@ -129,7 +133,7 @@ class TopBar(QFrame):
         self.progress.setMaximum(_PERMILLE if fraction is not None else 0)
         self.progress.setValue(round(_PERMILLE * (fraction or 0.0)))
         left = feed.left_s if feed is not None else None
-        self.left.setText(f"{duration(left)} left" if live and left is not None else "")
+        self.left.setText(_left_words(left) if live and left is not None else "")
 
     def _show_gauges(self, state: SessionState | None) -> None:
         self.gauges.refresh()
@@ -163,6 +167,11 @@ class TopBar(QFrame):
         whole.setContentsMargins(8, 4, 8, 4)
         whole.addLayout(rows, 1)
         whole.addLayout(buttons)
+
+
+def _left_words(seconds: float) -> str:
+    """What takes longer than foreseen is not over."""
+    return f"{duration(seconds)} left" if seconds >= 1 else "soon done"
 
 
 def duration(seconds: float) -> str:

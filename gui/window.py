@@ -1,5 +1,6 @@
 """The main window: bar, pages, log, replay; menus and keys. It shows and passes on, and decides nothing."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from time import monotonic
 
@@ -13,7 +14,7 @@ from PySide6.QtGui import (
     QShortcut,
     QShowEvent,
 )
-from PySide6.QtWidgets import QMessageBox, QTabWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QMessageBox, QVBoxLayout, QWidget
 
 from fitting.plugins import told
 from gui.asking import ask_open_many, ask_word
@@ -25,6 +26,7 @@ from gui.menus import Menus
 from gui.notice import Notice
 from gui.page import Page
 from gui.page_set import PageSet, key_of
+from gui.page_tabs import PageTabs
 from gui.replay_bar import ReplayBar
 from gui.settings import Arrangement, Settings
 from gui.shell import Shell
@@ -55,7 +57,7 @@ class Window(Shell):
         self.setAcceptDrops(True)
         self.controller = AppController(self)
         self.bar, self.notice = TopBar(self.controller), Notice()
-        self.tabs = QTabWidget()
+        self.tabs = PageTabs()
         self.tabs.setDocumentMode(True)
         self._page_set = PageSet(self.controller)
         self.replay = ReplayBar()
@@ -76,6 +78,9 @@ class Window(Shell):
         self.controller.busy.connect(self._busy)
         self.controller.experiment_chosen.connect(self._chosen)
         self.controller.page_wanted.connect(self.show_page)
+        for work in (self.controller, self.controller.together, self.controller.rediagnosis):
+            # What was said before is not of it: that a shaker did not answer, of a run before this one.
+            work.began.connect(self.notice.hide)
         self.controller.together.remember(settings.specimens)
         self.controller.together.specimen_chosen.connect(settings.remember_specimen)
         self.replay.compare_wanted.connect(self._ask_compare)
@@ -93,7 +98,9 @@ class Window(Shell):
     def turn(self) -> None:
         """Take what has come and show it."""
         self.controller.advance()
-        self._guard.be_on_duty(self.controller.running or self.controller.starting)
+        busy = self.controller.running or self.controller.starting
+        self._guard.be_on_duty(busy)
+        self.appearance.hold(busy)
         state = self.controller.state
         self.bar.show_state(state)
         self.log.show_state(state)
@@ -118,8 +125,7 @@ class Window(Shell):
 
     def open(self, path: Path) -> None:
         """A session, an experiment, or other data; returns at once."""
-        assert self.pages, "what is opened is told to every page"
-        self.controller.open(path)
+        self._open_all([path])
 
     def show_page(self, name: str) -> None:
         """As `gui.pages` calls it; the first one where there is none of this name."""
@@ -150,10 +156,10 @@ class Window(Shell):
     def dropEvent(self, event: QDropEvent) -> None:
         """Open what was dropped."""
         event.acceptProposedAction()
-        for url in event.mimeData().urls():
-            if url.isLocalFile():
-                self.open(Path(url.toLocalFile()))
-            else:
+        urls = event.mimeData().urls()
+        self._open_all([Path(url.toLocalFile()) for url in urls if url.isLocalFile()])
+        for url in urls:
+            if not url.isLocalFile():
                 self.notice.refuse(f"{url.toString()}: not a file of this computer")
 
     def closeEvent(self, event: QCloseEvent) -> None:
@@ -201,6 +207,13 @@ class Window(Shell):
 
     # Inside
 
+    def _open_all(self, paths: Sequence[Path]) -> None:
+        """What was said before is not of these; what is said of one of them stays beside the others."""
+        assert self.pages, "what is opened is told to every page"
+        self.notice.hide()
+        for path in paths:
+            self.controller.open(path)
+
     def _tick(self) -> None:
         """Turn; in a run look again later where the machine is behind: painting must not fill its time."""
         now = monotonic()
@@ -211,9 +224,12 @@ class Window(Shell):
         self._timer.setInterval(TURN_MS + round(rest_ms))
 
     def _draw_next(self) -> None:
-        """One page a turn of the event loop."""
+        """A page is made in one turn of the event loop and drawn in the next."""
         if not self._undrawn:
             self._first_drawing.stop()
+            return
+        if self._undrawn[-1] not in self._page_set.made:
+            self._page(self._undrawn[-1])
             return
         page, shown = self._page(self._undrawn.pop()), self.tabs.currentWidget()
         if page is not shown:
@@ -307,9 +323,6 @@ class Window(Shell):
         self.replay.show_feed(recorded)
         if recorded is not None:
             self.settings.remember(recorded.path)
-            if self.controller.ending is None or recorded.path != self.controller.ending.session:
-                # What was said of a run's end stays where its recording comes by itself.
-                self.notice.hide()
         self.setWindowTitle(f"{recorded.path.name} - viscorig" if recorded is not None else "viscorig")
         self.menus.refresh()
         self.turn()

@@ -4,6 +4,7 @@ import os
 import re
 import tempfile
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,7 @@ from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT, Item
 
 from fitting.errors import OutsideModel
-from gui.form.fields import Field, Kind, Place, shown
+from gui.form.fields import Field, FormSection, Kind, Place, form_of, shown
 from instrument.errors import BadInput
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.law_table import with_rows
@@ -61,6 +62,11 @@ class Draft:
         text = read_text(path)
         found = cls(path, BaseModel, text)
         return cls(path, document_type(found.plain()), text)
+
+    @cached_property
+    def asks(self) -> FormSection:
+        """What a form of it asks for: read off the sources of its model, which takes a tenth of a second."""
+        return form_of(self.model)
 
     @property
     def text(self) -> str:

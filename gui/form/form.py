@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QHeaderView, QLineEdit, QT
 
 from gui.asking import ask_open
 from gui.form.draft import Draft
-from gui.form.fields import FILES, Field, FormSection, Place, device_fields, form_of, law_fields
+from gui.form.fields import FILES, Field, FormSection, Place, device_fields, law_fields
 from gui.form.keys import KeyedRows
 from gui.form.rows import FAULT, NAME, UNIT, VALUE, Editor
 from gui.theme import current_theme
@@ -112,7 +112,7 @@ class Form(KeyedRows):
         with QSignalBlocker(self):
             self._items, self._editors, self._fields = {}, {}, {}
             self.clear()
-            whole = form_of(self.draft.model)
+            whole = self.draft.asks
             for field in whole.fields:
                 self._field(None, (field.key,), field)
             for section in whole.sections:

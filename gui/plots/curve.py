@@ -8,6 +8,7 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 
 from fitting.arrays import Array
+from gui.short_name import short_name
 from gui.theme import Role, current_theme
 
 Symbol = Literal["o", "s", "t", "t1", "d", "+", "x", "star"]
@@ -16,6 +17,8 @@ Kind = Literal["line", "points", "band", "trace"]
 _SMOOTH = 5000
 """Curves of more points are drawn without smoothed edges, which would cost several times as much."""
 _BAND_ALPHA, _POINT_ALPHA = 0.25, 0.6
+_LEGEND_LETTERS = 44
+"""Of a name: a law with one effect and its doubt has 41."""
 _RING_WIDTH = 2.0
 
 
@@ -92,7 +95,7 @@ def items_of(name: str | None, kind: Kind) -> tuple[Any, ...]:
     if kind == "band":
         edges = pg.PlotDataItem(), pg.PlotDataItem()
         return (*edges, pg.FillBetweenItem(*edges))
-    return (pg.PlotDataItem(name=name),)
+    return (pg.PlotDataItem(name=short_name(name, _LEGEND_LETTERS) if name is not None else None),)
 
 
 def _thin_out(item: pg.PlotDataItem, few: bool) -> None:

@@ -34,8 +34,8 @@ _OPTIONS = (
     click.option(
         "--hammer",
         type=click.Path(path_type=Path),
-        help="JSON of 'viscorig damping' on the bare plate: its ratios, and the substrate's stiffness. "
-        "A session has its own.",
+        help="The bare plate's test, in a session or the JSON of 'viscorig damping': its ratios, and the "
+        "substrate's stiffness. A session has its own.",
     ),
     force_option,
     click.option("--no-hammer", is_flag=True, help="Leave a session's own hammer test out."),

@@ -38,6 +38,7 @@ ENDS_S = 10.0
 """A run that was stopped puts its session together meanwhile; an engine that takes longer hangs."""
 _SILENCES_S = 1.0
 """For word that the shaker is at rest, by whichever way."""
+_SWITCH_OFF = "its heartbeat ends its drive: switch the amplifier off to be sure"
 _AGAIN_S = 0.1
 """Between two stops: none that the run may have undone stays so for longer."""
 
@@ -211,6 +212,8 @@ class Engine:
         if not self._rig_open or self._over.is_set():
             # The run let go of the shaker at rest. Whoever drives it now is stopped all the same.
             problem = path.silence()
+            if problem and not self._rig_open:
+                problem = f"the run had let go of the shaker at rest before; asked again: {problem}"
             return not problem, problem or "the shaker is silent"
         if self._at_rest.wait(_SILENCES_S):
             return True, "the shaker is silent"
@@ -218,7 +221,7 @@ class Engine:
         problem = path.silence()
         if not problem:
             return True, "the shaker is silent; the engine did not answer and was ended"
-        return False, f"{problem}; its heartbeat ends its drive: switch the amplifier off to be sure"
+        return False, f"{problem}; {_SWITCH_OFF}"
 
     def _see_it_end(self) -> None:
         """Stop again and again until the engine is over: a start of its own on the way must not last."""
@@ -261,10 +264,9 @@ class Engine:
                 # What follows cannot be understood either.
                 self._end_process(f"said what cannot be understood ({error})")
         self._process.wait()
-        if self._stop_path is not None and self._rig_open:
-            self._stop_path.silence()
+        problem = self._stop_path.silence() if self._stop_path is not None and self._rig_open else None
         if not self._ended_told:
-            self._received.put(ended("died", self._why_it_died(), self._recorded))
+            self._received.put(ended("died", self._why_it_died(problem), self._recorded))
         self._received.close()
         self._over.set()
         if self._stop_path is not None:
@@ -286,12 +288,16 @@ class Engine:
                 self._ended_told = True
         self._received.put(message)
 
-    def _why_it_died(self) -> str:
-        """One line: how the process ended, the last it said, and what is left."""
+    def _why_it_died(self, problem: str | None) -> str:
+        """One line: how the process ended, the last it said, the shaker, and what is left.
+
+        `problem` of the shaker, which was stopped then; None where no rig was open.
+        """
         how = self._why_ended or f"ended by itself (exit status {self._process.returncode})"
         self._errors.seek(0)
         lines = self._errors.read().decode(errors="replace").split("\n")
         said = next((f": {line.strip()}" for line in reversed(lines) if line.strip()), "")
         folder = self._recorded.folder if self._recorded is not None else None
         kept = f"; what is complete is in {folder}: viscorig recover {folder}" if folder else ""
-        return f"the engine {how}{said}{kept}"
+        shaker = {None: "", "": "; the shaker is silent"}.get(problem, f"; {problem}; {_SWITCH_OFF}")
+        return f"the engine {how}{said}{shaker}{kept}"

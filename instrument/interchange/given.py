@@ -82,6 +82,8 @@ def is_session(data: Path) -> bool:
 def read_given(data: Path, specimen: Path | None, hammer: Path | None, *, own_hammer: bool = True) -> Given:
     """Read data, specimen and hammer test; `own_hammer`: a session's own where none is named.
 
+    A hammer test is the JSON of `viscorig damping`, or a session that has one.
+
     Raises `BadInput`, `FittingError`.
     """
     if is_session(data):
@@ -90,7 +92,18 @@ def read_given(data: Path, specimen: Path | None, hammer: Path | None, *, own_ha
         given = _of_sweep(data, specimen)
         read, sweep = at_its_spot(data, given.specimen, given.sweep)
         given = replace(given, specimen=read, sweep=sweep)
-    return given if hammer is None else replace(given, modes=read_hammer(hammer))
+    return given if hammer is None else replace(given, modes=hammer_of(hammer))
+
+
+def hammer_of(path: Path) -> HammerModes:
+    """The modes of the JSON of `viscorig damping`, or of a session's own test. Raises `BadInput`."""
+    if not is_session(path):
+        return read_hammer(path)
+    with SessionFile(path) as session:
+        modes = session_modes(contents_of(session, with_hits=False))
+    if modes is None:
+        raise BadInput(f"{path}: no accepted mode of a bare plate in this session, expected its hammer test")
+    return modes
 
 
 def _of_sweep(data: Path, specimen: Path | None) -> Given:

@@ -6,6 +6,7 @@ from typing import TypeVar
 import numpy as np
 
 from fitting.arrays import Mask
+from fitting.specimen import Specimen
 from instrument.facts.diagnosis import DiagnosisResult, PointLeft
 from instrument.facts.identification import IdentificationResult, PointFitted
 from instrument.facts.rows import PointSetAside, StretchSetAside
@@ -20,7 +21,8 @@ P = TypeVar("P", PointFitted, PointLeft, PointSetAside)
 
 def identified_together_from(found: Together, files: Sequence[File]) -> IdentificationResult:
     """The result of `identify`, each point with its file (from 1), and what was set aside."""
-    result = identification_from(found.found)
+    plate = files[0].specimen
+    result = identification_from(found.found, plate if isinstance(plate, Specimen) else None)
     used = found.found.why_aside == ""
     return result.but(
         points=_owned(result.points, files, used),

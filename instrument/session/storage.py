@@ -15,6 +15,7 @@ is whole or not there. What the journal does not name does not count.
 import errno
 import hashlib
 import os
+import re
 import shutil
 from collections.abc import Iterator
 from contextlib import suppress
@@ -98,6 +99,21 @@ def _put_together(temporary: Path, configuration: Configuration, parts: list[Pat
             group.attrs.update({k: v for k, v in found.facts().items() if k != "range_name"})
 
 
+_CUT = re.compile(r"truncated file: eof = (\d+),.* stored_eof = (\d+)")
+"""As the library says it of a file that ends before its data do."""
+
+
+def _why_not(path: Path, said: str) -> str:
+    """The library's own words for people: why a file that is there cannot be opened."""
+    if path.is_dir():
+        return "a folder"
+    if cut := _CUT.search(said):
+        return f"it ends after {int(cut[1]):,} of {int(cut[2]):,} bytes, expected all of it: copy it again"
+    if "signature not found" in said:
+        return "what is in it is no HDF5"
+    return said.splitlines()[0][:80]
+
+
 class SessionFile:
     """A recorded session, read. Use as a context."""
 
@@ -109,7 +125,7 @@ class SessionFile:
         except OSError as error:
             if not path.exists():
                 raise BadInput(f"{path}: no such file") from None
-            raise BadInput(f"{path}: not a session file: {str(error).splitlines()[0][:80]}") from None
+            raise BadInput(f"{path}: not a session file: {_why_not(path, str(error))}") from None
         try:
             ours = str(self._file.attrs.get("format")) == FORMAT
             version = int(self._file.attrs.get("layout_version", 0))

@@ -25,7 +25,7 @@ _CLEAR = 5.0
 _LEAST_FALL = 1.0
 """... and from a fall by e at least."""
 _SLOWER = 0.1
-"""Of the decay as it is known: what seems slower is no transient, hum for instance, and says nothing of one."""
+"""Of the decay as it is known: what seems slower is no transient (hum, for instance)."""
 _EARLY = 2.0
 """A transient stands out of its noise within so many decay times, or not at all."""
 _SLOWEST_1_S = 1e-6
@@ -81,7 +81,7 @@ class Settling:
         return self.remaining <= self.tolerance
 
     def _look_at_decay(self, drift: float, std: float) -> None:
-        """Of a drift that stands out of its noise: what is left is bounded by it alone, and it shows the decay."""
+        """What is left is bounded by a drift that stands out of its noise alone; and that shows the decay."""
         usual, now = self._expected_1_s, self.elapsed_s
         if drift <= _CLEAR * std:
             return

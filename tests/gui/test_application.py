@@ -54,6 +54,22 @@ def exporting(qtbot, monkeypatch, tmp_path):
     return made, ran
 
 
+def test_what_is_being_written_is_said(qtbot, monkeypatch, tmp_path):
+    heard, parent = [], QWidget()
+    qtbot.addWidget(parent)
+    monkeypatch.setattr(export.BackgroundCommand, "start", lambda command: heard.append("started"))
+    made = export.Export(SimpleNamespace(recorded=None), parent)
+    made.began.connect(heard.append)
+    made._report(tmp_path / "one.h5", ".html", tmp_path / "one.html")
+    made._data(tmp_path / "one.h5", "csv", tmp_path)
+    assert heard == [
+        "the report is being written ...",
+        "started",
+        "the data are being written ...",
+        "started",
+    ]
+
+
 @pytest.mark.parametrize(("given", "written"), [("mine", "mine.html"), ("mine.HTML", "mine.HTML")])
 def test_a_report_is_what_its_name_ends_with(exporting, monkeypatch, tmp_path, given, written):
     made, ran = exporting

@@ -18,6 +18,18 @@ def test_what_is_shortened_stands_in_the_tool_tip_above_its_own(made):
     assert (label.text(), label.toolTip()) == ("–", "Of the base")
 
 
+def test_a_tip_of_its_own_goes_with_what_is_said(made):
+    label = made(ElidedLabel(SAID, "Of the base"))
+    label.show()
+    label.resize(label.sizeHint())
+    label.say("3 events", "which ones")
+    assert label.toolTip() == "which ones"
+    label.say("none")
+    assert label.toolTip() == "which ones"
+    label.say("none", "")
+    assert label.toolTip() == ""
+
+
 def test_larger_type_asks_for_more_room(made):
     label = made(ElidedLabel(SAID))
     label.show()

@@ -20,7 +20,7 @@ class Looks:
     """Mode and size of type, as chosen last."""
 
     def __init__(self):
-        self.mode, self.scale = "light", 1.0
+        self.mode, self.scale, self.waiting = "light", 1.0, False
 
     def choose(self, mode):
         self.mode = mode
@@ -142,6 +142,16 @@ def test_type_grows_and_shrinks_step_by_step_within_its_sizes(window, menus):
     assert window.appearance.scale == 1.0
 
 
+def test_looks_that_wait_for_a_run_are_said_to(window, menus):
+    action(window, "Dark").trigger()
+    assert window.notice.text == ""
+    window.appearance.waiting = True
+    for one in ("Light", "Larger type"):
+        window.notice.hide()
+        action(window, one).trigger()
+        assert "once the run has ended" in window.notice.text
+
+
 def test_acceleration_is_shown_in_the_unit_chosen_of_which_one_is_marked(window, menus):
     entries = {name: action(window, f"Acceleration in {unit.symbol}") for name, unit in UNITS.items()}
     marked = [name for name, entry in entries.items() if entry.isChecked()]
@@ -162,6 +172,8 @@ def test_every_key_that_is_listed_is_said_with_what_it_does(window, menus, monke
 
 
 def test_what_an_export_says_stands_on_the_window(window, menus):
+    menus._export.began.emit("being written")
+    assert "being written" in window.notice.text
     menus._export.done.emit("saved a.html")
     assert "saved a.html" in window.notice.text
     menus._printing.failed.emit("no printer")

@@ -43,6 +43,11 @@ def test_a_specimen_chosen_for_one_file_is_given_to_all_that_lack_one():
     assert [f.specimen for f in with_specimen(chosen, None, TWO)] == [TWO] * 3
 
 
+def test_a_hammer_test_goes_with_all_files():
+    files = (PairedFile(A, ONE), PairedFile(B, ONE))
+    assert arguments_of(files, S) == ["a.csv", "b.csv", "--specimen", "one.toml", "--hammer", "s.h5"]
+
+
 @pytest.mark.parametrize(
     ("files", "said"),
     [

@@ -15,6 +15,7 @@ from window_runs import PATIENCE_MS, opened, started, wait_for_end, wait_for_poi
 from gui.pages.run.check import Check
 from gui.pages.run.new_case import REAL, NewCase
 from gui.state.time_to_go import TimeToGo
+from gui.theme import DARK, LIGHT, current_theme
 from instrument.files.rig_file import RigDocument
 from instrument.files.toml import read_document
 from instrument.session.storage import SessionFile
@@ -88,6 +89,27 @@ def test_hold_resume_and_abort(qtbot, window, unchecked, rig, tmp_path):
     ending = wait_for_end(qtbot, window)
     assert ending.why == "stopped by the user"
     assert is_silent(rig)
+
+
+def test_a_run_keeps_its_files_its_message_and_its_looks(qtbot, window, unchecked, rig, tmp_path):
+    """STOP would wait while a window of other colours is drawn; what was said before is not of this run."""
+    other = tmp_path / "other.toml"
+    other.write_text((tmp_path / "experiment.toml").read_text())
+    opened(qtbot, window, unchecked, tmp_path / "experiment.toml")
+    window.notice.refuse("the shaker did not answer")
+    started(qtbot, window, unchecked)
+    assert window.notice.text == ""
+    window.open(other)
+    assert window.notice.text == "other.toml: not opened: a run goes on"
+    assert unchecked.files.path == tmp_path / "experiment.toml"
+    window.turn()
+    window.appearance.choose("dark")
+    assert current_theme() is LIGHT
+    assert window.appearance.waiting
+    qtbot.mouseClick(window.bar.stop, LEFT)
+    qtbot.waitUntil(lambda: not window.controller.running)
+    qtbot.waitUntil(lambda: current_theme() is DARK)
+    window.appearance.choose("light")
 
 
 def test_a_run_that_was_broken_off_is_carried_on(qtbot, window, unchecked, tmp_path):

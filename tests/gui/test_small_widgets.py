@@ -9,19 +9,21 @@ from PySide6.QtGui import QKeyEvent, QShowEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QDialog, QLabel, QPushButton, QWidget
 
+from gui.controller import AppController
 from gui.feeds import feed
 from gui.log_pane import LogPane
 from gui.mark import Mark
 from gui.page import Page
-from gui.replay_bar import Scrubber
+from gui.replay_bar import ReplayBar, Scrubber
 from gui.run_gauges import state_color
 from gui.state.log import Log
+from gui.state.run import WORDS
 from gui.stop_button import StopButton
 from gui.stop_guard import StopGuard
 from gui.style_sheet import PRIMARY, style_sheet
 from gui.tables import Cell, ReadTable
-from gui.theme import DARK, LIGHT, Appearance
-from gui.top_bar import duration
+from gui.theme import DARK, LIGHT, Appearance, current_theme
+from gui.top_bar import TopBar, duration
 from gui.widgets import button, hint, tool
 
 NO_KEY = Qt.KeyboardModifier.NoModifier
@@ -49,6 +51,50 @@ def test_larger_type_reaches_widgets_that_are_there_and_dressed(qtbot, qapp):
     appearance.resize(1.0)
     assert all(b > 1.3 * a for a, b in zip(usual, larger, strict=True))
     qapp.setStyleSheet("")
+
+
+def test_looks_that_are_held_wait_and_are_shown_afterwards(qtbot, qapp):
+    appearance = Appearance(qapp, "light", dressed=False)
+    usual = qapp.font().pointSizeF()
+    appearance.hold(True)
+    appearance.choose("dark")
+    appearance.resize(1.5)
+    assert appearance.waiting
+    assert (current_theme(), qapp.font().pointSizeF()) == (LIGHT, usual)
+    appearance.hold(False)
+    assert not appearance.waiting
+    assert (current_theme(), qapp.font().pointSizeF()) == (DARK, 1.5 * usual)
+    appearance.choose("light")
+    appearance.resize(1.0)
+    assert (current_theme(), qapp.font().pointSizeF()) == (LIGHT, usual)
+
+
+def test_the_bar_has_room_for_every_state_of_a_recording(made, monkeypatch):
+    controller = AppController()
+    monkeypatch.setattr(AppController, "recorded", object())
+    bar = made(TopBar(controller))
+    for word in WORDS.values():
+        bar._say("#000000", word, "what comes next")
+        assert "RECORDED" in bar.state.text()
+        assert bar.state.sizeHint().width() <= bar.state.width(), word
+
+
+def test_what_takes_longer_than_foreseen_has_no_seconds_left(made, monkeypatch):
+    controller = AppController()
+    bar, state = made(TopBar(controller)), SimpleNamespace(run=SimpleNamespace(over=False))
+    for left_s, said in ((45.0, "45 s left"), (1.0, "1 s left"), (0.2, "soon done"), (None, "")):
+        controller.feed = SimpleNamespace(fraction=0.9, left_s=left_s)
+        bar._show_progress(state)
+        assert bar.left.text() == said
+    controller.feed = None
+
+
+def test_why_a_recording_was_not_verified_widens_nothing(made):
+    bar = made(ReplayBar())
+    before = bar.minimumSizeHint().width()
+    bar._not_compared("/measured/" + 20 * "what_is_known_of_it_" + ".h5: no such file")
+    assert bar.minimumSizeHint().width() < before + 50
+    assert "no such file" in bar.verdict.toolTip()
 
 
 def test_a_sign_without_words_has_them_for_whoever_cannot_see_it(made):

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 
 from gui.pairing import PairedFile
 from gui.rediagnosis import Rediagnosis
-from gui.taking_together import ask_specimen, ask_together, paths_of
+from gui.taking_together import ask_hammer, ask_specimen, ask_together, paths_of
 from gui.together import Together
 
 
@@ -42,6 +42,14 @@ def test_files_come_all_at_once(owner, together, monkeypatch, tmp_path):
     ask_together(owner, together)
     answer(owner, [tmp_path / "a.csv", tmp_path / "b.csv"], monkeypatch)
     assert told == [2]
+
+
+def test_a_hammer_test_is_asked_for_beside_the_data(owner, together, monkeypatch, tmp_path):
+    together.add([tmp_path / "a.csv"])
+    ask_hammer(owner, together)
+    dialog = answer(owner, [tmp_path / "hits.json"], monkeypatch)
+    assert dialog.directory().absolutePath() == str(tmp_path)
+    assert together.hammer == tmp_path / "hits.json"
 
 
 def test_the_specimen_of_one_file_says_whose_it_is(owner, together, monkeypatch, tmp_path):

@@ -73,6 +73,21 @@ def test_a_diagnosis_alone_asks_for_the_law_first(qtbot, together, masses, few_r
     assert together.diagnosed.origin.startswith("2 files")
 
 
+def test_another_hammer_test_is_other_data(qtbot, together, masses, tmp_path):
+    """What was found without it is not kept; both commands are told of it, and refuse it in a line."""
+    identified(qtbot, together, masses)
+    hammer = tmp_path / "hits.json"
+    hammer.write_text('{"modes": [{"frequency_hz": 18.0, "damping_ratio": 0.003}]}')
+    together.strike(hammer)
+    assert together.identified is None
+    assert together._asked.arguments[-2:] == ["--hammer", str(hammer)]
+    with qtbot.waitSignal(together.failed) as told:
+        together.identify()
+    assert told.args == ["a hammer test with a shear-pair: expected a plate"]
+    together.strike(None)
+    assert "--hammer" not in together._asked.arguments
+
+
 def test_what_is_cancelled_leaves_what_is_there(qtbot, together, masses):
     found = identified(qtbot, together, masses).identified
     together.identify()

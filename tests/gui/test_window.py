@@ -6,14 +6,15 @@ from session_cases import SyntheticSession, configuration
 
 from gui.asking import SIGNS, ask_open
 from gui.icons import Sign
+from gui.rediagnosis import DiagnosisAsked
 from gui.window import TURN_MS, Window
 from instrument.errors import BadInput
 from instrument.simulated_case import write_case
 
 
-def drop(window, path):
+def drop(window, *paths):
     data = QMimeData()
-    data.setUrls([QUrl.fromLocalFile(str(path))])
+    data.setUrls([QUrl.fromLocalFile(str(path)) for path in paths])
     buttons, keys = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
     window.dropEvent(QDropEvent(QPointF(50, 50), Qt.DropAction.CopyAction, data, buttons, keys))
 
@@ -28,6 +29,17 @@ def test_opens_with_every_page_and_nothing_running(window):
 def test_every_page_is_drawn_before_it_is_looked_at(qtbot, window):
     size = window.tabs.currentWidget().size()
     qtbot.waitUntil(lambda: all(page.size() == size for page in window.pages))
+
+
+def test_a_page_is_made_in_one_turn_and_drawn_in_another(qtbot, appearance, settings):
+    window = Window(appearance, settings)
+    qtbot.addWidget(window)
+    while window._undrawn:
+        before = len(window._page_set.made), len(window._undrawn)
+        window._draw_next()
+        done = len(window._page_set.made) - before[0], before[1] - len(window._undrawn)
+        assert sum(done) == 1
+    assert len(window._page_set.made) == len(window.page_titles)
 
 
 def test_a_window_that_is_late_looks_less_often_in_a_run_only(window, monkeypatch):
@@ -112,6 +124,18 @@ def test_a_bad_file_gives_one_message_and_leaves_the_session(qtbot, kept, tmp_pa
     assert name in opened.notice.text
     assert opened.controller.feed is before
     assert opened.controller.state is not None
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("some.h5", "a folder, expected a file"), ("one-7.running", "choose it beside Begin")],
+)
+def test_a_folder_is_no_file_and_a_broken_off_run_is_named(kept, tmp_path, name, said):
+    (tmp_path / name).mkdir()
+    before = kept.controller.recorded
+    drop(kept, tmp_path / name)
+    assert said in kept.notice.text
+    assert kept.controller.recorded is before
 
 
 def test_a_specimen_is_no_experiment_and_leaves_everything_as_it_was(qtbot, kept, tmp_path):
@@ -210,6 +234,66 @@ def test_escape_takes_the_message_away(qtbot, window, tmp_path):
     assert window.notice.isVisible()
     qtbot.keyClick(window, Qt.Key.Key_Escape)
     assert not window.notice.isVisible()
+
+
+def test_what_is_refused_is_not_said_of_what_is_asked_for_next(qtbot, window, session_path, tmp_path):
+    window.open(tmp_path / "no.zip")
+    assert "no.zip" in window.notice.text
+    window.open(session_path)
+    qtbot.waitUntil(lambda: window.controller.recorded is not None)
+    assert window.notice.text == ""
+    window.open(tmp_path / "no.zip")
+    window.controller.rediagnosis.began.emit()
+    assert window.notice.text == ""
+    window.open(tmp_path / "no.zip")
+    window.controller.together.began.emit()
+    assert window.notice.text == ""
+
+
+def test_of_files_dropped_together_a_bad_one_is_named_whichever_comes_after_it(
+    qtbot, window, session_path, tmp_path
+):
+    drop(window, tmp_path / "no.zip", session_path)
+    qtbot.waitUntil(lambda: window.controller.recorded is not None)
+    assert "no.zip" in window.notice.text
+
+
+def test_another_session_ends_a_diagnosis_and_it_is_said(qtbot, opened, tmp_path):
+    rediagnosis, before = opened.controller.rediagnosis, opened.controller.recorded.path
+    other = tmp_path / "other.h5"
+    other.write_bytes(before.read_bytes())
+    rediagnosis.start(DiagnosisAsked(before))
+    opened.open(other)
+    qtbot.waitUntil(lambda: opened.controller.recorded.path == other)
+    assert not rediagnosis.running
+    assert opened.notice.text == f"The diagnosis of {before.name} was ended: another session is shown."
+
+
+def test_a_long_name_widens_nothing(qtbot, opened, session_path, tmp_path):
+    opened.resize(1280, 720)
+    name = "_".join(["everything", "that", "is", "known"] * 10)
+    sweep, session = tmp_path / f"{name}.csv", tmp_path / f"{name}.h5"
+    rows = "".join(f"{f},{0.01 * f},0.002\n" for f in range(15, 25))
+    sweep.write_text("frequency_hz,velocity_re_m_s,velocity_im_m_s\n" + rows)
+    session.write_bytes(session_path.read_bytes())
+    controller = opened.controller
+    opened.open(sweep)
+    controller.compare(session)
+    qtbot.waitUntil(lambda: set(controller.beside) == {sweep, session})
+    controller.rediagnosis.start(DiagnosisAsked(sweep, further=()))
+    controller.together.add([sweep, session])
+    for page in opened.pages:
+        opened.show_page(page.objectName())
+        opened.turn()
+        assert page.minimumSizeHint().width() < 1000, page.title
+    controller.together.pair(None, tmp_path / f"{name}.toml")
+    qtbot.waitUntil(lambda: opened.pages[5].chosen.fault.said.count(name) == 1)
+    assert opened.pages[5].minimumSizeHint().width() < 1000
+    controller.leave()
+    opened.open(sweep)
+    qtbot.waitUntil(lambda: list(controller.beside) == [sweep])
+    assert opened.pages[4].minimumSizeHint().width() < 1000
+    assert opened.width() == 1280
 
 
 def test_a_session_that_was_broken_off_says_why(qtbot, window, tmp_path):

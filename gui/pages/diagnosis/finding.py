@@ -66,6 +66,7 @@ class Finding(QWidget):
         made_here = shown.asked is not None
         said = f"● {shown.origin}" if made_here else shown.origin
         self.origin.say(said, "fair" if made_here else "faint", bold=made_here)
+        self.origin.setToolTip(str(shown.asked.data) if shown.asked is not None else "")
         self.next.say(shown.found.next_measurement)
 
     def show_none(self, said: str) -> None:
@@ -73,6 +74,7 @@ class Finding(QWidget):
         self.verdict.say(said, "faint", bold=True)
         self.verdict.setToolTip("")
         self.origin.say("", "faint")
+        self.origin.setToolTip("")
         self.next.say("")
 
 

@@ -28,6 +28,7 @@ from gui.pages.diagnosis.next_table import NextTable
 from gui.pages.diagnosis.residual_plots import ResidualPlots
 from gui.pages.diagnosis.unseen_table import UnseenTable
 from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
+from gui.short_name import short_name
 from gui.state import SessionState
 from gui.widgets import button, hint
 from instrument.facts.diagnosis import DiagnosisResult
@@ -142,7 +143,7 @@ class DiagnosisPage(Page):
         """In large, and what there will be."""
         state = self.controller.state
         if state is None and (foreign := self._foreign):
-            named = foreign[0].name if len(foreign) == 1 else f"{len(foreign)} files"
+            named = short_name(foreign[0].name) if len(foreign) == 1 else f"{len(foreign)} files"
             then = f"Next: {_OTHERS}, on the right; its specimen is asked for."
             return f"No diagnosis of {named} yet", f"{_HERE}\n\n{then}"
         if state is None:
@@ -212,7 +213,7 @@ class DiagnosisPage(Page):
         assert menu is not None
         menu.clear()
         for path in self._foreign:
-            action = menu.addAction(f"{path.name} ...")
+            action = menu.addAction(f"{short_name(path.name)} ...")
             action.setData(str(path))
             action.triggered.connect(self._diagnose_other)
         self._show()

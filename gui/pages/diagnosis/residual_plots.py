@@ -28,6 +28,7 @@ from instrument.results.diagnosis_words import percent_of, segment_place
 from instrument.results.numbers import format_number
 from instrument.results.set_aside import NAME
 from instrument.results.standing import law_words, one_fit_words, stages_apart
+from instrument.results.typeset import capitalised
 
 _ROOM = 1.12
 _LEAST_LINES = 7
@@ -60,6 +61,8 @@ class ResidualPlots(QWidget):
         )
         self.plots: dict[tuple[int, StageName], Plot] = {}
         self._found: DiagnosisResult | None = None
+        self._wanted = NAMES["both"]
+        """As a person chose it: data without phase have amplitudes alone, and others come after them."""
         self._numbers: list[int] = []
         self._waiting: list[tuple[int, StageName]] = []
         self._timer = QTimer(self)
@@ -70,22 +73,34 @@ class ResidualPlots(QWidget):
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setSpacing(2)
         self._arrange()
+        self.quantity.textActivated.connect(self._want)
         self.quantity.currentIndexChanged.connect(self._draw)
         self.segment.currentIndexChanged.connect(self._draw)
 
     def show_diagnosis(self, found: DiagnosisResult) -> None:
         """Draw what it leaves."""
         self._found = found
-        _offer(self.quantity, {NAMES[q]: q for q in quantities(found)})
+        _offer(self.quantity, {NAMES[q]: q for q in quantities(found)}, self._wanted)
         numbers = segments(found)
         every = {"all segments": _ALL} if len(numbers) > 1 else {}
         _offer(self.segment, {**every, **{f"segment {n}{self._place(n)}": n for n in numbers}})
         self._draw()
 
+    def _want(self, name: str) -> None:
+        self._wanted = name
+
     def _place(self, number: int) -> str:
         """File and pickup of a segment, after a comma, where there are several."""
         place = segment_place(self._found, number) if self._found is not None else ""
         return f", {place}" if place else ""
+
+    def _titled(self, number: int) -> str:
+        """Its file where there are several, and itself where it is not all of that file."""
+        place = self._place(number).removeprefix(", ")
+        if not place or self._found is None:
+            return f"Segment {number}"
+        alone = sum(segment_place(self._found, n) == place for n in segments(self._found)) == 1
+        return capitalised(place) if alone else f"Segment {number}, {place}"
 
     @property
     def drawn(self) -> bool:
@@ -123,7 +138,7 @@ class ResidualPlots(QWidget):
         plot = self._plot(number, stage)
         plot.setToolTip(f"Segment {number}{self._place(number)}, {stage}")
         titled, unit = number == self._numbers[-1], "" if quantity == "whitened" else "%"
-        plot.show_axes(Axis("Frequency", "Hz", titled=titled), Axis(f"Segment {number}", unit))
+        plot.show_axes(Axis("Frequency", "Hz", titled=titled), Axis(self._titled(number), unit))
         shown = panel(self._found, number, stage, quantity)
         height = _ROOM * limit(self._found, number, stage, quantity)
         _draw_panel(plot, shown, _FOOT * height)
@@ -235,11 +250,11 @@ def _title(found: DiagnosisResult, stage: StageName) -> str:
     return f"<b>{said}</b><br>{two_digits(rms)} % rms in {percent_of(found)}{noise}"
 
 
-def _offer(box: QComboBox, choices: dict[str, object]) -> None:
-    """These to choose from; what was chosen stays where it can."""
+def _offer(box: QComboBox, choices: dict[str, object], wanted: str = "") -> None:
+    """These to choose from; what is wanted, or was chosen, stays where it can."""
     if [box.itemText(k) for k in range(box.count())] == list(choices):
         return
-    before = box.currentText()
+    before = wanted or box.currentText()
     box.blockSignals(True)
     box.clear()
     for text, data in choices.items():

@@ -10,6 +10,7 @@ from gui.asking import ask_open_many
 from gui.background_task import BackgroundTask, Progress
 from gui.pages.law.plots import LawLine
 from gui.pages.material.compared import PAPER, ComparedLaw, paper_law, recorded_laws
+from gui.short_name import short_name
 from gui.tables import Cell, ReadTable
 from gui.theme import Role
 from gui.widgets import button, hint
@@ -133,12 +134,11 @@ class LawComparison(QWidget):
             free = (k for k in range(len(laws)) if k not in looks.values())
             looks[law.name] = looks[law.name] if law.name in looks else next(free)
         self._looks = looks
-        self.table.show_rows(
-            [
-                [Cell(line.name, edge=line.role, left=True), Cell(law.note, faint=True, left=True)]
-                for line, law in zip(self.lines, laws, strict=True)
-            ]
-        )
+        rows = []
+        for line, law in zip(self.lines, laws, strict=True):
+            named = Cell(short_name(line.name), line.name, edge=line.role, left=True)
+            rows.append([named, Cell(law.note, faint=True, left=True)])
+        self.table.show_rows(rows)
         self._selected()
         self.changed.emit()
 

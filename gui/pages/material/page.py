@@ -38,6 +38,7 @@ _NOTHING = (
     "Here will be the core's law: storage modulus G'(f) and loss factor η(f) with their bands, from the "
     "first segment on. Open a session (Ctrl+O), run an experiment, or add laws to compare on the right."
 )
+AMBIGUOUS = "ambiguous"
 _NO_FIT = "No fit yet: the first follows the first segment."
 _NEVER = "This session holds no fit."
 
@@ -277,15 +278,24 @@ def diagnosed_lines(shown: ShownDiagnosis) -> list[LawLine]:
     """The law that stands, and before it that without the effects accepted."""
     by_hand = ", by hand" if shown.asked is not None and shown.asked.by_hand else ""
     if stage_before(shown.found) is None:
-        return [LawLine(with_verdict(f"result{by_hand}", shown.found), _curve(shown.found.after), "model")]
+        return [LawLine(_in_legend(f"result{by_hand}", shown), _curve(shown.found.after), "model")]
     return [
         LawLine(BEFORE_DIAGNOSIS, _curve(shown.found.before), "model", dashed=True, width=1.5),
         LawLine(
-            with_verdict(f"result: with {law_words(shown.found)}{by_hand}", shown.found),
+            _in_legend(f"result: with {law_words(shown.found)}{by_hand}", shown),
             _curve(shown.found.after),
             "data",
         ),
     ]
+
+
+def _in_legend(title: str, shown: ShownDiagnosis) -> str:
+    """With what is to be known of the law: also that others explain the data as well as the one named."""
+    said, accepted = (
+        with_verdict(title, shown.found),
+        shown.asked is not None and shown.asked.accept is not None,
+    )
+    return f"{said} ({AMBIGUOUS})" if shown.found.verdict == "ambiguous" and not accepted else said
 
 
 def _conditions(state: SessionState | None, shown: ShownDiagnosis) -> Conditions:

@@ -276,7 +276,10 @@ def _free_folder(inside: Path) -> Path:
 
 
 def _read(path: Path, _: Progress) -> Drafts:
-    return Drafts.of(path)
+    drafts = Drafts.of(path)
+    # Looked up here, where nobody waits for it.
+    tuple(draft.asks for draft in drafts.all.values())
+    return drafts
 
 
 def _make(folder: Path, effect: str | None, seed: int, specimen: str, _: Progress) -> Path:

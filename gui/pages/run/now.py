@@ -6,7 +6,7 @@ from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
 from gui.channels import ChannelTable
-from gui.controller import AppController
+from gui.controller import BROKEN_OFF, AppController
 from gui.feeds.live import LiveFeed
 from gui.gauge import Gauge
 from gui.pages.run.overrule import OverruleRow
@@ -26,8 +26,6 @@ _COLUMNS = {
     "to / Hz": "Highest frequency",
     "steps": "Measured, of those planned",
 }
-BROKEN_OFF = ".running"
-"""Of the folder of a run that was not completed, beside its session."""
 _NOTHING = "No run and no session. How a run stands appears here: state, level, drive and limits, segments."
 
 
@@ -160,15 +158,20 @@ def go_on_words(session: Path) -> str:
 
 
 def path_words(live: LiveFeed) -> str:
-    """What stands between the stop button and the shaker, and what the window could not show."""
-    if live.ending is not None or live.stop_path is None:
-        said = "" if live.ending is not None else "Stop path: no rig is open yet, nothing is driven."
+    """What stands between the stop button and the shaker, and what the window could not show.
+
+    Of a run that is over and left no session to be shown in its place: what it left.
+    """
+    if live.ending is not None:
+        said = ending_words(live.ending)
+    elif live.stop_path is None:
+        said = "Stop path: no rig is open yet, nothing is driven."
     elif live.stop_path.ready:
         said = "Stop path: ready, a connection to the shaker of the window's own."
     else:
         said = f"Stop path: {live.stop_path.message}."
     if live.blocks_dropped:
         said += f" {live.blocks_dropped} blocks not shown; the session has them."
-    if live.recording is not None:
+    if live.recording is not None and live.ending is None:
         said += f"\nRecording: {live.recording.folder}"
     return said.strip()

@@ -240,7 +240,8 @@ class RunPage(Page):
         self.check.passed.connect(self._passed)
         self.check.objected.connect(self._objected)
         self.report_button.clicked.connect(self.export.report)
-        self.export.done.connect(controller.said)
+        for said in (self.export.began, self.export.done):
+            said.connect(controller.said)
         self.export.failed.connect(controller.refused)
 
     def _arrange(self) -> None:

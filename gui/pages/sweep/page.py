@@ -259,21 +259,24 @@ class SweepPage(Page):
         count, rms = len(fit.result.points), two_digits(fit.result.rms_percent)
         said = f"fit of {count} points, rms {rms} %"
         aside = int(self.seen.points.aside.sum())
-        diagnosed = state.contents.diagnosis
-        if diagnosed is not None and diagnosed.result is not None and stage_before(diagnosed.result):
+        doubt = self._doubt(state)
+        if doubt == BEFORE_DIAGNOSIS:
             said = f"rms {rms} % {BEFORE_DIAGNOSIS}"
         if aside:
             said += f", {aside} set aside"
-        if self._doubt(state):
+        if doubt == UNKNOWN:
             said += f", {UNKNOWN}"
         if self.model.failure:
             return f"{said}; no curve: {self.model.failure}"
         return f"{said} ..." if self.model.busy else said
 
     def _doubt(self, state: SessionState) -> str:
-        """Of the law whose response is drawn."""
-        shown = self.controller.rediagnosis.shown(state)
-        return UNKNOWN if shown is not None and shown.found.verdict == "unknown" else ""
+        """Of the law that is drawn: nothing explains its fit, or it lacks what the diagnosis found."""
+        shown, own = self.controller.rediagnosis.shown(state), state.contents.diagnosis
+        if shown is not None and shown.found.verdict == "unknown":
+            return UNKNOWN
+        found = own.result if own is not None else None
+        return BEFORE_DIAGNOSIS if found is not None and stage_before(found) is not None else ""
 
     @property
     def _session(self) -> Path | None:

@@ -12,6 +12,7 @@ from fitting.arrays import Array
 from gui.pages.sweep.points import Group, Index
 from gui.plots import Axis, Plot
 from gui.plots.curve import Symbol
+from gui.short_name import short_name
 from gui.theme import Role, current_theme
 
 CHOSEN = "point looked at"
@@ -111,10 +112,11 @@ class Key(QLabel):
     def show_key(self, entries: Iterable[tuple[str, Role, str]]) -> None:
         """Name, colour and sign of each."""
         theme = current_theme()
-        said = [
-            f"<span style='color:{theme.color(role).name()}'>{_unbroken(sign)}</span>&nbsp;{_unbroken(name)}"
-            for name, role, sign in entries
-        ]
+        said = []
+        for name, role, sign in entries:
+            color = theme.color(role).name()
+            words = _unbroken(short_name(name))
+            said.append(f"<span style='color:{color}'>{_unbroken(sign)}</span>&nbsp;{words}")
         self.setText("&ensp; ".join(said))
         self.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.setWordWrap(True)

@@ -12,8 +12,9 @@ from gui.file_stamp import Stamp
 from gui.mark import Mark
 from gui.pages.together.looked import Looked, look
 from gui.pairing import SPECIMEN_ENDING, PairedFile, fault_of
+from gui.short_name import short_name
 from gui.tables import Cell, ReadTable
-from gui.taking_together import ask_specimen, ask_together
+from gui.taking_together import ask_hammer, ask_specimen, ask_together
 from gui.together import Together
 from gui.widgets import button, tool
 from instrument.interchange.given import is_session
@@ -27,6 +28,15 @@ _COLUMNS = {
 _As = tuple[PairedFile, tuple[Stamp | None, ...]]
 """A file as it was written last."""
 _OWN = "its own"
+_TABLE_LETTERS = 32
+"""Of a name: what both files hold stands beside them."""
+_HAMMER = "Hammer test..."
+_HAMMER_TIP = (
+    "Of the bare plate that all files are of: its damping and its stiffness take part. A session that has "
+    "one, or the JSON of 'viscorig damping'"
+)
+_HAMMER_LETTERS = 22
+"""Of its file on the button: beside the others there is no more room."""
 _FAULTY = "\u2716 "
 
 
@@ -49,16 +59,22 @@ class ChosenFiles(QWidget):
             "Add files...", "Sweeps, sessions, tables of modes of one core (Ctrl+Shift+O)", "plus"
         )
         self.specimen = button("Specimen...", "Of the file selected; of all files where none is")
+        self.hammer = button(_HAMMER, _HAMMER_TIP, "hammer")
+        self.bare = tool("close", "Without the hammer test")
         self.up = tool("up", "Move the selected file up")
         self.remove = button("Remove", "Take the selected file away (Del)")
         self.fault = Mark()
         self.fault.setWordWrap(True)
+        # A long path has no place to be broken at, and would widen the window.
+        self.fault.setMinimumWidth(1)
         self._looked: dict[_As, Looked | str] = {}
         self._looking: dict[_As, _Look] = {}
         self._owned: dict[int, list[str]] = {}
         self._arrange()
         self.add.clicked.connect(self._ask_files)
         self.specimen.clicked.connect(self._ask_specimen)
+        self.hammer.clicked.connect(self._ask_hammer)
+        self.bare.clicked.connect(self._without_hammer)
         self.up.clicked.connect(self._move_up)
         self.remove.clicked.connect(self._remove)
         delete = QShortcut(QKeySequence.StandardKey.Delete, self.table)
@@ -117,6 +133,7 @@ class ChosenFiles(QWidget):
             self.table.selectRow(chosen)
         said = fault_of(files) or self._first_fault()
         self.fault.say(said, "bad" if len(files) > 1 else "faint")
+        self.fault.setToolTip(said)
         self.fault.setVisible(bool(said))
         self._show_buttons()
 
@@ -129,7 +146,13 @@ class ChosenFiles(QWidget):
     def _cells(self, number: int, file: PairedFile) -> list[Cell]:
         looked = self._looked.get(self._as_it_is(file), "" if _lacks(file) else "...")
         effects = self._owned.get(number, [])
-        named = file.specimen.name if file.specimen is not None else "" if _lacks(file) else _OWN
+        named = (
+            short_name(file.specimen.name, _TABLE_LETTERS)
+            if file.specimen is not None
+            else ""
+            if _lacks(file)
+            else _OWN
+        )
         if isinstance(looked, Looked):
             holds = Cell(f"{looked.specimen}; {looked.data}", left=True)
         elif looked in ("", "..."):
@@ -138,7 +161,7 @@ class ChosenFiles(QWidget):
             holds = Cell(f"{_FAULTY}{looked}", looked, left=True, fill="bad", alpha=0.2)
         return [
             Cell(str(number), ", ".join(effects), bold=bool(effects), edge="data" if effects else None),
-            Cell(file.data.name, str(file.data), left=True, bold=bool(effects)),
+            Cell(short_name(file.data.name, _TABLE_LETTERS), str(file.data), left=True, bold=bool(effects)),
             Cell(
                 named or f"{_FAULTY}none",
                 str(file.specimen or "The session's own" if named else "Choose one"),
@@ -155,12 +178,23 @@ class ChosenFiles(QWidget):
         self.specimen.setText("Specimen of all..." if row is None else f"Specimen of {row + 1}...")
         self.remove.setEnabled(row is not None)
         self.up.setEnabled(bool(row))
+        hammer = self.together.hammer
+        self.hammer.setEnabled(bool(files))
+        self.hammer.setText(short_name(hammer.name, _HAMMER_LETTERS) if hammer is not None else _HAMMER)
+        self.hammer.setToolTip(f"{_HAMMER_TIP}\n{hammer}" if hammer is not None else _HAMMER_TIP)
+        self.bare.setVisible(hammer is not None)
 
     def _ask_files(self) -> None:
         ask_together(self, self.together)
 
     def _ask_specimen(self) -> None:
         ask_specimen(self, self.together, self.table.selected)
+
+    def _ask_hammer(self) -> None:
+        ask_hammer(self, self.together)
+
+    def _without_hammer(self) -> None:
+        self.together.strike(None)
 
     def _row_activated(self, at: QModelIndex) -> None:
         ask_specimen(self, self.together, at.row())
@@ -178,7 +212,7 @@ class ChosenFiles(QWidget):
 
     def _arrange(self) -> None:
         buttons = QHBoxLayout()
-        for one in (self.add, self.specimen, self.up, self.remove):
+        for one in (self.add, self.specimen, self.up, self.remove, self.hammer, self.bare):
             buttons.addWidget(one)
         buttons.addStretch(1)
         column = QVBoxLayout(self)

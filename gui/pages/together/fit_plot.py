@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidg
 from gui.pages.together.fits import FAR_STD, FittedFile
 from gui.plots import Axis, Plot
 from gui.plots.curve import Symbol
+from gui.short_name import short_name
 from gui.theme import Role
 from gui.widgets import hint
 from instrument.results.set_aside import NAME
@@ -59,7 +60,7 @@ class FitPlot(QWidget):
     def show_files(self, fitted: Sequence[FittedFile], *, of_modes: bool) -> None:
         """Instead of those there were; the file chosen stays chosen where it is still there."""
         self._fitted, self._of_modes = fitted, of_modes
-        titles = [_EVERY, *(one.title for one in fitted)]
+        titles = [_EVERY, *(short_name(one.title) for one in fitted)]
         if [self.file.itemText(k) for k in range(self.file.count())] != titles:
             before = self.file.currentText()
             with QSignalBlocker(self.file):

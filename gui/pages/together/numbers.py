@@ -7,8 +7,10 @@ from dataclasses import dataclass
 from fitting.aside import DISTURBED
 from fitting.diagnosis.of_files import ALIKE, EACH, FILE
 from gui.pages.together.fits import FAR_STD, FittedFile
+from gui.short_name import short_name
 from gui.together import Fitted
 from instrument.facts.diagnosis import CandidateFitted, DiagnosisResult
+from instrument.facts.identification import IdentificationResult
 from instrument.facts.modal import ModalResult
 from instrument.facts.rows import AdjustedNumber, PointSetAside, StretchSetAside
 from instrument.results.diagnosis_words import probability_words
@@ -116,6 +118,8 @@ def headline(fit: Fitted) -> str:
     ]
     if fit.chi2_per_dof is not None:
         said.append(f"chi² per degree {format_number(fit.chi2_per_dof, 3)}")
+    if isinstance(fit, IdentificationResult) and fit.hammer is not None:
+        said.append("with the bare plate's hammer test")
     return ", ".join(said)
 
 
@@ -186,4 +190,4 @@ def _unit(unit: str) -> str:
 
 
 def _titled(number: int, files: Sequence[str]) -> str:
-    return f"{number} {files[number - 1]}" if number <= len(files) else str(number)
+    return f"{number} {short_name(files[number - 1])}" if number <= len(files) else str(number)

@@ -177,7 +177,7 @@ def test_an_effect_accepted_by_hand_is_fitted_and_the_material_follows(qtbot, wi
     assert page.finding.verdict.said.startswith("Ambiguous: added_mass")
     assert not page.candidates.decisions.any
     window.tabs.setCurrentWidget(material)
-    assert "result: with added_mass" in material.plots.names
+    assert "result: with added_mass (ambiguous)" in material.plots.names
     assert material.origin.said == ""
 
 

@@ -15,7 +15,7 @@ from gui.pages.diagnosis.residual_plots import ResidualPlots
 from gui.pages.diagnosis.stages import compared
 from gui.pages.law.curve import LawCurve
 from gui.pages.law.plots import LawLine, LawPlots
-from gui.pages.material.page import diagnosed_lines, notes_of
+from gui.pages.material.page import AMBIGUOUS, diagnosed_lines, notes_of
 from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
 
 
@@ -91,7 +91,7 @@ def test_what_is_less_likely_than_no_effect_is_not_drawn_as_found(made):
     assert "likeliest" in change.doubt.text()
     assert "found" not in [row.standing for row in ranked(found)]
     shown = ShownDiagnosis(found, "recorded")
-    assert [line.name for line in diagnosed_lines(shown)] == ["result"]
+    assert [line.name for line in diagnosed_lines(shown)] == [f"result ({AMBIGUOUS})"]
 
 
 def test_a_note_that_fit_and_diagnosis_have_in_common_is_said_once():
@@ -123,6 +123,30 @@ def test_what_is_accepted_as_nothing_has_no_residual_after_it(made, qtbot):
     plots.show_diagnosis(found)
     qtbot.waitUntil(lambda: plots.drawn)
     assert not any(plot.isHidden() for plot in plots.plots.values())
+
+
+def test_data_without_phase_leave_the_quantity_chosen_to_those_after_them(made, qtbot):
+    plots, found = made(ResidualPlots()), diagnosis()
+    plots.show_diagnosis(found)
+    for chosen in ("real and imaginary", "imaginary part"):
+        plots.quantity.setCurrentText(chosen)
+        plots.quantity.textActivated.emit(chosen)
+        plots.show_diagnosis(found.but(points=()))
+        assert plots.quantity.currentText() == "amplitude"
+        plots.show_diagnosis(found)
+        assert plots.quantity.currentText() == chosen
+
+
+def test_a_law_that_others_explain_as_well_says_so_in_the_legend():
+    found = diagnosis(verdict="ambiguous")
+    (_, line) = diagnosed_lines(ShownDiagnosis(found, "recorded"))
+    assert line.name.startswith("result: with ")
+    assert line.name.endswith(f"({AMBIGUOUS})")
+    (_, line) = diagnosed_lines(ShownDiagnosis(diagnosis(verdict="effect"), "recorded"))
+    assert AMBIGUOUS not in line.name
+    by_hand = DiagnosisAsked(Path("one.h5"), accept=("added_mass",))
+    (_, line) = diagnosed_lines(ShownDiagnosis(found, "made here", by_hand))
+    assert AMBIGUOUS not in line.name
 
 
 def test_a_persons_word_is_not_said_to_be_the_datas(made):

@@ -1,5 +1,6 @@
 """The page of the experiment by itself: files, dry run, start; what a run asks, and what is left of one."""
 
+import threading
 from collections import defaultdict
 from pathlib import Path
 from types import SimpleNamespace
@@ -8,6 +9,8 @@ import pytest
 from sessions import configuration
 
 from gui.controller import AppController
+from gui.form import draft
+from gui.form.fields import form_of
 from gui.pages.run import RunPage
 from gui.pages.run import page as module
 from gui.pages.run.check import Check
@@ -43,6 +46,21 @@ def test_an_experiment_is_proposed_to_be_kept_beside_its_file(opened, tmp_path):
         "hammer": True,
         "sweep": True,
     }
+
+
+def test_what_the_forms_ask_for_is_looked_up_where_nobody_waits(qtbot, page, tmp_path, monkeypatch):
+    in_window = []
+
+    def looked_up(model):
+        in_window.append(threading.current_thread() is threading.main_thread())
+        return form_of(model)
+
+    monkeypatch.setattr(draft, "form_of", looked_up)
+    path = write_case(tmp_path)
+    page.controller.open(path)
+    qtbot.waitUntil(lambda: page.files.path == path)
+    assert set(page.files.forms) == {"experiment", "rig", "specimen"}
+    assert in_window == [False, False, False]
 
 
 def test_a_check_is_a_dry_run_of_the_file_and_is_looked_at(opened):

@@ -67,6 +67,16 @@ def test_the_way_to_the_shaker_is_said_with_what_was_not_shown(stop_path, said):
     assert path_words(live).endswith("3 blocks not shown; the session has them.")
 
 
+def test_of_a_run_that_died_it_is_said_what_it_left_and_nothing_is_recorded_any_more():
+    ended = Ended("died", folder=Path("out/one.running"))
+    recording = SimpleNamespace(folder=Path("out/one.running"))
+    live = SimpleNamespace(ending=ended, stop_path=None, blocks_dropped=0, recording=recording)
+    assert path_words(live).splitlines() == [
+        "There is no session.",
+        "Broken off: to go on, choose one.running beside Begin.",
+    ]
+
+
 def test_a_broken_off_run_chosen_is_the_one_that_is_ordered(made, tmp_path):
     panel = made(StartPanel())
     assert not panel.start.isEnabled()

@@ -338,6 +338,8 @@ def test_a_fit_that_lacks_what_the_diagnosis_found_is_said_to_be_before_it(qtbot
     page = window.pages[1]
     qtbot.waitUntil(lambda: "rms" in page.response.model.text(), timeout=PATIENCE_MS)
     assert "% before the diagnosis" in page.response.model.text()
+    # Beside its line too: the points lie elsewhere.
+    assert page.seen.fit_name.endswith(", before the diagnosis")
 
 
 def test_a_fit_that_nothing_explains_says_so_wherever_it_is_drawn(qtbot, window, tmp_path):

@@ -123,6 +123,21 @@ def test_identified_by_the_button_it_shows_points_lines_and_the_law(qtbot, chose
     assert "identified here of 2 files" in material.origin.said
 
 
+def test_a_hammer_test_is_named_on_its_button_and_taken_away_by_its_cross(qtbot, chosen, tmp_path):
+    files = chosen.chosen
+    assert files.hammer.isEnabled()
+    assert not files.bare.isVisible()
+    chosen.together.strike(tmp_path / "bare plate of the fourth of May, hung by threads.h5")
+    assert files.hammer.text().startswith("bare plate")
+    assert files.hammer.text().endswith(".h5")
+    assert len(files.hammer.text()) < 25
+    assert "threads.h5" in files.hammer.toolTip()
+    qtbot.mouseClick(files.bare, LEFT)
+    assert chosen.together.hammer is None
+    assert files.hammer.text() == "Hammer test..."
+    assert not files.bare.isVisible()
+
+
 def test_one_file_alone_is_identified_too(qtbot, page, masses):
     page.together.add(masses[:1])
     qtbot.waitUntil(lambda: "..." not in page.chosen.table.texts(3))
@@ -209,6 +224,9 @@ def test_the_diagnosis_page_has_all_of_it(qtbot, diagnosed, results):
     assert there.title == "Diagnosis"
     assert there.candidates.table.texts(0)[0] == results["diagnosed"].candidates[0].name
     assert "2 files" in there.finding.origin.said
+    # Numbers of segments go on from file to file: whose a residual is, is said.
+    qtbot.waitUntil(lambda: there.residual.drawn)
+    assert {plot.y.label for plot in there.residual.plots.values()} == {"File 1", "File 2"}
 
 
 def test_a_session_opened_is_shown_and_what_was_found_is_had_back(qtbot, diagnosed, session_path):

@@ -51,6 +51,24 @@ def test_a_decade_names_three_of_its_lines(qapp):
     assert [text for text in said if text] == ["1", "2", "5"]
 
 
+@pytest.mark.parametrize(
+    ("low", "high", "said"),
+    [
+        (0.075, 0.152, ["0.08", "0.1", "0.12", "0.14"]),
+        (990.0, 1010.0, ["990", "995", "1000", "1005", "1010"]),
+        (2.0, 7.0, ["2", "3", "4", "5", "6", "7"]),
+    ],
+)
+def test_of_less_than_a_decade_there_are_numbers_enough_to_read_it(qapp, low, high, said):
+    axis = LogAxis("left")
+    axis.setLogMode(True)
+    ((spacing, values),) = axis.logTickValues(np.log10(low), np.log10(high), 300.0, [])
+    assert axis.logTickStrings(values, 1.0, spacing) == said
+    np.testing.assert_allclose(10.0 ** np.array(values), np.array(said, float))
+    axis.logTickValues(-2.0, 1.0, 300.0, [(1.0, [-2.0, -1.0, 0.0, 1.0])])
+    assert axis.logTickStrings([0.0, np.log10(3.0)], 1.0, 1.0) == ["1", ""]
+
+
 def test_a_number_that_people_write_without_a_power_has_none(qapp):
     axis = LogAxis("left")
     axis.setLogMode(True)

@@ -244,6 +244,7 @@ def test_an_engine_that_is_killed_is_said_to_have_died_and_the_client_silences_t
         wait_until(lambda: is_silent(rig), 1.0)
         end = ended(follow(engine))
     assert end.why == "died"
+    assert "; the shaker is silent; what is complete is in " in end.message
     assert f"viscorig recover {end.folder}" in end.message
 
 

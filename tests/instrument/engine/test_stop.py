@@ -8,8 +8,9 @@ import time
 import httpx
 import pytest
 from engine_cases import LONG, drive_v, ended, engine_of, engine_rig, follow, is_silent, told, wait_until
+from quick_engine import QUICK_ENGINE
 
-from instrument.engine import Order, client
+from instrument.engine import Engine, Order, client
 from instrument.engine.messages import OperatorAsked, StopPathChanged
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import PointMeasured
@@ -183,6 +184,18 @@ def test_a_stop_before_anything_is_driven_ends_the_run(tmp_path):
             end = ended(follow(engine))
         assert not rig.device.log
     assert (end.why, end.message) == ("stopped by the user", "nothing was measured")
+
+
+def test_a_shaker_that_the_run_let_go_of_and_that_is_away_by_now_is_no_alarm(tmp_path):
+    with engine_rig(tmp_path) as (rig, experiment):
+        engine = Engine.start(Order(experiment, tmp_path, ("sweep",)), QUICK_ENGINE)
+        ended(follow(engine))
+        wait_until(lambda: is_silent(rig))
+    stopped = engine.stop()
+    engine.close()
+    assert not stopped.silent
+    assert stopped.message.startswith("the run had let go of the shaker at rest before; asked again: ")
+    assert "no connection" in stopped.message
 
 
 def test_where_the_shaker_takes_no_second_connection_the_client_says_so_and_the_engine_stops_it(

@@ -15,7 +15,7 @@ from instrument.files.specimen_file import read_specimen
 from instrument.interchange.csv_export import export_csv
 from instrument.interchange.exporting import export_session
 from instrument.interchange.files_of import files_of
-from instrument.interchange.given import at_its_spot, read_given
+from instrument.interchange.given import at_its_spot, hammer_of, read_given
 from instrument.interchange.identified import session_sweep
 from instrument.interchange.importing import one_table
 from instrument.interchange.read_uff import read_uff
@@ -121,6 +121,16 @@ def test_several_spots_of_a_file_take_a_hammer_test(tmp_path):
     given = read_given(tmp_path / "sweep.csv", tmp_path / "plate.toml", tmp_path / "hammer.json")
     assert sorted(set(given.sweep.pickup)) == [0, 1]
     assert given.modes.frequency_hz.tolist() == [18.0]
+
+
+def test_a_session_lends_its_hammer_test_to_other_data(session_path, finished):
+    with SessionFile(session_path) as file:
+        damping = contents_of(file, with_hits=False).damping.result
+    hammer = hammer_of(session_path)
+    assert hammer.frequency_hz.tolist() == [m.frequency_hz for m in damping.modes if m.accepted]
+    assert len(hammer.ratios) == len(hammer.frequency_hz) > 0
+    with pytest.raises(BadInput, match=r"no accepted mode of a bare plate in this session"):
+        hammer_of(finished.session)
 
 
 def test_known_masses_in_another_program_s_file_are_asked_about_too(tmp_path):

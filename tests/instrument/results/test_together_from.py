@@ -1,13 +1,16 @@
 """What is said of several files, point by point."""
 
+import numpy as np
 from diagnosis_cases import diagnosed, sweep
 
 from fitting.diagnosis.joining import joined
+from instrument.files.hammer_file import HammerModes
 from instrument.files.specimen_file import read_specimen
+from instrument.hammer_test.expected import expected_modes_hz
 from instrument.models.files import File
-from instrument.models.together import DiagnosedTogether
+from instrument.models.together import DiagnosedTogether, identify_together
 from instrument.paper_case import case_file
-from instrument.results.together_from import diagnosed_together_from
+from instrument.results.together_from import diagnosed_together_from, identified_together_from
 
 
 def test_every_point_diagnosed_tells_its_file_and_spot():
@@ -28,3 +31,13 @@ def test_every_point_diagnosed_tells_its_file_and_spot():
     assert sorted(set(told), key=told.index) == [(1, 0), (1, 2), (2, None)]
     segment = {(1, 0): (1, 2, 3), (1, 2): (4, 5, 6), (2, None): (7, 8, 9)}
     assert all(p.segment in segment[p.file, p.pickup] for p in found.points)
+
+
+def test_a_hammer_test_that_took_part_is_told_of_several_files_too(coarse):
+    measured_hz = expected_modes_hz(coarse, None, 300.0)
+    hammer = HammerModes(measured_hz, np.full(len(measured_hz), 2e-3), None)
+    files = [File(sweep(), coarse, name, k) for k, name in enumerate(("a.csv", "b.csv"), start=1)]
+    told = identified_together_from(identify_together(files, hammer=hammer), files).hammer
+    assert [m.measured_hz for m in told.modes] == measured_hz.tolist()
+    assert abs(told.substrate_young_over_stated - 1) < 0.02
+    assert identified_together_from(identify_together(files), files).hammer is None

@@ -8,7 +8,9 @@ import pytest
 from formula_rig import formula_rig
 
 from instrument.cli.main import run
+from instrument.errors import BadInput
 from instrument.run.experiment import run_experiment
+from instrument.session.storage import SessionFile
 from instrument.stream.derived import FitUpdated
 
 
@@ -105,6 +107,19 @@ def test_a_damaged_session_is_refused_in_one_line(session, tmp_path, capsys, dam
         assert status == 2, (command, error)
         assert error.startswith("viscorig: "), command
         assert error.count("\n") == 1, (command, error)
+
+
+def test_what_cannot_be_opened_is_said_for_people(session, tmp_path):
+    cut, folder, other = (tmp_path / name for name in ("cut.h5", "folder.h5", "other.h5"))
+    shutil.copy(session, cut)
+    truncated(cut)
+    folder.mkdir()
+    other.write_bytes(b"no" * 2000)
+    whole = f"it ends after 3,000 of {session.stat().st_size:,} bytes, expected all of it: copy it again"
+    for path, why in ((cut, whole), (folder, "a folder"), (other, "what is in it is no HDF5")):
+        with pytest.raises(BadInput) as refused:
+            SessionFile(path)
+        assert str(refused.value) == f"{path}: not a session file: {why}"
 
 
 @pytest.mark.parametrize("dropped", ["AcquisitionBegan", "RangeSet", "StepBegan"])
