@@ -110,10 +110,11 @@ def test_a_recorded_session_replays_to_the_same_events(capsys, monkeypatch, file
     # Words since of the ranking; `instrument/planning/reasons.py` has tests of its own.
     found["diagnose"].pop("next_measurement", None)
     if same_arithmetic("small"):
-        # On a machine like the one that recorded it, before rivals were followed to their end: the search
-        # finds more beside the best since.
+        # On a machine like the one that recorded it, before what may be left of a transient was in a reading's
+        # error, and rivals were followed to their end. What was commanded and when it was read is as it was.
         assert not equal
-        assert [difference.split(".")[0] for difference in apart] == ["DiagnosisFound"]
+        since = {"StepSettled", "PointMeasured", "CalibrationFound", "FitUpdated", "DiagnosisFound"}
+        assert {difference.split(".")[0] for difference in apart} <= since
     assert_kept("replay", found, SEARCHED)
 
 

@@ -1,6 +1,7 @@
 """From raw events to derived ones. Live runs and replays go through this and nothing else."""
 
 import cmath
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
 
@@ -51,8 +52,13 @@ more, a base that rocks some hundredths. A choice."""
 class Analysis:
     """Follows a whole session."""
 
-    def __init__(self, setup: Setup) -> None:
+    def __init__(self, setup: Setup, settled_at: Mapping[int, frozenset[int]] | None = None) -> None:
+        """`settled_at`: of a recorded run's steps the samples where they had settled, as it saw that.
+
+        What followed in its recording follows from that; a later version may wait longer.
+        """
         self._setup = setup
+        self._settled_at = settled_at or {}
         self._acquisition: AcquisitionBegan | None = None
         self._range: RangeSet | None = None
         self._range_names: tuple[str, ...] = ()
@@ -237,6 +243,7 @@ class Analysis:
             self._signal_level,
             self._latest,
             self._temperature_c,
+            self._settled_at.get(began.step),
         )
 
     def _calibration(self, range_name: str) -> Calibration | None:

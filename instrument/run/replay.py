@@ -22,6 +22,7 @@ from instrument.stream.derived import (
     LimitWarned,
     PointMeasured,
     StepsChosen,
+    StepSettled,
 )
 from instrument.stream.event import Derived, Event, from_line, to_line
 from instrument.stream.raw import (
@@ -79,7 +80,8 @@ def _replay(
     configuration = session.configuration
     specimen = configuration.the_specimen()
     setup, table = setup_of(configuration), configuration.experiment.sweep
-    analysis = Analysis(setup)
+    settled_at = _settled_at(session)
+    analysis = Analysis(setup, settled_at)
     adaptive = table is not None and table.plan == "adaptive"
     chooser = None
     if adaptive and table is not None and isinstance(specimen, Specimen):
@@ -100,7 +102,7 @@ def _replay(
         if isinstance(event, SessionBegan):
             # The run is carried on with what is recorded: a broken-off step ends here, and what was found by
             # then and did not get onto the disk is found again.
-            expected, analysis = [], Analysis(setup)
+            expected, analysis = [], Analysis(setup, settled_at)
             for earlier in islice(session.events(with_samples=False), before):
                 analysis.restore(earlier)
         watch(event)
@@ -128,6 +130,15 @@ def _replay(
         again.differences.append(f"computed but not recorded: {to_line(expected[0])[:200]}")
     again.points = list(analysis.points)
     return again
+
+
+def _settled_at(session: SessionFile) -> dict[int, frozenset[int]]:
+    """Of every step that settled, where it did: what was recorded behind that is its reading."""
+    found: dict[int, frozenset[int]] = {}
+    for event in session.events(with_samples=False):
+        if isinstance(event, StepSettled):
+            found[event.step] = found.get(event.step, frozenset()) | {event.sample}
+    return found
 
 
 def _compare(again: Replayed, computed: Derived | None, recorded: Derived) -> None:

@@ -74,6 +74,7 @@ class StepAnalysis:
         signal_level: float | None,
         latest: int,
         temperature_c: float | None = None,
+        settled_at: frozenset[int] | None = None,
     ) -> None:
         self._began, self._settings, self._scaling = began, settings, scaling
         self._rate = sample_rate_hz
@@ -82,6 +83,8 @@ class StepAnalysis:
         self._signal_level = signal_level
         # Before the step, where no input of the front-end has it during the dwell.
         self._read_c = temperature_c
+        # When a recorded run began to read; None where that is for this analysis to say.
+        self._settled_at = settled_at
         self._guard = Guard(began, settings)
         self._samples = Samples(3)
         self._command: ShakerCommanded | None = None
@@ -179,6 +182,8 @@ class StepAnalysis:
         block_s = count / self._rate
         waited = (end - self._from) / self._rate
         settled = self._settling.add(complex(velocity / base), noise, block_s)
+        if self._settled_at is not None:
+            settled = end in self._settled_at
         held = abs(error) <= self._settings.control.tolerance or not self._may_correct()
         if settled and held:
             self._dwell(waited)

@@ -26,12 +26,23 @@ SETTINGS = SweepSettings()
 
 
 def follow(
-    station, step=None, settings=SETTINGS, *, wider=(), calibration=None, light=0.8, told=True, most=200
+    station,
+    step=None,
+    settings=SETTINGS,
+    *,
+    wider=(),
+    calibration=None,
+    light=0.8,
+    told=True,
+    most=200,
+    settled_at=None,
 ):
     """Do what the step asks for until it is done or gives up; every event."""
     step = step or began()
     ask = (lambda name: calibration) if calibration else None
-    analysis = StepAnalysis(step, settings, SCALING, RATE, RANGE, wider, ask, light, station.now)
+    analysis = StepAnalysis(
+        step, settings, SCALING, RATE, RANGE, wider, ask, light, station.now, settled_at=settled_at
+    )
     events = list(analysis.commanded(station.command(step.frequency_hz, step.drive_v, told=told)))
     for _ in range(most):
         if analysis.done or of_kind(events, LimitExceeded) or of_kind(events, RangeRequested):
@@ -83,6 +94,20 @@ def test_what_may_be_left_of_a_transient_is_in_the_readings_error():
     assert off[0] < 3 * at_rest.velocity_std_m_s < 0.002 * abs(at_rest.velocity_m_s)
     assert off[1] < 3 * moving.velocity_std_m_s < abs(moving.velocity_m_s)
     assert moving.velocity_std_m_s > 20 * at_rest.velocity_std_m_s
+
+
+def test_a_recorded_step_is_read_when_it_was_though_it_would_be_waited_for_now():
+    """Later samples may not be there: an earlier version read sooner."""
+    earlier = follow(
+        Station(stirred=1.0, gain_m_s2_v=9.81 / 1.9), settings=replace(SETTINGS, settle=Settle(0.1))
+    )
+    (settled,) = of_kind(earlier, StepSettled)
+    again = follow(Station(stirred=1.0, gain_m_s2_v=9.81 / 1.9), settled_at=frozenset({settled.sample}))
+    assert (
+        point_of(again).sample
+        == point_of(earlier).sample
+        < point_of(follow(Station(stirred=1.0, gain_m_s2_v=9.81 / 1.9))).sample
+    )
 
 
 def test_the_level_is_corrected_from_a_drive_that_is_far_off():
