@@ -98,16 +98,13 @@ def test_what_may_be_left_of_a_transient_is_in_the_readings_error():
 
 def test_a_recorded_step_is_read_when_it_was_though_it_would_be_waited_for_now():
     """Later samples may not be there: an earlier version read sooner."""
-    earlier = follow(
-        Station(stirred=1.0, gain_m_s2_v=9.81 / 1.9), settings=replace(SETTINGS, settle=Settle(0.1))
-    )
+    hasty = replace(SETTINGS, settle=Settle(0.1))
+    rung = {"stirred": 1.0, "gain_m_s2_v": 9.81 / 1.9}
+    earlier = follow(Station(**rung), settings=hasty)
     (settled,) = of_kind(earlier, StepSettled)
-    again = follow(Station(stirred=1.0, gain_m_s2_v=9.81 / 1.9), settled_at=frozenset({settled.sample}))
-    assert (
-        point_of(again).sample
-        == point_of(earlier).sample
-        < point_of(follow(Station(stirred=1.0, gain_m_s2_v=9.81 / 1.9))).sample
-    )
+    again = point_of(follow(Station(**rung), settled_at=frozenset({settled.sample})))
+    assert again.sample == point_of(earlier).sample < point_of(follow(Station(**rung))).sample
+    assert again.velocity_std_m_s == pytest.approx(point_of(earlier).velocity_std_m_s)
 
 
 def test_the_level_is_corrected_from_a_drive_that_is_far_off():
