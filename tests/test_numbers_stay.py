@@ -111,7 +111,8 @@ def test_a_recorded_session_replays_to_the_same_events(capsys, monkeypatch, file
     found["diagnose"].pop("next_measurement", None)
     if same_arithmetic("small"):
         # On a machine like the one that recorded it, before what may be left of a transient was in the
-        # readings' errors, and rivals were followed to their end. What was commanded and when it was read is as it was.
+        # readings' errors, and rivals were followed to their end. What was commanded, and when it was read,
+        # is as it was.
         assert not equal
         since = {"StepSettled", "PointMeasured", "CalibrationFound", "FitUpdated", "DiagnosisFound"}
         assert {difference.split(".")[0] for difference in apart} <= since
