@@ -1,8 +1,8 @@
 """How long a step is expected to take, as the run itself decides that it has come to rest.
 
-`settling` bounds what is left of a transient by its drift from block to block: with q = e^{-sigma T} that
-counts q / (1 - q) times, so that a slow decay has to wait for much less drift than a fast one. A drift that
-begins with the share s of the response is let go of after k blocks of length T, where
+`settling` bounds what is left of a transient by its drift: with q = e^{-sigma T} what drifts from block to
+block counts q / (1 - q) times, so that a slow decay has to wait for much less drift than a fast one. A drift
+that begins with the share s of the response is let go of after k blocks of length T, where
 
     s q / (1 - q) q^k = tolerance
 """
