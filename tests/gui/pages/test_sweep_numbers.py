@@ -321,7 +321,8 @@ def test_settling_is_followed_as_the_measurement_saw_it(index):
             pass
         if isinstance(event, StepSettled):
             last = following.course.standings[-1]
-            assert 100 * last.remaining == pytest.approx(event.remaining_percent, rel=1e-9)
+            # The rounding of a fit's noise is in the bound: of readings without noise that is all there is.
+            assert 100 * last.remaining == pytest.approx(event.remaining_percent, rel=1e-9, abs=1e-6)
             assert last.seconds == pytest.approx(event.seconds)
             compared += 1
     assert compared > 10
