@@ -150,6 +150,7 @@ class SessionState:
         self.readings = Readings()
         self.time_to_go = TimeToGo()
         self.acquisition: AcquisitionBegan | None = None
+        self._latest = 0
         self.range: RangeSet | None = None
         self.signal_level: float | None = None
         self.fits: list[FitUpdated] = []
@@ -245,13 +246,16 @@ class SessionState:
             case SessionBegan() if self.log.began is None:
                 self.log.began = datetime.fromisoformat(event.utc)
             case AcquisitionBegan():
-                self.acquisition, self.step = event, None
+                self.acquisition, self.step, self._latest = event, None, 0
+            case BlockAcquired():
+                self._latest = event.first_sample + event.samples
             case RangeSet():
                 self.range = event
             case SignalLevelRead():
                 self.signal_level = event.value
             case StepBegan() if self.acquisition is not None:
-                self.step = Step(event, self.acquisition, self._scaling(self.acquisition))
+                scaling = self._scaling(self.acquisition)
+                self.step = Step(event, self.acquisition, scaling, self._latest)
             case FitStarted():
                 self.fit_running = event.number
             case FitUpdated():

@@ -48,6 +48,8 @@ class Step:
     began: StepBegan
     acquisition: AcquisitionBegan
     scaling: Scaling
+    latest: int = 0
+    """The sample after the latest one when it began."""
     commands: list[ShakerCommanded] = field(default_factory=list)
     asked: list[DriveRequested | RangeRequested] = field(default_factory=list)
     """Corrections."""
@@ -121,7 +123,7 @@ class Step:
     def _end(self) -> int:
         """The sample after the latest one."""
         if not self._heard:
-            return 0
+            return self.latest
         return self._heard[-1].block.first_sample + self._heard[-1].block.samples
 
     def phasors(self) -> tuple[Array, NDArray[np.complex128]]:
