@@ -18,6 +18,8 @@ MARKED_DISTORTION = 0.05
 """Of the fundamental: from there on a point says so. A choice."""
 FLAT_DISTORTION = 0.02
 """Less than this a flat top does not make."""
+_OVER_NOISE = 2.0
+"""Times what noise alone makes of all harmonics together: of four that is one in ten thousand."""
 _TOP, _SIDE = 0.02, 0.125
 """A sine is within 2 % of its amplitude of one peak for 6.4 % of the time; one whose peak is cut by a tenth
 for 14 %, and so is none with less than 7 % of a harmonic. A choice."""
@@ -38,6 +40,14 @@ def frequency_off(base: Array, first: int, sample_rate_hz: float, frequency_hz: 
     off = float(np.angle(b * np.conj(a))) * turns_to_relative
     noise = float(np.hypot(a_std / max(abs(a), _TINY), b_std / max(abs(b), _TINY))) * turns_to_relative
     return off, noise
+
+
+def distorted(fit: SineFit) -> tuple[bool, ...]:
+    """Of each channel whether its harmonics stand out of the noise and are more than `MARKED_DISTORTION`."""
+    higher = fit.harmonics.shape[1] - 1
+    noise = np.sqrt(2 * higher) * fit.std / np.maximum(np.abs(fit.phasor), _TINY)
+    more = np.sqrt(np.maximum(fit.distortion**2 - noise**2, 0.0))
+    return tuple((more > MARKED_DISTORTION) & (fit.distortion > _OVER_NOISE * noise))
 
 
 def is_flat(x: Array, fit: SineFit, channel: int) -> bool:

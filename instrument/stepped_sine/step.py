@@ -23,9 +23,9 @@ from instrument.stepped_sine.sine_fit import SineFit, sine_fit
 from instrument.stepped_sine.soundness import (
     CLEAR,
     FLAT_DISTORTION,
-    MARKED_DISTORTION,
     MARKED_OFF,
     MOST_OFF,
+    distorted,
     frequency_off,
     is_flat,
 )
@@ -253,9 +253,11 @@ class StepAnalysis:
             self._remarks.append("velocity has a flat top: does the laser or its input saturate?")
         if abs(off) > MARKED_OFF and abs(off) > CLEAR * noise:
             self._remarks.append(f"frequency {100 * off:+.2g} % off by the front-end's clock")
-        for name, distortion in zip(("base", "velocity"), fit.distortion[:2], strict=True):
-            if distortion > MARKED_DISTORTION:
-                self._remarks.append(f"{name} distorted: harmonics of {100 * distortion:.2g} %")
+        for name, channel, marked in zip(("base", "velocity"), (0, 1), distorted(fit), strict=False):
+            if marked:
+                self._remarks.append(
+                    f"{name} distorted: harmonics of {100 * float(fit.distortion[channel]):.2g} %"
+                )
         return []
 
     def _point(self, first: int, x: Array, fit: SineFit, error: float) -> PointMeasured:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from instrument.stepped_sine.sine_fit import sine_fit
-from instrument.stepped_sine.soundness import frequency_off, is_flat
+from instrument.stepped_sine.soundness import distorted, frequency_off, is_flat
 
 RATE, F = 8192.0, 20.3
 T = np.arange(8000) / RATE
@@ -48,3 +48,17 @@ def test_a_harmonic_of_seven_percent_is_not(order, turned):
     angle = 2 * np.pi * F * T
     assert not flat(np.sin(angle) + 0.07 * np.sin(order * angle + turned))
     assert not flat(np.sin(angle))
+
+
+@pytest.mark.parametrize(
+    ("harmonic", "noise", "marked"), [(0.0, 0.03, False), (0.25, 0.03, True), (0.03, 0.0, False)]
+)
+def test_noise_is_no_distortion(harmonic, noise, marked):
+    """Noise of each part of the fundamental; five harmonics of it together look like 8 %."""
+    angle, rng = 2 * np.pi * F * T, np.random.default_rng(4)
+    found = 0
+    for _ in range(20):
+        x = np.sin(angle) + harmonic * np.sin(3 * angle)
+        x = x + noise * np.sqrt(len(T) / 2) * rng.standard_normal(len(T))
+        found += distorted(sine_fit(x[None], 0, RATE, F))[0]
+    assert found == (20 if marked else 0)
