@@ -164,11 +164,14 @@ class Nuisances:
         )
 
     def _differences(self, z: Array) -> Array:
-        found = np.zeros((len(self), len(self._stated)), self._stated.dtype)
+        by = {}
         for k in self._of_plate:
             up, down = z.copy(), z.copy()
             up[k], down[k] = z[k] + _H, z[k] - _H
-            found[k] = (self._coefficients(up) - self._coefficients(down)) / (2 * _H)
+            by[k] = (self._coefficients(up) - self._coefficients(down)) / (2 * _H)
+        # A loss makes some complex.
+        found = np.zeros((len(self), len(self._stated)), np.result_type(self._stated, *by.values()))
+        found[list(by)] = list(by.values())
         return found
 
     def change(self, plate: EnrichedReducedPlate, z: Array) -> Change:

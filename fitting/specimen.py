@@ -58,6 +58,8 @@ class Face:
     poisson: float
     density_kg_m3: float
     loss_factor: float = 0.0
+    loss_is_stated: bool = False
+    """Whether nothing is known of it but that: a bare metal loses something, and so does its clamp."""
     rolled: Orthotropy | None = None
     """None: isotropic."""
     young_per_k: float | None = None

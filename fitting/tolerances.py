@@ -70,9 +70,14 @@ STATED: dict[str, StatedNumber] = {s.name: s for s in _STATED}
 OF_THEORY = {
     "held_width": StatedNumber("held_width", "m", 0.0, "what clamps do to a beam's width, as a shorter span"),
     "core_stretch": StatedNumber("core_stretch", "1", 0.0, "how far a beam's core lets its faces move apart"),
+    "metal_loss": StatedNumber(
+        "metal_loss", "1", 0.0, "what a beam's metal and its clamp lose by themselves"
+    ),
     "free_edges": StatedNumber("free_edges", "1", 0.0, "what free edges of a pair's discs take of G A/t"),
 }
 """Numbers that a theory leaves open: nobody states them, and no file names them."""
+ADDED = ("gain", "metal_loss")
+"""Numbers without a unit that are off by so much; the others are by a factor."""
 
 OF_CHANNELS = ("gain", "delay", "phase")
 """Numbers of what reads it; amplitudes feel the first alone."""

@@ -9,6 +9,7 @@ from fitting.arrays import Array
 from fitting.mesh import shift_of
 from fitting.nuisance import Nuisance
 from fitting.specimen import Glue, Specimen, StatedSpecimen
+from fitting.tolerances import ADDED
 
 
 @dataclass(frozen=True)
@@ -58,7 +59,7 @@ def _one(specimen: StatedSpecimen, n: Nuisance, z: float, error: float) -> Adjus
 
 def is_relative(n: Nuisance) -> bool:
     """Whether a number is moved in its logarithm; else by so much."""
-    return n.unit == "1" and n.kind != "gain"
+    return n.unit == "1" and n.kind not in ADDED
 
 
 def stated_number(specimen: StatedSpecimen, n: Nuisance) -> tuple[float, float, str]:

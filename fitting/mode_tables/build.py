@@ -24,6 +24,7 @@ from fitting.structures import AnySpecimen
 from fitting.structures.small import nuisances_of as small_nuisances_of
 from fitting.structures.small import widened_system_of
 from fitting.tolerances import PLATE
+from fitting.unstated_damping import with_unstated_damping
 
 MODULI_PA = (1e5, 6e5, 3e6, 2e7)
 """Whose real modes a plate is spanned by."""
@@ -40,7 +41,7 @@ Widen = Callable[[Specimen, Array], EnrichedReducedPlate]
 def member_of(table: ModalTable, specimen: AnySpecimen, widen: Widen | None = None) -> Member:
     """A table with its specimen; `widen` where effects are to be tried on a plate."""
     if isinstance(specimen, Specimen):
-        return _of_plate(table, specimen, widen)
+        return _of_plate(table, with_unstated_damping(specimen), widen)
     parts = specimen.parts()
     stated = small_nuisances_of(specimen, parts, has_phase=False)
     own = replace(stated, each=tuple(n for n in stated.each if n.kind in specimen.numbers))

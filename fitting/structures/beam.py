@@ -20,7 +20,13 @@ from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.model_error import ModelError
 from fitting.specimen import METAL_PER_K, Core, Drive, Face, PlacedMass, Reading, Specimen
 from fitting.structures.beam_apart import APART_WITHIN, open_by_poisson
-from fitting.structures.beam_error import HELD_WIDTH_WITHIN, free_layer_error, sandwich_error, shortened_m
+from fitting.structures.beam_error import (
+    HELD_WIDTH_WITHIN,
+    METAL_LOSS,
+    free_layer_error,
+    sandwich_error,
+    shortened_m,
+)
 from fitting.structures.beam_parts import PARTS, carrying, parts_of
 from fitting.structures.beam_section import BeamSection
 from fitting.structures.small import Parts
@@ -148,9 +154,16 @@ class Beam:
         wide = ("width",) if self.force_m is not None else ()
         held = ("held_width",) if _HELD_ENDS[self.boundary] and not self.slender else ()
         across = ("core_stretch",) if self.parts_faces else ()
+        lossy = () if self.states_loss else ("metal_loss",)
         carried = ("mass",) if self.masses else ()
         each = (f"{layer}_{n}" for layer, numbers in layers for n in numbers)
-        return (*each, "length", *wide, *held, *across, *carried)
+        return (*each, "length", *wide, *held, *across, *lossy, *carried)
+
+    @property
+    def states_loss(self) -> bool:
+        """Whether it is known what its metal loses: a core's loss is what is left beside that."""
+        faces = (self.substrate, self.constraining)
+        return self.exact or any(f is not None and f.loss_is_stated for f in faces)
 
     @property
     def parts_faces(self) -> bool:
@@ -347,7 +360,8 @@ class Beam:
         found = {key: value * float(np.exp(by.get(f"{name}_{key}", 0.0))) for key, value in values.items()}
         if isinstance(layer, Face):
             found["young"] *= layer.warmed(self.temperature_c, by.get(f"{name}_young_per_k", 0.0))
-        return found | {"poisson": layer.poisson, "loss": getattr(layer, "loss_factor", 0.0)}
+            found["loss"] = layer.loss_factor + by.get("metal_loss", 0.0)
+        return found | {"poisson": layer.poisson}
 
     def tolerance(self, name: str) -> float:
         """Named, else typical; of `held_width` what the theory leaves open, however exact the beam is."""
@@ -357,6 +371,8 @@ class Beam:
             return self._stretch_open
         if self.exact:
             return 0.0
+        if name == "metal_loss":
+            return METAL_LOSS
         if name == "mass":
             weighed, laid = (self.tolerances.get(n, STATED[n].typical) for n in ("mass", "place"))
             return float(np.hypot(weighed, _BY_PLACE * laid / self.span_m))
@@ -378,7 +394,7 @@ class Beam:
         others = {"gain": (1.0, 1.0, "1"), "delay": (0.0, 1e6, "us"), "phase": (0.0, 180 / np.pi, "deg")}
         others |= {"length": (self.length_m, 1e3, "mm"), "width": (self.width_m, 1e3, "mm")}
         others |= {name: (x, 1e3, "mm") for name, x in self.places.items()}
-        others["core_stretch"] = 1.0, 1.0, "1"
+        others["core_stretch"], others["metal_loss"] = (1.0, 1.0, "1"), (0.0, 1.0, "1")
         others["mass"] = sum(m.mass_kg for m in self.masses), 1e3, "g"
         others["held_width"] = (self.held_width_m if self.held_width else 0.0, 1e3, "mm")
         if kind in others:

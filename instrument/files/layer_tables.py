@@ -22,7 +22,8 @@ class StatedLayer(TomlTable):
     poisson: Poisson
     """Of an orthotropic layer nu_xy: how much narrower it gets as it is stretched along its own x."""
     density_kg_m3: Positive
-    loss_factor: NotNegative = 0.0
+    loss_factor: NotNegative | None = None
+    """Left out: none, but for what a beam's metal may lose."""
     young_percent_per_k: Annotated[float, Field(ge=-1, le=1, allow_inf_nan=False)] | None = None
     """Change of Young's modulus with temperature, for data of several; left out: a metal's."""
     young_at_c: Annotated[float, Field(gt=-100, lt=200, allow_inf_nan=False)] | None = None
@@ -58,7 +59,8 @@ class StatedLayer(TomlTable):
             young_pa=young * 1e9,
             poisson=self.poisson,
             density_kg_m3=self.density_kg_m3,
-            loss_factor=self.loss_factor,
+            loss_factor=self.loss_factor or 0.0,
+            loss_is_stated=self.loss_factor is not None,
             rolled=self._own_axes(),
             young_per_k=None if self.young_percent_per_k is None else 1e-2 * self.young_percent_per_k,
             young_at_c=METAL_AT_C if self.young_at_c is None else self.young_at_c,

@@ -56,6 +56,31 @@ def test_two_lengths_share_a_core_and_not_a_length():
     assert {"length [1]", "length [2]"} <= set(names)
 
 
+def test_what_a_metal_may_lose_is_in_the_band_of_a_core_that_loses_little():
+    firm = LAWS["fractional-zener"](2e7, 4e7, 1e-4, 0.3)
+    lossy = replace(ALUMINIUM, loss_factor=1.5e-3)
+    rows = table(replace(beam(law=firm), substrate=lossy, constraining=lossy), 6, np.random.default_rng(1))
+    omega = 2 * np.pi * np.array([80.0])
+    off = {}
+    for known in (True, False):
+        stated = beam(law=firm)
+        metal = replace(ALUMINIUM, loss_is_stated=known)
+        found = fit_modes([rows], [replace(stated, substrate=metal, constraining=metal)])
+        error = found.uncertainty.law_band(found.law, omega)[1]
+        off[known] = (found.law.storage_and_loss(omega)[1] - firm.storage_and_loss(omega)[1]) / error
+    assert off[True] > 3
+    assert abs(off[False]) < 2
+
+
+def test_a_plate_of_which_no_ratios_are_stated_rings_too():
+    plate = replace(PLATE, exact=False, modal_ratios=())
+    rows = ModalTable(np.arange(1.0, 7), np.full(6, 50.0), np.full(6, 0.1))
+    names = {n.name for n in member_of(rows, plate).stated.each}
+    assert {f"damping_{k}" for k in range(1, 7)} <= names
+    none = member_of(rows, replace(plate, modal_ratios=(0.0,)))
+    assert not any(n.name.startswith("damping") for n in none.stated.each)
+
+
 def test_one_mode_cannot_carry_four_parameters():
     one = replace(table(beam(), 1, np.random.default_rng(0)), name="t.csv")
     with pytest.raises(TooFewPoints, match=r"t\.csv: 1 mode with 2 numbers .* expected 3 modes"):
@@ -152,7 +177,7 @@ PLATE = Specimen(
 
 def test_a_plate_s_modes_are_those_of_all_its_degrees_of_freedom():
     rows = ModalTable(np.arange(1.0, 7), np.full(6, 50.0), np.full(6, 0.1))
-    member = member_of(rows, PLATE)
+    member = member_of(rows, replace(PLATE, modal_ratios=(0.0,)))
     found, true = member.logs(LAW, np.zeros(13)), complex_modes(Plate(tapped(PLATE)), LAW, 6)
     np.testing.assert_allclose(np.exp(found.real), [m.frequency_hz for m in true], rtol=1e-5)
     np.testing.assert_allclose(np.exp(found.imag / member.kappa), [m.loss_factor for m in true], rtol=1e-4)

@@ -30,6 +30,19 @@ def test_a_bare_beam_is_euler_and_bernoulli_s(ends):
     assert found == pytest.approx([b**2 / 0.2**2 * root / (2 * np.pi) for b in BETA_L[ends]], rel=1e-6)
 
 
+def test_what_its_metal_loses_is_open_until_a_layer_says_it():
+    beam = Beam(
+        0.2, 0.01, "clamped-free", ALUMINIUM, ALUMINIUM, Core(1e-3, 0.49, 1000.0, ConstantModulus(1e6, 0.5))
+    )
+    assert "metal_loss" in beam.numbers
+    stated = replace(beam, constraining=replace(ALUMINIUM, loss_is_stated=True))
+    assert "metal_loss" not in stated.numbers
+    assert "metal_loss" not in replace(beam, exact=True).numbers
+    lossy = replace(beam, substrate=replace(ALUMINIUM, loss_factor=2e-3))
+    both = replace(lossy, constraining=lossy.substrate)
+    assert beam.coefficients({"metal_loss": 2e-3}) == pytest.approx(both.coefficients({}), rel=1e-12)
+
+
 def test_driven_in_its_centre_it_is_two_cantilevers():
     whole = Beam(0.4, 0.01, "centre-driven", ALUMINIUM, pickup_m=0.2)
     half = Beam(0.2, 0.01, "clamped-free", ALUMINIUM, pickup_m=0.2)

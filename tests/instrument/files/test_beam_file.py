@@ -64,6 +64,13 @@ def test_a_clamp_that_holds_the_width_is_counted_where_the_file_says_so(tmp_path
     assert read_structure(path).held_width
 
 
+def test_a_layer_that_says_it_loses_nothing_is_not_one_that_says_nothing(tmp_path):
+    path = written(tmp_path, "", "clamped-free")
+    assert not read_structure(path).states_loss
+    path.write_text(path.read_text().replace("[core]\n", "loss_factor = 0.0\n[core]\n"))
+    assert read_structure(path).states_loss
+
+
 def test_what_it_carries_is_stated_as_of_a_plate(tmp_path):
     mass = "[[mass]]\nmass_kg = 0.0015\nx_mm = 200.0\n"
     tolerances = "[tolerances]\nmass_percent = 1.0\nplace_mm = 0.2\n"
