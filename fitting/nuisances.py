@@ -171,7 +171,8 @@ class Nuisances:
             by[k] = (self._coefficients(up) - self._coefficients(down)) / (2 * _H)
         # A loss makes some complex.
         found = np.zeros((len(self), len(self._stated)), np.result_type(self._stated, *by.values()))
-        found[list(by)] = list(by.values())
+        for k, row in by.items():
+            found[k] = row
         return found
 
     def change(self, plate: EnrichedReducedPlate, z: Array) -> Change:
