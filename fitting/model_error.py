@@ -1,7 +1,8 @@
 """Sizes of what a layer-wise plate gets wrong against a solid, at a specimen's own frequencies and moduli.
 
-Inside, exact elasticity of the layers says how wrong (`fitting.theory_error`); at clamp and edges a solid
-gives way a little more. What is left is the mesh, and what solids and plates of several shapes differ by.
+Inside, exact elasticity of the layers says how wrong (`fitting.theory_error`), and a wave on the mesh how
+wrong that is (`fitting.mesh_error`); at clamp and edges a solid gives way a little more. What is left is what
+solids and plates of several shapes differ by.
 """
 
 from dataclasses import dataclass, field
@@ -9,11 +10,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.mesh_error import mesh_error
 from fitting.specimen import Specimen
 from fitting.theory_error import EDGE_FREQUENCY, EDGE_LOSS, theory_error
 
 FREQUENCY = 3.5e-4
-"""Of a resonance, relative: the mesh, and the scatter between plates."""
+"""Of a resonance, relative: the scatter between plates."""
 LOSS = 1e-3
 """Of a modal loss factor, relative."""
 GAIN = 2e-3
@@ -40,7 +42,7 @@ class ModelError:
     modal_loss: Array
     """The loss factor of a wave there: what `loss` is a share of."""
     signed: tuple[Array, ...] = ()
-    """Of a plate: what its theory gets wrong of frequency and of loss by exact elasticity, with its sign.
+    """Of a plate: what theory and mesh get wrong of frequency and of loss in the mean, with its sign.
 
     Shape (points,) each.
     """
@@ -51,6 +53,8 @@ class ModelError:
 def model_error_at(specimen: Specimen, frequency_hz: Array, G: Complex) -> ModelError:
     """Around some frequencies, the core's modulus there given. Shape (points,) each."""
     found = theory_error(specimen, frequency_hz, G)
+    mesh = mesh_error(specimen, found.wavenumber, np.broadcast_to(G, found.wavenumber.shape))
+    f_off, loss_off = found.frequency_error + mesh.frequency, found.loss_factor_error + mesh.loss
     s = specimen
     layers = (s.substrate, s.core, s.constraining)
     thickness = sum(layer.thickness_m for layer in layers if layer is not None)
@@ -58,8 +62,8 @@ def model_error_at(specimen: Specimen, frequency_hz: Array, G: Complex) -> Model
         thickness = 2 * s.apart_m + (layers[2].thickness_m if layers[2] is not None else 0.0)
     edge = (thickness / min(specimen.length_m, specimen.width_m)) ** 2
     return ModelError(
-        frequency=np.sqrt(FREQUENCY**2 + found.frequency_error**2 + (EDGE_FREQUENCY * edge) ** 2),
-        loss=np.sqrt(LOSS**2 + found.loss_factor_error**2 + (EDGE_LOSS * edge) ** 2),
+        frequency=np.sqrt(FREQUENCY**2 + f_off**2 + mesh.frequency_by_way**2 + (EDGE_FREQUENCY * edge) ** 2),
+        loss=np.sqrt(LOSS**2 + loss_off**2 + mesh.loss_by_way**2 + (EDGE_LOSS * edge) ** 2),
         modal_loss=found.loss_factor,
-        signed=(found.frequency_error, found.loss_factor_error),
+        signed=(f_off, loss_off),
     )

@@ -8,15 +8,17 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 import warm_processes
 from hypothesis import settings
 from plugin_sites import describe
 
-from fitting import plugins
+from fitting import model_error, plugins
 from fitting.domain import domain_of
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
+from fitting.mesh_error import MeshError
 from fitting.plate import Plate
 from fitting.specimen import Core, Face, Specimen
 from instrument.files.specimen_file import read_specimen
@@ -91,6 +93,18 @@ def zn1_table4(zn1) -> Specimen:
 def coarse(zn1) -> Specimen:
     """The paper's plate on its own 10 x 10 mesh: quick."""
     return replace(zn1, elements=(10, 10))
+
+
+@pytest.fixture(scope="module")
+def mesh_is_right():
+    """A coarse mesh is taken as exact: where data are of the very same one, or nothing is said of them."""
+
+    def right(specimen, wavenumber, G):
+        return MeshError(*np.zeros((4, len(wavenumber))))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(model_error, "mesh_error", right)
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -43,8 +43,8 @@ class Member:
     stated: Nuisances
     own_error: tuple[Array, Array] = (np.zeros(1), np.zeros(1))
     """Relative errors of the model itself, of f and eta. Shape (modes,) or (1,)."""
-    together: Array = field(default_factory=lambda: np.zeros((0, 1)))
-    """Relative errors of all f by one cause each. Shape (causes, modes)."""
+    together: Array = field(default_factory=lambda: np.zeros((0, 2, 1)))
+    """Relative errors of all f and eta by one cause each. Shape (causes, 2, modes)."""
     otherwise: Array = field(default_factory=lambda: np.zeros((2, 1)))
     """By how much f and eta would be read otherwise, relative, where nobody says how. Shape (2, modes)."""
     _taken: dict[tuple[str, ...], EnrichedReducedPlate] = field(default_factory=dict, compare=False)

@@ -91,9 +91,9 @@ class ModalProblem:
         """The readings and what each is worth, ln f + i kappa ln eta."""
         measured = np.concatenate([m.measured for m in self.members])
         sigma = np.concatenate([m.std[0] for m in self.members])
-        together = la.block_diag(*(m.together.T / m.std[0][:, None] for m in self.members))
-        B = np.zeros((2 * len(sigma), together.shape[1] + 1))
-        B[: len(sigma), :-1] = together
+        each = [[m.together[:, k].T / m.std[k][:, None] for m in self.members] for k in (0, 1)]
+        B = np.vstack([la.block_diag(*one) for one in each])
+        B = np.column_stack([B, np.zeros(len(B))])
         # One lab has read all of them alike.
         read = [np.broadcast_to(m.otherwise, (2, len(m.table.mode))) / m.std for m in self.members]
         B[:, -1] = np.hstack(read).ravel()

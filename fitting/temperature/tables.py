@@ -162,8 +162,9 @@ class Tables:
             for k, mode in enumerate(m.table.mode.tolist()):
                 add(("f", number, mode), at[k : k + 1], f_error[k : k + 1] / f_std[k])
                 add(("eta", number, mode), count + at[k : k + 1], eta_error[k : k + 1] / eta_std[k])
-            for k, cause in enumerate(m.together):
-                add(("together", number, k), at, cause / f_std)
+            for k, (f_off, eta_off) in enumerate(m.together):
+                add(("together", number, k), at, f_off / f_std)
+                add(("together", number, k), count + at, eta_off / eta_std)
             f_read, eta_read = (np.broadcast_to(e, f_std.shape) for e in m.otherwise)
             add(("read",), at, f_read / f_std)
             add(("read",), count + at, eta_read / eta_std)

@@ -29,7 +29,7 @@ METHODS = ("linear", "profile", "posterior", "bootstrap of points", "bootstrap o
 
 
 @pytest.fixture(scope="module")
-def ready(coarse):
+def ready(coarse, mesh_is_right):
     """The published plate on a coarse mesh, with a careful laboratory's tolerances; few points."""
     sweep = synthetic_sweep(coarse).take(np.arange(0, len(GRID_HZ), 12))
     return set_up(sweep, replace(coarse, exact=False), with_effects=False)

@@ -24,7 +24,7 @@ AT = np.array([20.0, 100.0, 280.0])
 
 
 @pytest.fixture(scope="module")
-def found(coarse):
+def found(coarse, mesh_is_right):
     whole = read_sweep(DATA / "practice-002.csv").sweep(coarse.base_acceleration_m_s2)
     sweep = whole.take(np.arange(len(whole)) % 6 == 0)
     with threadpool_limits(1, "blas"):

@@ -16,7 +16,7 @@ ONE = np.ones(len(F), dtype=int)
 
 
 @pytest.fixture(scope="module")
-def struck(zn1):
+def struck(zn1, mesh_is_right):
     loose = {"substrate_thickness": 0.02}
     return replace(
         zn1,
