@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.mesh_error import mesh_error
+from fitting.mesh_error import MeshError, mesh_error
 from fitting.specimen import Specimen
 from fitting.theory_error import EDGE_FREQUENCY, EDGE_LOSS, theory_error
 
@@ -50,11 +50,20 @@ class ModelError:
     """Of all resonances by one cause each. Shape (causes, frequencies)."""
 
 
-def model_error_at(specimen: Specimen, frequency_hz: Array, G: Complex) -> ModelError:
-    """Around some frequencies, the core's modulus there given. Shape (points,) each."""
+def model_error_at(
+    specimen: Specimen, frequency_hz: Array, G: Complex, *, of_mesh: bool = True
+) -> ModelError:
+    """Around some frequencies, the core's modulus there given. Shape (points,) each.
+
+    Not `of_mesh`: where what the mesh gets wrong is known otherwise.
+    """
     found = theory_error(specimen, frequency_hz, G)
-    mesh = mesh_error(specimen, found.wavenumber, np.broadcast_to(G, found.wavenumber.shape))
-    f_off, loss_off = found.frequency_error + mesh.frequency, found.loss_factor_error + mesh.loss
+    k = found.wavenumber
+    mesh = (
+        mesh_error(specimen, k, np.broadcast_to(G, k.shape)) if of_mesh else MeshError(*np.zeros((4, len(k))))
+    )
+    # Beside clamped and free edges a mode is no sum of plain waves: how large is known, not in which sense.
+    sense = float(set(specimen.edges) == {"simply-supported"})
     s = specimen
     layers = (s.substrate, s.core, s.constraining)
     thickness = sum(layer.thickness_m for layer in layers if layer is not None)
@@ -62,8 +71,15 @@ def model_error_at(specimen: Specimen, frequency_hz: Array, G: Complex) -> Model
         thickness = 2 * s.apart_m + (layers[2].thickness_m if layers[2] is not None else 0.0)
     edge = (thickness / min(specimen.length_m, specimen.width_m)) ** 2
     return ModelError(
-        frequency=np.sqrt(FREQUENCY**2 + f_off**2 + mesh.frequency_by_way**2 + (EDGE_FREQUENCY * edge) ** 2),
-        loss=np.sqrt(LOSS**2 + loss_off**2 + mesh.loss_by_way**2 + (EDGE_LOSS * edge) ** 2),
+        frequency=_together(
+            FREQUENCY, found.frequency_error, mesh.frequency, mesh.frequency_by_way, EDGE_FREQUENCY * edge
+        ),
+        loss=_together(LOSS, found.loss_factor_error, mesh.loss, mesh.loss_by_way, EDGE_LOSS * edge),
         modal_loss=found.loss_factor,
-        signed=(f_off, loss_off),
+        signed=(found.frequency_error + sense * mesh.frequency, found.loss_factor_error + sense * mesh.loss),
     )
+
+
+def _together(*each: Array | float) -> Array:
+    """Sizes of independent causes, together."""
+    return np.sqrt(sum(np.square(one) for one in each))

@@ -34,6 +34,10 @@ SPARE = 8
 """Real modes of each beyond the table's last."""
 _INDEPENDENT = 1e-11
 """Of the largest product: below it, motions differ by rounding."""
+_FEWEST = 4
+"""Elements across half a mesh."""
+MESH_LEFT = 1 / 3
+"""Of what a mesh gets wrong, where it is taken off: beside edges an error goes less than with the square."""
 _READ, _STRUCK = (0.77, 0.31), (0.93, 0.12)
 """Of length and width: a plate has to be struck and read somewhere, though no mode depends on it."""
 Widen = Callable[[Specimen, Array], EnrichedReducedPlate]
@@ -57,14 +61,17 @@ def with_own_error(member: Member, law: CoreLaw) -> Member:
         otherwise = member.reads_otherwise(law, np.zeros(len(member.stated)), "half-power")
         member = replace(member, otherwise=np.array(otherwise))
     G = law.modulus(2 * np.pi * f)
-    found = model_error_at(s, f, G) if isinstance(s, Specimen) else s.theory_error(f, G)
+    found = model_error_at(s, f, G, of_mesh=False) if isinstance(s, Specimen) else s.theory_error(f, G)
     if found is None:
         return member
+    mesh_off = member.off_by_mesh(law)
+    left = MESH_LEFT * np.abs(mesh_off)
     together = [np.array([one, np.zeros(len(one))]) for one in found.together]
     together += [np.array(found.signed)] if found.signed else []
     return replace(
         member,
-        own_error=(found.frequency, found.loss),
+        own_error=(np.hypot(found.frequency, left[0]), np.hypot(found.loss, left[1])),
+        mesh_off=mesh_off,
         together=np.array(together).reshape(-1, 2, len(f)),
     )
 
@@ -84,7 +91,18 @@ def _of_plate(table: ModalTable, specimen: Specimen, widen: Widen | None) -> Mem
     wide = _plain(plate, V) if widen is None else widen(specimen, V)
     stated: Nuisances = nuisances_of(specimen, wide, has_phase=False)
     each = tuple(n for n in stated.each if n.kind in PLATE or n.kind == "damping")
-    return Member(table, specimen, wide, replace(stated, each=each))
+    return Member(table, specimen, wide, replace(stated, each=each), halved=_halved(table, specimen))
+
+
+def _halved(table: ModalTable, specimen: Specimen) -> Member | None:
+    """The same on half as many elements each way; None where that leaves too few to tell anything."""
+    n_x, n_y = (n // 2 for n in specimen.mesh)
+    if min(n_x, n_y) < _FEWEST:
+        return None
+    coarse = replace(specimen, elements=(n_x, n_y))
+    plate = Plate(coarse)
+    wide = _plain(plate, own_motions(plate, int(table.mode.max()) + SPARE))
+    return Member(table, coarse, wide, nuisances_of(coarse, wide, has_phase=False))
 
 
 def own_motions(plate: Plate, count: int) -> Array:

@@ -25,6 +25,8 @@ from fitting.structures import AnySpecimen
 
 _H = 1e-4
 """Relative step of a frequency: for the law's slope."""
+_OF_HALF = 1 / 3
+"""Of what elements of twice the side change: these have a quarter of their error."""
 _LEAST_LOSS = 1e-12
 """A mode without losses has a logarithm too."""
 
@@ -47,6 +49,10 @@ class Member:
     """Relative errors of all f and eta by one cause each. Shape (causes, 2, modes)."""
     otherwise: Array = field(default_factory=lambda: np.zeros((2, 1)))
     """By how much f and eta would be read otherwise, relative, where nobody says how. Shape (2, modes)."""
+    halved: "Member | None" = None
+    """The plate with half as many elements each way: its modes say what the mesh gets wrong."""
+    mesh_off: Array = field(default_factory=lambda: np.zeros((2, 1)))
+    """What ln f and ln eta have more on the mesh than on ever smaller elements. Shape (2, modes)."""
     _taken: dict[tuple[str, ...], EnrichedReducedPlate] = field(default_factory=dict, compare=False)
 
     @property
@@ -82,6 +88,19 @@ class Member:
         A, modes = self._solved(law, z, acting)
         return self._as_measured(modes, _stiffness(A, law, modes))
 
+    def off_by_mesh(self, law: CoreLaw) -> Array:
+        """As `mesh_off`, as stated: the error goes with the square of an element. Shape (2, modes)."""
+        if self.halved is None:
+            return np.zeros((2, len(self.table.mode)))
+        fine, coarse = (np.array(m._numbers(law)) for m in (self, self.halved))
+        return (coarse - fine) * _OF_HALF
+
+    def _numbers(self, law: CoreLaw) -> tuple[Array, Array]:
+        """Ln of frequencies and of loss factors as stated. Shape (modes,) each."""
+        A, modes = self._solved(law, np.zeros(len(self.stated)), ())
+        ln_f, ln_eta = self._read(_stiffness(A, law, modes))
+        return np.log([m.frequency_hz for m in modes]) + ln_f, ln_eta
+
     def reads_otherwise(self, law: CoreLaw, z: Array, how: Read) -> tuple[Array, Array]:
         """By how much frequencies and loss factors would be read otherwise, relative. Shape (modes,) each."""
         A, modes = self._solved(law, z, ())
@@ -91,8 +110,8 @@ class Member:
 
     def _as_measured(self, modes: Sequence[ComplexMode], k: Stiffness) -> Complex:
         ln_f, ln_eta = self._read(k)
-        f = np.array([m.frequency_hz for m in modes])
-        return np.asarray(np.log(f) + ln_f + 1j * self.kappa * ln_eta)
+        f, (f_off, eta_off) = np.array([m.frequency_hz for m in modes]), self.mesh_off
+        return np.asarray(np.log(f) + ln_f - f_off + 1j * self.kappa * (ln_eta - eta_off))
 
     def _read(self, k: Stiffness) -> tuple[Array, Array]:
         """Ln of the frequency over the model's, and of the loss factor, as the table has them."""

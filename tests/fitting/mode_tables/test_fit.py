@@ -6,7 +6,7 @@ import pytest
 from fitting.complex_modes import complex_modes
 from fitting.errors import OutsideModel, TooFewPoints
 from fitting.laws import LAWS
-from fitting.mode_tables.build import member_of, tapped
+from fitting.mode_tables.build import member_of, tapped, with_own_error
 from fitting.mode_tables.fit import fit_modes
 from fitting.mode_tables.table import ModalTable
 from fitting.plate import Plate
@@ -70,6 +70,17 @@ def test_what_a_metal_may_lose_is_in_the_band_of_a_core_that_loses_little():
         off[known] = (found.law.storage_and_loss(omega)[1] - firm.storage_and_loss(omega)[1]) / error
     assert off[True] > 3
     assert abs(off[False]) < 2
+
+
+def test_what_a_mesh_gets_wrong_of_a_plate_s_modes_is_taken_off():
+    fine = complex_modes(Plate(tapped(replace(PLATE, elements=(48, 32)))), LAW, 6)
+    rows = ModalTable(np.arange(1.0, 7), np.full(6, 50.0), np.full(6, 0.1))
+    member = member_of(rows, replace(PLATE, modal_ratios=(0.0,)))
+    with_mesh, without = (m.logs(LAW, np.zeros(13)) for m in (member, with_own_error(member, LAW)))
+    true = np.log([m.frequency_hz for m in fine])
+    assert np.abs(without.real - true).max() < 0.3 * np.abs(with_mesh.real - true).max()
+    left = with_own_error(member, LAW).own_error[0]
+    assert np.all(np.abs(without.real - true) < 2 * left)
 
 
 def test_a_plate_of_which_no_ratios_are_stated_rings_too():
