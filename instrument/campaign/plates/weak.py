@@ -6,11 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.gravity import PUBLISHED_G_M_S2
+from instrument.campaign.draws import either_sign, log_uniform
 from instrument.campaign.plates.again import SimulatedRig
 from instrument.campaign.plates.cases import draw_case, measured
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden import HIDDEN
-from instrument.campaign.plates.hidden.base import Hidden, either_sign, log_uniform
+from instrument.campaign.plates.hidden.base import Hidden
 from instrument.campaign.plates.hidden.clamp import HiddenClampCompliance, HiddenClampFriction
 from instrument.campaign.plates.judged import models_of
 from instrument.campaign.plates.simulate import ChannelError
