@@ -43,26 +43,6 @@ _PASSES = 4
 """Times the weights are made anew from the smooth curve. A choice."""
 _TINY = 1e-12
 """Below it a tail probability is only said to be below."""
-_WINDOW_OCTAVES = 0.5
-"""Half width of a local slope."""
-_FEWEST_IN_WINDOW = 5
-"""Bands for a slope with an error of its own."""
-
-
-@dataclass(frozen=True)
-class LocalSlope:
-    """The local relation eta ~ (pi/2) d ln G'/d ln w where bands are dense. Shape (places,) each.
-
-    Exact for a power law only: some 10 % low in the middle of a broad transition, 40 % at its foot. A second
-    look, no test.
-    """
-
-    frequency_hz: Array
-    loss_factor: Array
-    """As found."""
-    from_slope: Array
-    standard_error: Array
-    """Of `from_slope`, noise and nuisances."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +69,6 @@ class KramersKronig:
 
     One chi-square over all bands may hide one that is stretched: beyond `MOST_PULL` is a refusal of its own.
     """
-    local: LocalSlope
     words: str
 
     @property
@@ -138,7 +117,6 @@ def kramers_kronig(law: PointwiseLaw) -> KramersKronig:
         weights_pa=weights[1:],
         tau_s=tau_s,
         pulls=pulls,
-        local=_local_slope(used),
         words=_words(used, smooth, chi2, dof, p, pulls),
     )
 
@@ -192,26 +170,6 @@ def _whitened_nnls(A: Complex, b: Complex, C: Array) -> tuple[Array, float]:
     scale = np.linalg.norm(whitened[:, :-1], axis=0)
     x, left_over = nnls(whitened[:, :-1] / scale, whitened[:, -1], maxiter=50 * len(scale))
     return np.asarray(x / scale), float(left_over)
-
-
-def _local_slope(law: PointwiseLaw) -> LocalSlope:
-    """Straight lines through ln G' over an octave around each band that has neighbours on both sides."""
-    octave, log_G = np.log2(law.frequency_hz), np.log(np.maximum(law.storage_modulus_pa, 1e-300))
-    G = law.storage_modulus_pa
-    noise = law.noise_covariance[:, 0, 0] / G**2
-    J = law.common[:, :, 0] / G
-    found = []
-    for k, centre in enumerate(octave):
-        inside = np.abs(octave - centre) <= _WINDOW_OCTAVES
-        x = octave[inside] - centre
-        if inside.sum() < _FEWEST_IN_WINDOW or min(x.max(), -x.min()) < _WINDOW_OCTAVES / 2:
-            continue
-        weight = 1 / noise[inside]
-        x = (x - weight @ x / weight.sum()) * np.log(2)
-        row = np.pi / 2 * weight * x / (weight @ x**2)
-        variance = row**2 @ noise[inside] + np.sum((J[:, inside] @ row) ** 2)
-        found.append((law.frequency_hz[k], law.loss_factor[k], row @ log_G[inside], np.sqrt(variance)))
-    return LocalSlope(*np.array(found).reshape(-1, 4).T)
 
 
 def _words(law: PointwiseLaw, smooth: Complex, chi2: float, dof: int, p: float, pulls: Array) -> str:

@@ -1,6 +1,5 @@
 """Whether the reference channel shows the base acceleration that was commanded."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,8 +29,6 @@ class LevelOff:
     factor: float
     """Median of |reference| / command."""
     standard_error: float
-    segment_percent: Mapping[int, float]
-    """Off the command in each segment by itself."""
 
     @property
     def percent(self) -> float:
@@ -49,9 +46,6 @@ def level_error(sweep: Sweep) -> LevelOff | None:
     found = LevelOff(
         factor=factor,
         standard_error=float(_MEDIAN_TO_MEAN * scatter / np.sqrt(len(ratio))),
-        segment_percent={
-            int(s): 100 * (float(np.median(ratio[sweep.segment == s])) - 1) for s in np.unique(sweep.segment)
-        },
     )
     significant = abs(factor - 1) > _STANDARD_ERRORS * found.standard_error
     return found if significant and abs(found.percent) > LEAST_PERCENT else None

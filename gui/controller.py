@@ -103,6 +103,13 @@ class AppController(QObject):
         return self.feed if isinstance(self.feed, RecordedFeed) else None
 
     @property
+    def session(self) -> Path | None:
+        """The file of the session shown; None while it is being measured."""
+        if self.recorded is not None:
+            return self.recorded.path
+        return self.live.ending.session if self.live is not None and self.live.ending is not None else None
+
+    @property
     def running(self) -> bool:
         """Whether a run goes on."""
         return self.live is not None and self.live.engine.running

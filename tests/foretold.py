@@ -1,12 +1,13 @@
 """Whole runs in virtual time, and the time to go that was foretold at every event of them."""
 
+from quick_run import no_fit
+
 from gui.state.time_to_go import TimeToGo
 from instrument.run.companion import Companion
 from instrument.run.experiment import run_experiment
 from instrument.session.configuration import read_whole_experiment
 from instrument.simulated_case import write_case
 from instrument.stream.clock import SessionClock
-from instrument.stream.derived import FitUpdated
 from instrument.stream.raw import BlockAcquired
 
 SHARES = (0.1, 0.3, 0.6)
@@ -41,10 +42,6 @@ class Watched(Companion):
             now, told, _ = next(t for t in self.told if t[0] >= share * self.now_s)
             found[share] = told / (self.now_s - now) - 1
         return found
-
-
-def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, None, "not fitted")
 
 
 def told_of(folder, parts, seed, change=lambda text: text) -> Watched:

@@ -7,14 +7,11 @@ import os
 import sys
 from pathlib import Path
 
+from quick_run import no_fit
+
 from instrument.engine.process import serve
-from instrument.stream.derived import FitUpdated
 
 QUICK_ENGINE = (sys.executable, str(Path(__file__)))
-
-
-def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, None, f"{sum(p.step <= last_step for p in points)} points")
 
 
 if __name__ == "__main__":

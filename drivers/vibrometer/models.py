@@ -22,8 +22,6 @@ class Model:
     """From the most sensitive to the coarsest."""
     signal_level_full: int
     """The integer of a full bar. From memory for every model."""
-    commands_verified: bool
-    """Its serial language was seen in public; else the OFV-5000's is assumed."""
 
     def range_named(self, name: str) -> Range:
         """Raises `Refused`, naming the ranges there are."""
@@ -93,8 +91,9 @@ _OFV = "OFV-5000 Vibrometer Controller"
 MODELS = {
     model.name: model
     for model in (
-        Model("OFV-5000", _OFV, "VD-09", _VD_09, 512, commands_verified=True),
-        Model("OFV-5000 VD-08", _OFV, "VD-08", _VD_08, 512, commands_verified=True),
-        Model("PDV-100", "PDV-100", "PDV-100", _PDV_100, 512, commands_verified=False),
+        Model("OFV-5000", _OFV, "VD-09", _VD_09, 512),
+        Model("OFV-5000 VD-08", _OFV, "VD-08", _VD_08, 512),
+        # Its serial language was not seen in public: the OFV-5000's is assumed.
+        Model("PDV-100", "PDV-100", "PDV-100", _PDV_100, 512),
     )
 }

@@ -9,6 +9,7 @@ their weights say how far the short cut is off.
 from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 
@@ -68,45 +69,17 @@ def sample(
         import emcee
     except ImportError:
         raise OutsideModel("sampling needs emcee: pip install 'viscorig[posterior]'") from None
-    task, marginal = quantities.task, MarginalLaw(many)
-    own = marginal.own
-    low, high = (side[own] for side in task.limits)
-    dimension, walkers = int(own.sum()), WALKERS
-    steps = max(20, -(-samples // walkers))
-
-    def log_density(T: Array) -> Array:
-        """And where the rest is best, as emcee takes it along."""
-        found = np.full((len(T), 1 + len(own) - dimension), -np.inf)
-        inside = np.all((low < T) & (high > T), axis=1)
-        if inside.any():
-            density, rest = marginal(T[inside])
-            found[inside] = np.column_stack([density, rest])
-        return found
-
+    marginal, rng = MarginalLaw(many), np.random.default_rng(seed)
     began = perf_counter()
-    rng = np.random.default_rng(seed)
-    burn = max(20, int(_BURN * steps))
-    mean, root = task.mode[own], _square(task.covariance[np.ix_(own, own)])
-    at = mean + rng.standard_normal((walkers, dimension)) @ root.T
-    # What starts outside its limits starts half way in.
-    at = np.clip(at, 0.5 * (mean + low), 0.5 * (mean + high))
-    done = 0
-    for count in (burn, burn, steps):
-        moves = [(emcee.moves.MHMove(_WalkerStep(mean, _WIDER * root, b)), share) for b, share in _STEPS]
-        sampler = emcee.EnsembleSampler(walkers, dimension, log_density, moves=moves, vectorize=True)
-        sampler.random_state = np.random.RandomState(int(rng.integers(2**31))).get_state()
-        for _ in sampler.sample(at, iterations=count, skip_initial_state_check=True):
-            done += 1
-            if done % 10 == 0:
-                report(done / (2 * burn + steps))
-        chain = sampler.get_chain()
-        at = chain[-1]
-        seen = chain[len(chain) // 2 :].reshape(-1, dimension)
-        mean, root = seen.mean(axis=0), _square(np.cov(seen.T).reshape(dimension, dimension))
-    T = chain.reshape(-1, dimension)
-    X, log_rest = marginal.drawn(T, sampler.get_blobs().reshape(len(T), -1), rng)
+    sampler = _walked(emcee, quantities, marginal, max(20, -(-samples // WALKERS)), rng, report)
+    chain = sampler.get_chain()
+    T = chain.reshape(-1, chain.shape[2])
+    # emcee has none where the law's parameters are all that is not known.
+    rest = sampler.get_blobs()
+    rest = np.empty((len(T), 0)) if rest is None else rest.reshape(len(T), -1)
+    X, log_rest = marginal.drawn(T, rest, rng)
     draws = quantities.of_many(X)
-    chains = draws.reshape(steps, walkers, -1)
+    chains = draws.reshape(len(chain), WALKERS, -1)
     tau = emcee.autocorr.integrated_time(chains, quiet=True, tol=0)
     seconds = perf_counter() - began
     density = sampler.get_log_prob().ravel() + log_rest
@@ -124,6 +97,49 @@ def sample(
         share,
         error,
     )
+
+
+def _walked(
+    emcee: Any,
+    quantities: Quantities,
+    marginal: MarginalLaw,
+    steps: int,
+    rng: np.random.Generator,
+    report: Report,
+) -> Any:
+    """The sampler after so many steps that count; in the two shorter walks before the Gaussian is learnt."""
+    task, own = quantities.task, marginal.own
+    low, high = (side[own] for side in task.limits)
+    dimension = int(own.sum())
+
+    def log_density(T: Array) -> Array:
+        """And where the rest is best, as emcee takes it along."""
+        found = np.full((len(T), 1 + len(own) - dimension), -np.inf)
+        inside = np.all((low < T) & (high > T), axis=1)
+        if inside.any():
+            density, rest = marginal(T[inside])
+            found[inside] = np.column_stack([density, rest])
+        return found
+
+    burn = max(20, int(_BURN * steps))
+    mean, root = task.mode[own], _square(task.covariance[np.ix_(own, own)])
+    at = mean + rng.standard_normal((WALKERS, dimension)) @ root.T
+    # What starts outside its limits starts half way in.
+    at = np.clip(at, 0.5 * (mean + low), 0.5 * (mean + high))
+    done = 0
+    for count in (burn, burn, steps):
+        moves = [(emcee.moves.MHMove(_WalkerStep(mean, _WIDER * root, b)), share) for b, share in _STEPS]
+        sampler = emcee.EnsembleSampler(WALKERS, dimension, log_density, moves=moves, vectorize=True)
+        sampler.random_state = np.random.RandomState(int(rng.integers(2**31))).get_state()
+        for _ in sampler.sample(at, iterations=count, skip_initial_state_check=True):
+            done += 1
+            if done % 10 == 0:
+                report(done / (2 * burn + steps))
+        chain = sampler.get_chain()
+        at = chain[-1]
+        seen = chain[len(chain) // 2 :].reshape(-1, dimension)
+        mean, root = seen.mean(axis=0), _square(np.cov(seen.T).reshape(dimension, dimension))
+    return sampler
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """From a sweep to a verdict: structure, the catalogue, the group that fits as well, held-out data."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.pairs import Pairs
 from fitting.diagnosis.prediction import over_noise
 from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.resampling import Again, Resampled, gain, resampled_of
 from fitting.diagnosis.result import Candidate, Diagnosis, FoundEffect, ParameterEstimate, Rivals
 from fitting.diagnosis.search import ScoredFit, Search
@@ -81,27 +82,72 @@ def diagnose_task(
     of the points; with it the search is repeated on `resamples` sweeps without effects (None: where points
     are few) and with points held out. `settle` has the last word on the judgement.
     """
-    given = problem
     begun = begin(problem, reduced, noise, bare, start, executor)
-    problem, evidence, none = begun.problem, begun.evidence, begun.none
-    known_names = {e.name for e in effects}
-    bases = [CATALOGUE[e.extends] for e in effects if e.extends and e.extends not in known_names]
-    search = Search(problem, evidence, none, effects, executor, bases)
     catalogue = {e.name: e for e in effects}
+    bases = [CATALOGUE[e.extends] for e in effects if e.extends and e.extends not in catalogue]
+    search = Search(begun.problem, begun.evidence, begun.none, effects, executor, bases)
     if accepted_by_hand is None:
-        search, scored_fits, judgement = _searched(search, noise, report)
-        evidence = search.evidence
+
+        def again(none: Refitted) -> Again | None:
+            if remade is None:
+                return None
+            return Again(problem, remade, reduced, effects, bare, start, none, noise)
+
+        decided = _decided(search, noise, report, again, resamples, settle)
     else:
-        judgement = told(search.told([catalogue[name] for name in accepted_by_hand]))
-        scored_fits = [judgement.accepted] if judgement.accepted is not None else []
-    resampled = Resampled()
-    if accepted_by_hand is None and remade is not None:
-        again = Again(given, remade, reduced, effects, bare, start, search.none.fitted, noise)
-        resampled = resampled_of(again, gain(search.none, scored_fits), resamples, executor, report)
+        decided = _taken_on_trust(search, [catalogue[name] for name in accepted_by_hand])
+    return _diagnosis(decided, reduced, catalogue, bare, channels, why_aside, report)
+
+
+@dataclass(frozen=True)
+class _Decided:
+    """The search at its end, one fit of every explanation, and what is made of them."""
+
+    search: Search
+    scored_fits: list[ScoredFit]
+    judgement: Judgement
+    resampled: Resampled
+
+
+def _taken_on_trust(search: Search, effects: Sequence[Effect]) -> _Decided:
+    judgement = told(search.told(effects))
+    return _Decided(
+        search, [judgement.accepted] if judgement.accepted is not None else [], judgement, Resampled()
+    )
+
+
+def _decided(
+    search: Search,
+    noise: Noise,
+    report: Report,
+    again: Callable[[Refitted], Again | None],
+    resamples: int | None,
+    settle: Settle | None,
+) -> _Decided:
+    """The whole catalogue searched, the search repeated where it can be, and the last word heard."""
+    search, scored_fits, judgement = _searched(search, noise, report)
+    resampled, repeated = Resampled(), again(search.none.fitted)
+    if repeated is not None:
+        most = gain(search.none, scored_fits)
+        resampled = resampled_of(repeated, most, resamples, search.executor, report)
         judgement = in_light_of(judgement, resampled.p_value)
-    if settle is not None and accepted_by_hand is None:
+    if settle is not None:
         judgement = settle(search, judgement)
-    known = evidence.scale_known
+    return _Decided(search, scored_fits, judgement, resampled)
+
+
+def _diagnosis(
+    decided: _Decided,
+    reduced: ReducedPlate | None,
+    catalogue: dict[str, Effect],
+    bare: BareModes | None,
+    channels: tuple[FoundEffect, ...],
+    why_aside: Reasons | None,
+    report: Report,
+) -> Diagnosis:
+    """Everything that is said of it."""
+    search, judgement = decided.search, decided.judgement
+    problem, evidence = search.problem, search.evidence
     report(0.8)
     none, accepted = search.none.fitted, judgement.accepted
     search.validate([search.none, *([accepted] if accepted is not None else [])])
@@ -114,7 +160,7 @@ def diagnose_task(
         found = found_effects(accepted.fitted, problem.plate, scale)
     if judgement.verdict != "unknown":
         after = replace(after, band=mixed_band(problem, search, judgement.group))
-    absent, scored_fits = search.tempered(scored_fits)
+    absent, scored_fits = search.tempered(decided.scored_fits)
     scored_fits = sorted([absent, *scored_fits], key=_cost)
     seen = tuple(text.story(catalogue[c.name], c) for c in channels)
     return Diagnosis(
@@ -123,7 +169,7 @@ def diagnose_task(
         channels=channels,
         equivalent=judgement.equivalent,
         candidates=tuple(
-            _candidate(problem, t, search, judgement, scored_fits[0].cost, noise_known=known)
+            _candidate(problem, t, search, judgement, scored_fits[0].cost, noise_known=evidence.scale_known)
             for t in scored_fits
         ),
         before=before,
@@ -141,8 +187,8 @@ def diagnose_task(
         why_aside=reasons(np.zeros(len(problem.sweep), bool), "") if why_aside is None else why_aside,
         warnings=_warnings(problem, judgement),
         by_hand=judgement.by_hand,
-        p_value=resampled.p_value,
-        nested_held_out_rms_percent=resampled.nested_rms_percent,
+        p_value=decided.resampled.p_value,
+        nested_held_out_rms_percent=decided.resampled.nested_rms_percent,
         rivals=_rivals(problem, reduced, search, judgement, scored_fits),
     )
 

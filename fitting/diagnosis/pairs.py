@@ -9,7 +9,7 @@ from fitting.diagnosis.candidate_fits import Form
 from fitting.diagnosis.executor import Call
 from fitting.diagnosis.looks import has_place
 from fitting.diagnosis.refitted import Refitted
-from fitting.diagnosis.search import ScoredFit, Search
+from fitting.diagnosis.search import ScoredFit, Search, best_of_each
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
 
@@ -71,7 +71,7 @@ class Pairs:
         report(0.9)
         if found and min(t.cost for t in found) < singles[0].cost:
             found += self._improved(found)
-        return _best_of_each(found)
+        return best_of_each(found)
 
     def _looks(
         self,
@@ -231,11 +231,3 @@ def _chi2(fitted: Refitted) -> float:
 def _plainly(scored: ScoredFit) -> list[str]:
     """Its effects beside the law."""
     return [e.name for e in scored.fitted.effects if not e.replaces_law]
-
-
-def _best_of_each(scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
-    """One trial of each set of effects, best first."""
-    best: dict[frozenset[str], ScoredFit] = {}
-    for scored in sorted(scored_fits, key=lambda t: t.cost):
-        best.setdefault(frozenset(scored.names), scored)
-    return list(best.values())

@@ -67,6 +67,14 @@ class ScoredFit:
         return p if p < VERDICT.doubted else None
 
 
+def best_of_each(scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
+    """The cheapest fit of each set of effects, best first."""
+    best: dict[frozenset[str], ScoredFit] = {}
+    for scored in sorted(scored_fits, key=lambda t: t.cost):
+        best.setdefault(frozenset(scored.names), scored)
+    return list(best.values())
+
+
 class Search:
     """Fits of one set of data."""
 

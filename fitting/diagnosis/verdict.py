@@ -14,7 +14,7 @@ from fitting.arrays import Array
 from fitting.diagnosis.marginal import probabilities
 from fitting.diagnosis.predictive import weakest
 from fitting.diagnosis.result import Verdict
-from fitting.diagnosis.search import ScoredFit
+from fitting.diagnosis.search import ScoredFit, best_of_each
 from fitting.diagnosis.stand_in import supposes_too_much
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.digits import two_digits
@@ -89,7 +89,7 @@ def judge(
     `hidden`: effects that may not be named, fitted for comparison. `held_out`: error of a trial over noise on
     data it has not seen, NaN where there are none.
     """
-    every = _best_of_each([none, *scored_fits])
+    every = best_of_each([none, *scored_fits])
     p = shares_of(every)
     order = np.argsort(-p, kind="stable")
     ranked = [(every[k], float(p[k])) for k in order]
@@ -238,10 +238,3 @@ def _predicts_nothing(none: ScoredFit, best: ScoredFit, held_out: Callable[[Scor
         return False
     off = held_out(best)
     return off > VERDICT.poor and off > VERDICT.hardly_better * held_out(none)
-
-
-def _best_of_each(scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
-    best: dict[frozenset[str], ScoredFit] = {}
-    for scored in sorted(scored_fits, key=lambda t: t.cost):
-        best.setdefault(frozenset(scored.names), scored)
-    return list(best.values())

@@ -6,6 +6,7 @@ from typing import ClassVar
 import numpy as np
 
 from fitting.arrays import Array
+from instrument.campaign.draws import log_uniform
 
 GAS_J_MOL_K = 8.314
 ROOM_K = 296.0
@@ -43,6 +44,6 @@ class RoomCycles:
 
 def draw_cycles(rng: np.random.Generator, duration_s: float) -> tuple[float, float, float, float, float]:
     """Numbers of `RoomCycles` that matter: of core temperatures, which follow a room's by half or less."""
-    period = max(duration_s / float(np.exp(rng.uniform(np.log(1.2), np.log(6.0)))), _SHORTEST_S)
+    period = max(duration_s / log_uniform(rng, 1.2, 6.0), _SHORTEST_S)
     shape = float(rng.uniform(0, 1)), float(rng.uniform(0.3, 0.7))
     return (float(rng.uniform(0.4, 1.5)), period, *shape, float(rng.uniform(70e3, 130e3)))

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
+from instrument.campaign.draws import order_of_time
 
 Integers = NDArray[np.intp]
 
@@ -44,7 +45,7 @@ def draw_schedule(rng: np.random.Generator, levels_g: tuple[float, ...]) -> Sche
             when = now + np.cumsum(_SECONDS_A_POINT[k] + rng.exponential(_LATE_S, len(f)))
             now = float(when[-1]) + float(rng.uniform(*_BETWEEN_S))
             time = np.empty(len(f))
-            time[_taken(rng, len(f), along)] = when
+            time[order_of_time(rng, len(f), along)] = when
             number = len(parts) + 1
             parts.append(
                 (
@@ -61,11 +62,3 @@ def draw_schedule(rng: np.random.Generator, levels_g: tuple[float, ...]) -> Sche
 def _grid(rng: np.random.Generator, begin: tuple[float, float], end: tuple[float, float]) -> Array:
     count = int(rng.integers(*_POINTS))
     return np.round(np.linspace(rng.uniform(*begin), rng.uniform(*end), count), 3)
-
-
-def _taken(rng: np.random.Generator, count: int, along: str) -> Integers:
-    """Indices of the points in the order of time."""
-    up = np.arange(count, dtype=np.intp)
-    if along == "random":
-        return rng.permutation(up)
-    return up[::-1] if along == "down" else up

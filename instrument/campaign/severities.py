@@ -4,6 +4,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from instrument.campaign.draws import either_sign, log_uniform
+
 Severity = dict[str, float | str]
 """Of the plant's effects the fields of their class; of the channels' their own keys."""
 
@@ -38,16 +40,8 @@ def draw_severity(name: str, rng: np.random.Generator) -> Severity:
     return _DRAWS[name](rng)
 
 
-def _either_sign(rng: np.random.Generator, low: float, high: float) -> float:
-    return float(rng.choice([-1.0, 1.0]) * rng.uniform(low, high))
-
-
-def _log_uniform(rng: np.random.Generator, low: float, high: float) -> float:
-    return float(np.exp(rng.uniform(np.log(low), np.log(high))))
-
-
 def _clamp(rng: np.random.Generator) -> Severity:
-    along_x = _log_uniform(rng, 1e13, 1e14)
+    along_x = log_uniform(rng, 1e13, 1e14)
     along_z = along_x * (1.0 if rng.random() < 0.5 else 2 ** float(rng.uniform(-1, 1)))
     return {"along_x_n_m3": along_x, "along_z_n_m3": along_z}
 
@@ -92,32 +86,32 @@ def _viscous(rng: np.random.Generator) -> Severity:
 def _fixture(rng: np.random.Generator) -> Severity:
     return {
         "frequency_hz": float(rng.uniform(60, 330)),
-        "damping_ratio": _log_uniform(rng, 0.008, 0.05),
-        "gain_rad_m": _either_sign(rng, 0.02, 0.1),
+        "damping_ratio": log_uniform(rng, 0.008, 0.05),
+        "gain_rad_m": either_sign(rng, 0.02, 0.1),
     }
 
 
 _DRAWS: dict[str, Callable[[np.random.Generator], Severity]] = {
     "clamp_compliance": _clamp,
     "clamp_friction": _friction,
-    "base_rocking": lambda rng: {"pitch_rad_m": _either_sign(rng, 0.02, 0.2)},
+    "base_rocking": lambda rng: {"pitch_rad_m": either_sign(rng, 0.02, 0.2)},
     "fixture_resonance": _fixture,
     "spot_offset": lambda rng: {
-        "dx_m": _either_sign(rng, 0.002, 0.006),
+        "dx_m": either_sign(rng, 0.002, 0.006),
         "dy_m": float(rng.uniform(-3e-3, 3e-3)),
     },
     "absolute_velocity": lambda rng: {},
     "channel_delay": lambda rng: {"delay_s": float(rng.uniform(20e-6, 200e-6))},
-    "gain_error": lambda rng: {"factor": 1 + _either_sign(rng, 0.01, 0.04)},
-    "level_error": lambda rng: {"factor": 1 + _either_sign(rng, 0.015, 0.05)},
+    "gain_error": lambda rng: {"factor": 1 + either_sign(rng, 0.01, 0.04)},
+    "level_error": lambda rng: {"factor": 1 + either_sign(rng, 0.015, 0.05)},
     "mains_hum": lambda rng: {"noises": float(rng.uniform(6, 25))},
     "added_mass": _mass,
     "air_added_mass": lambda rng: {"density_kg_m3": float(rng.uniform(1.0, 1.3))},
     "temperature_drift": _drift,
     "amplitude_softening": lambda rng: {"k": float(rng.uniform(0.05, 0.2))},
-    "core_thickness": lambda rng: {"scale": 1 + _either_sign(rng, 0.04, 0.08)},
+    "core_thickness": lambda rng: {"scale": 1 + either_sign(rng, 0.04, 0.08)},
     "core_law": lambda rng: {},
     "partial_debond": _debond,
-    "substrate_stiffness": lambda rng: {"scale": 1 + _either_sign(rng, 0.02, 0.06)},
+    "substrate_stiffness": lambda rng: {"scale": 1 + either_sign(rng, 0.02, 0.06)},
     "viscous_damping": _viscous,
 }

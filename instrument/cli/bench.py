@@ -18,7 +18,7 @@ from instrument.campaign.plates.cases import KINDS as PLATE_KINDS
 from instrument.campaign.plates.judged import diagnosed, diagnosed_without_the_truth, identified
 from instrument.campaign.plates.run import plate_jobs, run_plates, write_plate_summary
 from instrument.campaign.plates.visible import visible_chi2
-from instrument.campaign.plates.weak import WEAK
+from instrument.campaign.plates.weak_effects import WEAK
 from instrument.campaign.run import jobs_of, run_campaign, write_summary
 from instrument.cli.options import NumberRange, json_option
 from instrument.cli.output import Output

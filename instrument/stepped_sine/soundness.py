@@ -4,6 +4,8 @@ A fit at a known frequency gives a number for anything. A shaker that did not fo
 agree, turn the phasor while it is read; a sensor or an input that saturates makes a flat top.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from fitting.arrays import Array
@@ -23,6 +25,65 @@ _OVER_NOISE = 2.0
 _TOP, _SIDE = 0.02, 0.125
 """A sine is within 2 % of its amplitude of one peak for 6.4 % of the time; one whose peak is cut by a tenth
 for 14 %, and so is none with less than 7 % of a harmonic. A choice."""
+
+
+@dataclass(frozen=True)
+class Fault:
+    """What makes a reading none: the quantity, its value and limit in a unit, and what to do about it."""
+
+    what: str
+    value: float
+    limit: float
+    unit: str
+    remedy: str
+
+
+@dataclass(frozen=True)
+class Soundness:
+    """What a reading says of itself: a fault of the base, whose sine all else hangs on, or remarks."""
+
+    fault: Fault | None = None
+    velocity_is_flat: bool = False
+    remarks: tuple[str, ...] = ()
+
+
+def soundness(x: Array, first: int, sample_rate_hz: float, frequency_hz: float, fit: SineFit) -> Soundness:
+    """Of a reading from sample `first` on, shape (channels, samples): base, velocity, others; SI units."""
+    off, noise = frequency_off(x[0], first, sample_rate_hz, frequency_hz)
+    clear = abs(off) > CLEAR * noise
+    if clear and abs(off) > MOST_OFF:
+        return Soundness(_other_frequency(off))
+    if is_flat(x, fit, 0):
+        return Soundness(_flat_base(fit))
+    flat = is_flat(x, fit, 1)
+    remarks = ["velocity has a flat top: does the laser or its input saturate?"] if flat else []
+    if clear and abs(off) > MARKED_OFF:
+        remarks.append(f"frequency {100 * off:+.2g} % off by the front-end's clock")
+    for name, share, marked in zip(("base", "velocity"), fit.distortion, distorted(fit), strict=False):
+        if marked:
+            remarks.append(f"{name} distorted: harmonics of {100 * float(share):.2g} %")
+    return Soundness(None, flat, tuple(remarks))
+
+
+def _other_frequency(off: float) -> Fault:
+    return Fault(
+        "frequency at the base, by the front-end's clock, off by",
+        100 * abs(off),
+        100 * MOST_OFF,
+        "%",
+        "does the shaker run at the frequency it is told? do its clock and the front-end's agree, "
+        "is the sample rate right?",
+    )
+
+
+def _flat_base(fit: SineFit) -> Fault:
+    return Fault(
+        "base acceleration has a flat top, harmonics",
+        100 * float(fit.distortion[0]),
+        100 * FLAT_DISTORTION,
+        "%",
+        "accelerometer, its input or the amplifier saturates: lower the level or raise range_v",
+    )
 
 
 def frequency_off(base: Array, first: int, sample_rate_hz: float, frequency_hz: float) -> tuple[float, float]:

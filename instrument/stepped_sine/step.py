@@ -20,15 +20,7 @@ from instrument.stepped_sine.settings import SweepSettings
 from instrument.stepped_sine.settling import Settling
 from instrument.stepped_sine.settling_trace import begins_at
 from instrument.stepped_sine.sine_fit import SineFit, sine_fit
-from instrument.stepped_sine.soundness import (
-    CLEAR,
-    FLAT_DISTORTION,
-    MARKED_OFF,
-    MOST_OFF,
-    distorted,
-    frequency_off,
-    is_flat,
-)
+from instrument.stepped_sine.soundness import soundness
 from instrument.stream.derived import (
     DriveRequested,
     LimitExceeded,
@@ -229,35 +221,15 @@ class StepAnalysis:
 
     def _unsound(self, first: int, x: Array, fit: SineFit) -> list[Derived]:
         """What makes this reading none; what makes it doubtful is remarked."""
-        f = self._began.frequency_hz
-        off, noise = frequency_off(x[0], first, self._rate, f)
-        if abs(off) > MOST_OFF and abs(off) > CLEAR * noise:
-            remedy = (
-                "does the shaker run at the frequency it is told? do its clock and the front-end's agree, "
-                "is the sample rate right?"
-            )
-            what = "frequency at the base, by the front-end's clock, off by"
-            return [self._guard.stop(what, 100 * abs(off), 100 * MOST_OFF, "%", remedy)]
-        if is_flat(x, fit, 0):
-            remedy = "accelerometer, its input or the amplifier saturates: lower the level or raise range_v"
-            what = "base acceleration has a flat top, harmonics"
-            return [
-                self._guard.stop(what, 100 * float(fit.distortion[0]), 100 * FLAT_DISTORTION, "%", remedy)
-            ]
-        if is_flat(x, fit, 1):
-            if self._wider and not self._flattened:
-                self._flattened = True
-                why = f"a flat top in {self._range.name}"
-                self._samples.clear()
-                return [RangeRequested(self._began.step, self._wider[0], why)]
-            self._remarks.append("velocity has a flat top: does the laser or its input saturate?")
-        if abs(off) > MARKED_OFF and abs(off) > CLEAR * noise:
-            self._remarks.append(f"frequency {100 * off:+.2g} % off by the front-end's clock")
-        for name, channel, marked in zip(("base", "velocity"), (0, 1), distorted(fit), strict=False):
-            if marked:
-                self._remarks.append(
-                    f"{name} distorted: harmonics of {100 * float(fit.distortion[channel]):.2g} %"
-                )
+        found = soundness(x, first, self._rate, self._began.frequency_hz, fit)
+        if found.fault is not None:
+            f = found.fault
+            return [self._guard.stop(f.what, f.value, f.limit, f.unit, f.remedy)]
+        if found.velocity_is_flat and self._wider and not self._flattened:
+            self._flattened = True
+            self._samples.clear()
+            return [RangeRequested(self._began.step, self._wider[0], f"a flat top in {self._range.name}")]
+        self._remarks += found.remarks
         return []
 
     def _point(self, first: int, x: Array, fit: SineFit, error: float) -> PointMeasured:

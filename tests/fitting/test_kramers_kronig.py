@@ -8,7 +8,6 @@ from fitting.kramers_kronig import LEVEL, kramers_kronig
 from fitting.pointwise import PointwiseLaw
 
 BANDS_HZ = np.concatenate([np.geomspace(15, 25, 7), np.geomspace(80, 125, 7), np.geomspace(250, 315, 6)])
-OCTAVES_HZ = np.geomspace(10, 1000, 60)
 
 
 def havriliak_negami(omega):
@@ -23,10 +22,6 @@ def maxwell(omega):
 
 def spring(omega):
     return np.full(len(omega), 1e6 + 0j)
-
-
-def power_law(omega):
-    return 1e5 * (1j * omega) ** 0.4
 
 
 def pointwise(modulus, error, seed=None, frequency_hz=BANDS_HZ, common=()):
@@ -133,26 +128,6 @@ def test_too_few_bands_are_refused():
         kramers_kronig(pointwise(havriliak_negami, 0.01, 0, BANDS_HZ[:2]))
     with pytest.raises(TooFewPoints, match="0 of 20 bands"):
         kramers_kronig(pointwise(havriliak_negami, 0.2, 0))
-
-
-def test_the_slope_of_a_power_law_is_its_loss():
-    local = kramers_kronig(pointwise(power_law, 1e-3, frequency_hz=OCTAVES_HZ)).local
-    np.testing.assert_allclose(local.from_slope, np.pi / 2 * 0.4, rtol=1e-9)
-    np.testing.assert_allclose(local.loss_factor, np.tan(np.pi / 2 * 0.4), rtol=1e-9)
-    assert OCTAVES_HZ[0] < local.frequency_hz.min() < local.frequency_hz.max() < OCTAVES_HZ[-1]
-
-
-def test_the_slope_scatters_as_stated():
-    looks = [
-        kramers_kronig(pointwise(havriliak_negami, 0.02, s, OCTAVES_HZ, [np.full(60, 0.05)])).local
-        for s in range(60)
-    ]
-    scatter = np.std([look.from_slope for look in looks], axis=0)
-    assert np.median(scatter / looks[0].standard_error) == pytest.approx(1, abs=0.15)
-
-
-def test_a_slope_needs_dense_bands():
-    assert len(kramers_kronig(pointwise(havriliak_negami, 0.01, 0, OCTAVES_HZ[::9])).local.frequency_hz) == 0
 
 
 def test_bands_without_any_noise_are_refused_in_words():

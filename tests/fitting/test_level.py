@@ -31,7 +31,6 @@ def test_a_reference_off_the_command_is_measured(factor, seed):
     found = level_error(sweep_at(factor, seed=seed))
     assert abs(found.factor - factor) < 5 * found.standard_error
     assert found.percent == pytest.approx(100 * (factor - 1), abs=0.3)
-    assert set(found.segment_percent) == {1, 2, 3}
 
 
 @given(st.floats(0.992, 1.008), st.integers(0, 1000))
@@ -55,13 +54,6 @@ def test_single_wild_readings_do_not_move_it():
     wild = sweep.base_m_s2.copy()
     wild[:9] *= 1.8
     assert level_error(replace(sweep, base_m_s2=wild)) is None
-
-
-def test_segments_are_told_apart():
-    factor = np.tile([1.02, 1.02, 1.06], 30)
-    found = level_error(sweep_at(factor, scatter=0.001))
-    assert found.segment_percent == pytest.approx({1: 2, 2: 2, 3: 6}, abs=0.1)
-    assert found.percent == pytest.approx(2, abs=0.3)
 
 
 def test_without_a_reference_or_with_two_points_nothing_is_said():

@@ -125,7 +125,7 @@ class DiagnosisPage(Page):
                 view.show_diagnosis(self._shown.found)
 
     def _show_controls(self, shown: ShownDiagnosis | None) -> None:
-        running, session = self.controller.rediagnosis.running, self._session
+        running, session = self.controller.rediagnosis.running, self.controller.session
         self.body.setVisible(shown is not None)
         self.empty.setVisible(shown is None)
         self.filler.setVisible(shown is None)
@@ -162,8 +162,8 @@ class DiagnosisPage(Page):
     # What a person does
 
     def _diagnose_session(self) -> None:
-        if self._session is not None:
-            self.controller.rediagnosis.start(DiagnosisAsked(self._session))
+        if self.controller.session is not None:
+            self.controller.rediagnosis.start(DiagnosisAsked(self.controller.session))
 
     def _diagnose_other(self) -> None:
         action = self.sender()
@@ -182,9 +182,9 @@ class DiagnosisPage(Page):
         decisions = self.candidates.decisions
         asked = self._shown.asked if self._shown is not None else None
         if asked is None:
-            if self._session is None:
+            if self.controller.session is None:
                 return
-            asked = DiagnosisAsked(self._session)
+            asked = DiagnosisAsked(self.controller.session)
         declined = () if decisions.accept_argument is not None else decisions.declined
         asked = replace(asked, accept=decisions.accept_argument, decline=declined)
         self.controller.rediagnosis.start(asked)
@@ -219,14 +219,6 @@ class DiagnosisPage(Page):
         self._show()
 
     # Inside
-
-    @property
-    def _session(self) -> Path | None:
-        """The file of the session shown; None while it is being measured."""
-        if self.controller.recorded is not None:
-            return self.controller.recorded.path
-        live = self.controller.live
-        return live.ending.session if live is not None and live.ending is not None else None
 
     @property
     def _foreign(self) -> list[Path]:

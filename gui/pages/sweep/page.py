@@ -1,7 +1,5 @@
 """The page of the sweep: which segment, which point; the panes draw."""
 
-from pathlib import Path
-
 import numpy as np
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QHideEvent, QKeySequence, QShortcut, QShowEvent
@@ -247,7 +245,7 @@ class SweepPage(Page):
         elif pane is self.drift:
             self.drift.show_seen(self.seen, state.contents.sentinels if state is not None else ())
         elif pane is self.samples:
-            self.samples.show_seen(self.seen, self._session)
+            self.samples.show_seen(self.seen, self.controller.session)
 
     def _said_of_model(self, state: SessionState) -> str:
         fit = state.contents.fit
@@ -277,14 +275,6 @@ class SweepPage(Page):
             return UNKNOWN
         found = own.result if own is not None else None
         return BEFORE_DIAGNOSIS if found is not None and stage_before(found) is not None else ""
-
-    @property
-    def _session(self) -> Path | None:
-        """The file that holds the samples."""
-        if self.controller.recorded is not None:
-            return self.controller.recorded.path
-        live = self.controller.live
-        return live.ending.session if live is not None and live.ending is not None else None
 
     def _back(self) -> None:
         self.walk(-1)

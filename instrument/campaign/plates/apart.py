@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from instrument.campaign.plates.again import SimulatedRig
-from instrument.campaign.plates.weak import WEAK, draw_weak
+from instrument.campaign.plates.remeasured import RemeasuredPlate
+from instrument.campaign.plates.weak_effects import WEAK, draw_weak
 from instrument.campaign.run import SUMMARY, Job, run_campaign
 from instrument.models.diagnosis import Diagnosed
 from instrument.planning.follow_up import Possible, rank_follow_ups
@@ -86,7 +86,7 @@ def write_apart_summary(lines: Sequence[Line], folder: Path) -> str:
     return "\n".join(text)
 
 
-def _said(rig: SimulatedRig, found: Diagnosed) -> Line:
+def _said(rig: RemeasuredPlate, found: Diagnosed) -> Line:
     """What a diagnosis says, beside the truth."""
     result = found.result
     names = [e.name for e in result.effects]

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from instrument.campaign.draws import log_uniform
 from instrument.impact.mobility import Mobility, of_spectra
 
 _HITS = (3, 5)
@@ -75,16 +76,12 @@ def draw_blows(rng: np.random.Generator, highest_hz: float) -> Blows:
         pulse_s=1.5 / (highest_hz * float(rng.uniform(*_FIRST_ZERO))),
         strength=tuple(np.exp(_STRENGTH * rng.standard_normal(hits)).tolist()),
         offsets_m=tuple((float(x), float(y)) for x, y in offsets),
-        floor=_log(rng, *_FLOOR),
+        floor=log_uniform(rng, *_FLOOR),
         below_hz=float(rng.uniform(*_BELOW_HZ)),
-        force_floor=_log(rng, *_FORCE_FLOOR),
-        bounce=tuple((bounces * [_log(rng, *_BOUNCE) for _ in range(hits)]).tolist()),
+        force_floor=log_uniform(rng, *_FORCE_FLOOR),
+        bounce=tuple((bounces * [log_uniform(rng, *_BOUNCE) for _ in range(hits)]).tolist()),
         late_s=tuple(rng.uniform(*_LATE_S, hits).tolist()),
     )
-
-
-def _log(rng: np.random.Generator, low: float, high: float) -> float:
-    return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
 
 def _circular(rng: np.random.Generator, shape: tuple[int, ...]) -> Complex:

@@ -16,6 +16,7 @@ from instrument.campaign.plates.hidden.base import Hidden, Setting
 from instrument.campaign.plates.kept import clean_plate
 from instrument.campaign.plates.materials import PlateMaterialLaw, draw_law, fits
 from instrument.campaign.plates.noise import PlateNoise, draw_noise
+from instrument.campaign.plates.one_piece import draw_whole, in_one_piece, judged_of, of_one_range
 from instrument.campaign.plates.reduced import ReducedSolid
 from instrument.campaign.plates.schedule import (
     Resonance,
@@ -27,7 +28,6 @@ from instrument.campaign.plates.schedule import (
 )
 from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, peaks_hz, reading, struck
 from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
-from instrument.campaign.plates.whole import draw_whole, in_one_piece, judged_of, of_one_range
 from instrument.campaign.schedule import Schedule
 
 NONE, PAIR = "none", "pair"

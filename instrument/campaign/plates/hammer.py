@@ -26,12 +26,6 @@ class HammerTest:
         """As `diagnose` and `identify` take it."""
         return self.frequency_hz, self.ratios
 
-    @property
-    def facts(self) -> dict[str, list[dict[str, float]]]:
-        """As `viscorig damping --json` has it."""
-        pairs = zip(self.frequency_hz.tolist(), self.ratios.tolist(), strict=True)
-        return {"modes": [{"frequency_hz": f, "damping_ratio": r} for f, r in pairs]}
-
 
 def hammer_test(
     rng: np.random.Generator,

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
 from fitting.arrays import Array, Complex
+from instrument.campaign.draws import log_uniform
 
 KINDS = ("fractional-zener", "maxwell", "havriliak-negami", "table")
 STORAGE_PA = (0.2e6, 5e6)
@@ -94,46 +95,44 @@ def fits(law: PlateMaterialLaw, frequency_hz: Array) -> bool:
     return bool(storage and LOSS[0] < eta.min() and eta.max() < LOSS[1])
 
 
-def _log(rng: np.random.Generator, low: float, high: float) -> float:
-    return float(np.exp(rng.uniform(np.log(low), np.log(high))))
-
-
 def _zener(rng: np.random.Generator, middle_hz: float) -> PlateMaterialLaw:
-    g0 = _log(rng, 0.1e6, 0.8e6)
-    tau = 1 / (2 * np.pi * middle_hz * _log(rng, 1.5, 40))
+    g0 = log_uniform(rng, 0.1e6, 0.8e6)
+    tau = 1 / (2 * np.pi * middle_hz * log_uniform(rng, 1.5, 40))
     return PlateMaterialLaw(
-        "fractional-zener", (g0, g0 * _log(rng, 6, 80), tau, float(rng.uniform(0.45, 0.97)))
+        "fractional-zener", (g0, g0 * log_uniform(rng, 6, 80), tau, float(rng.uniform(0.45, 0.97)))
     )
 
 
 def _maxwell(rng: np.random.Generator, middle_hz: float) -> PlateMaterialLaw:
     count = int(rng.integers(3, 6))
-    tau = 1 / (2 * np.pi * middle_hz * np.geomspace(_log(rng, 0.05, 0.2), _log(rng, 15, 60), count))
+    slow, fast = log_uniform(rng, 0.05, 0.2), log_uniform(rng, 15, 60)
+    tau = 1 / (2 * np.pi * middle_hz * np.geomspace(slow, fast, count))
     tau = tau * np.exp(rng.uniform(-0.3, 0.3, count))
     # Faster elements are stiffer, as in any transition towards glass.
-    g_inf, first, last = _log(rng, 0.15e6, 0.8e6), _log(rng, 0.05e6, 0.3e6), _log(rng, 0.8e6, 8e6)
+    g_inf = log_uniform(rng, 0.15e6, 0.8e6)
+    first, last = log_uniform(rng, 0.05e6, 0.3e6), log_uniform(rng, 0.8e6, 8e6)
     g = np.geomspace(first, last, count) * np.exp(rng.uniform(-0.4, 0.4, count))
     pairs = np.column_stack([g, tau]).ravel()
     return PlateMaterialLaw("maxwell", (g_inf, *(float(v) for v in pairs)))
 
 
 def _havriliak_negami(rng: np.random.Generator, middle_hz: float) -> PlateMaterialLaw:
-    g0 = _log(rng, 0.1e6, 0.8e6)
-    tau = 1 / (2 * np.pi * middle_hz * _log(rng, 0.3, 20))
+    g0 = log_uniform(rng, 0.1e6, 0.8e6)
+    tau = 1 / (2 * np.pi * middle_hz * log_uniform(rng, 0.3, 20))
     alpha, beta = float(rng.uniform(0.45, 0.95)), float(rng.uniform(0.25, 0.75))
-    return PlateMaterialLaw("havriliak-negami", (g0, g0 * _log(rng, 6, 80), tau, alpha, beta))
+    return PlateMaterialLaw("havriliak-negami", (g0, g0 * log_uniform(rng, 6, 80), tau, alpha, beta))
 
 
 def _table(rng: np.random.Generator, middle_hz: float) -> PlateMaterialLaw:
     """From a spectrum of two broad humps of relaxation times, read at 25 frequencies."""
     rate = np.geomspace(1e-3, 1e4, 120) * 2 * np.pi * middle_hz
     x = np.log10(rate / (2 * np.pi * middle_hz))
-    humps = [(rng.uniform(-1.5, 0.2), rng.uniform(0.3, 0.9), _log(rng, 0.01e6, 0.2e6))]
-    humps += [(rng.uniform(0.6, 2.0), rng.uniform(0.4, 1.0), _log(rng, 0.2e6, 4e6))]
+    humps = [(rng.uniform(-1.5, 0.2), rng.uniform(0.3, 0.9), log_uniform(rng, 0.01e6, 0.2e6))]
+    humps += [(rng.uniform(0.6, 2.0), rng.uniform(0.4, 1.0), log_uniform(rng, 0.2e6, 4e6))]
     spectrum = sum((size * np.exp(-(((x - at) / wide) ** 2) / 2) for at, wide, size in humps), np.zeros(120))
     f = np.geomspace(0.02, 50, 25) * middle_hz
     s = 2j * np.pi * f[:, None] / rate
-    G = _log(rng, 0.15e6, 0.8e6) + (s / (1 + s)) @ (spectrum * np.log(rate[1] / rate[0]))
+    G = log_uniform(rng, 0.15e6, 0.8e6) + (s / (1 + s)) @ (spectrum * np.log(rate[1] / rate[0]))
     return PlateMaterialLaw("table", (*f.tolist(), *G.real.tolist(), *(G.imag / G.real).tolist()))
 
 

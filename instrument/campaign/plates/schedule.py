@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
+from instrument.campaign.draws import order_of_time
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.reduced import MODES, ReducedSolid
@@ -116,12 +117,12 @@ def draw_schedule(
         for k in order:
             f = segments[k]
             count = len(f)
-            order_of_time = taken(rng, count, along)
-            takes = SECONDS + CYCLES / f[order_of_time] + rng.exponential(LATE_S, count)
+            in_time = order_of_time(rng, count, along)
+            takes = SECONDS + CYCLES / f[in_time] + rng.exponential(LATE_S, count)
             when = now + np.cumsum(takes)
             now = float(when[-1]) + between_s(rng)
             time = np.empty(count)
-            time[order_of_time] = when
+            time[in_time] = when
             segment, number = np.full(count, k + 1, np.intp), np.full(count, len(parts) + 1, np.intp)
             parts.append((f, segment, number, np.full(count, level), np.round(time, 3)))
     return Schedule(*(np.concatenate(column) for column in zip(*parts, strict=True)))
@@ -132,14 +133,6 @@ def _around(rng: np.random.Generator, r: Resonance, points: tuple[int, int]) -> 
     half = float(np.clip(_HALF_WIDTHS * r.loss_factor, *_SHARE))
     low, high = (half * float(rng.uniform(0.85, 1.15)) for _ in range(2))
     return np.round(np.linspace(r.frequency_hz * (1 - low), r.frequency_hz * (1 + high), count), 3)
-
-
-def taken(rng: np.random.Generator, count: int, along: str) -> Integers:
-    """Indices of the points in the order of time. Shape (count,)."""
-    up = np.arange(count, dtype=np.intp)
-    if along == "random":
-        return rng.permutation(up)
-    return up[::-1] if along == "down" else up
 
 
 def between_s(rng: np.random.Generator) -> float:

@@ -10,6 +10,7 @@ from fitting.arrays import Array, Complex
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from fitting.theory_error import theory_error
+from instrument.campaign.draws import log_uniform
 from instrument.campaign.plates.blows import Blows, draw_blows
 from instrument.campaign.plates.geometry import PLATES, TruePlate, plate_named
 from instrument.campaign.plates.hidden.base import Hidden
@@ -178,7 +179,7 @@ def _specimen_of(true: TruePlate) -> Specimen:
 def _lines(rng: np.random.Generator, found: list[float]) -> Array:
     """Even lines, as a spectrum has them. Shape (lines,)."""
     low, high = found[0] * rng.uniform(*_BEGINS), found[-1] * rng.uniform(*_ENDS)
-    step = (high - low) / np.exp(rng.uniform(*np.log(_LINES)))
+    step = (high - low) / log_uniform(rng, *_LINES)
     return np.asarray(step * np.arange(np.ceil(low / step), np.floor(high / step) + 1))
 
 

@@ -77,6 +77,18 @@ def test_a_posterior_of_one_seed_is_the_same_again(quantities, many):
     np.testing.assert_array_equal(first.intervals.bounds[68], again.intervals.bounds[68])
 
 
+def test_where_the_law_is_all_that_is_not_known_the_posterior_is_of_the_law(coarse):
+    whole = read_sweep(DATA / "practice-002.csv").sweep(coarse.base_acceleration_m_s2)
+    exact = identify(whole.take(np.arange(len(whole)) % 6 == 0), replace(coarse, exact=True))
+    alone = Quantities(DepthTask.of(exact.joint.begun), AT)
+    drawn = sample(alone, ManyResiduals(alone.task, exact.joint.reduced), 2_000)
+    assert drawn.checked > 0
+    linear, wide = (
+        np.diff(np.log(b[68][-6:]), axis=1) for b in (drawn.intervals.linear, drawn.intervals.bounds)
+    )
+    np.testing.assert_allclose(wide, linear, rtol=0.4)
+
+
 def test_what_is_known_well_has_a_profile_as_wide_as_its_linear_error(quantities):
     k = quantities.names.index("storage_modulus_pa at 100 Hz")
     one = profile(quantities, only=[k])

@@ -9,8 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from fitting.gravity import PUBLISHED_G_M_S2
-from instrument.campaign.plates import again, apart, kept, weak
-from instrument.campaign.plates.again import SimulatedRig
+from instrument.campaign.plates import apart, kept, remeasured, weak_effects
 from instrument.campaign.plates.cases import PlateTruth, measured
 from instrument.campaign.plates.geometry import plate_named
 from instrument.campaign.plates.grid import Fineness
@@ -22,6 +21,7 @@ from instrument.campaign.plates.hidden.clamp import (
 )
 from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.noise import draw_noise
+from instrument.campaign.plates.remeasured import RemeasuredPlate
 from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, reading
 from instrument.campaign.plates.stated import specimen_from, toml
 from instrument.campaign.plates.struck import struck_plate
@@ -45,11 +45,11 @@ def _coarse(tmp_path_factory):
         patch.setenv("VISCORIG_CACHE", str(tmp_path_factory.mktemp("cache")))
         patch.setattr(kept, "Fineness", lambda: COARSE)
         patch.setattr(kept, "MODULI_PA", MODULI)
-        patch.setattr(again, "built", lambda *given: built(*given, COARSE))
-        patch.setattr(again, "_models", lambda plate, spot_mm: None)
-        patch.setattr(again, "_struck_models", lambda *given, **more: None)
+        patch.setattr(remeasured, "built", lambda *given: built(*given, COARSE))
+        patch.setattr(remeasured, "_models", lambda plate, spot_mm: None)
+        patch.setattr(remeasured, "_struck_models", lambda *given, **more: None)
         patch.setattr(
-            again, "struck_plate", lambda *given, **more: struck_plate(*given, **more, fineness=COARSE)
+            remeasured, "struck_plate", lambda *given, **more: struck_plate(*given, **more, fineness=COARSE)
         )
         kept.clean_plate.cache_clear()
         yield
@@ -64,7 +64,7 @@ def rig(*effects):
     truth = PlateTruth(P2, effects, LAW, noise, ChannelError(), (23.0,), 0.1)
     plate = built(P2, effects, moduli_of(LAW, f), COARSE)
     sweep = measured(truth, plate, schedule, np.random.default_rng(1))
-    return SimulatedRig(truth, schedule, (File(sweep, specimen_from(toml(P2, None, 100.0))),), None, 7.0)
+    return RemeasuredPlate(truth, schedule, (File(sweep, specimen_from(toml(P2, None, 100.0))),), None, 7.0)
 
 
 def proposed(kind, **more):
@@ -91,7 +91,7 @@ def rng():
 def test_clamped_anew_is_a_file_of_its_own_whose_clamp_gives_more(monkeypatch):
     built_as = []
     monkeypatch.setattr(
-        again,
+        remeasured,
         "built",
         lambda plate, hidden, moduli: built_as.append(hidden) or built(plate, hidden, moduli, COARSE),
     )
@@ -193,11 +193,11 @@ def test_a_clamp_that_rubs_takes_energy():
 
 
 def test_every_kind_has_a_weak_effect_and_a_segment_has_forty_points_at_the_highest_level():
-    for kind in weak.WEAK:
-        assert weak.weak(kind, rng(), P2).name == kind
+    for kind in weak_effects.WEAK:
+        assert weak_effects.weak(kind, rng(), P2).name == kind
     segment = np.repeat([1, 1, 2], [100, 100, 30])
     level = np.repeat([9.81, 2.0, 9.81], [100, 100, 30])
-    at = weak._thinned(segment, level)
+    at = weak_effects._thinned(segment, level)
     assert np.bincount(segment[at]).tolist() == [0, 40, 30]
     assert level[at].min() == 9.81
     assert {0, 99, 200, 229} <= set(at.tolist())
@@ -282,7 +282,7 @@ def test_the_command_draws_kinds_in_turn_and_refuses_those_that_it_has_not(monke
     monkeypatch.setattr("instrument.cli.bench.write_apart_summary", lambda *a: "said")
     result = CliRunner().invoke(bench, ["--apart", str(tmp_path), "--count", "8", "--seed", "3"])
     assert result.output.strip() == "said"
-    assert [job.kind for job in asked] == [*weak.WEAK, weak.WEAK[0]]
+    assert [job.kind for job in asked] == [*weak_effects.WEAK, weak_effects.WEAK[0]]
     assert [job.seed for job in asked] == list(range(3, 11))
     refused = CliRunner().invoke(bench, ["--apart", str(tmp_path), "--kind", "mains_hum"])
     assert refused.exit_code != 0

@@ -1,7 +1,6 @@
 """Cases as the campaign draws them: noise as stated, effects where they belong, files that commands read."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,7 +9,6 @@ from hypothesis import strategies as st
 
 from drivers.simulated.plant.effects import Effects
 from fitting.noise import noise_of
-from instrument.campaign.case_files import load_case, save_case, write_csv
 from instrument.campaign.cases import KINDS, Truth, clean, draw, measured, nominal_specimen
 from instrument.campaign.channels import TrueChannels
 from instrument.campaign.materials import TrueLaw, deviation, draw_strange_material, nearest_zener
@@ -19,8 +17,6 @@ from instrument.campaign.plant_sweep import Steady, steady
 from instrument.campaign.schedule import Schedule, draw_schedule
 from instrument.campaign.severities import OF_THE_CHANNELS_ALONE, PLACES
 from instrument.campaign.visibility import visible_chi2
-from instrument.files.hammer_file import read_hammer
-from instrument.files.sweep_file import read_sweep
 
 ZENER = TrueLaw("fractional-zener", (0.27e6, 4.1e6, 1.21e-4, 0.83))
 FIGURES = NoiseFigures(0.006, 0.002)
@@ -186,25 +182,6 @@ def test_softening_is_stated_at_the_first_mode_at_one_g():
     f = np.unique(case.sweep.frequency_hz[case.sweep.segment == 1])
     hard = steady(Effects(), case.truth.law.modulus, f, np.full(len(f), 9.81), np.zeros(len(f)))
     assert hard.core_strain.max() == pytest.approx(s["reference_strain"], rel=1e-6)
-
-
-def test_files_hold_the_case(tmp_path: Path):
-    case = next(c for c in (draw("channel_delay", seed) for seed in range(20)) if c.hammer is not None)
-    path = save_case(case, tmp_path, "one")
-    back = load_case(path)
-    assert (back.kind, back.seed, back.truth) == (case.kind, case.seed, case.truth)
-    np.testing.assert_allclose(phasors(back), phasors(case), rtol=1e-8)
-    for field in ("frequency_hz", "segment", "sweep", "time_s", "commanded_m_s2"):
-        np.testing.assert_allclose(getattr(back.sweep, field), getattr(case.sweep, field), rtol=1e-9)
-    np.testing.assert_array_equal(back.hammer[0], read_hammer(tmp_path / "one.hammer.json").frequency_hz)
-    assert load_case(path.with_suffix(".csv")).truth == case.truth
-
-
-def test_the_csv_tells_nothing_of_the_truth(tmp_path: Path):
-    write_csv(draw("added_mass", 1), tmp_path / "sweep.csv")
-    text = (tmp_path / "sweep.csv").read_text()
-    assert "mass" not in text
-    assert not read_sweep(tmp_path / "sweep.csv").unknown
 
 
 def test_a_clean_sweep_shows_nothing_and_a_spot_offset_much():

@@ -11,7 +11,6 @@ from fitting.plate import Plate
 from fitting.real_modes import real_modes
 from instrument.campaign.plates import cases, kept, simulate
 from instrument.campaign.plates.cases import NONE, PAIR, draw_case
-from instrument.campaign.plates.files import load_case, save_case
 from instrument.campaign.plates.geometry import PLATES, plate_named
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.hidden import HIDDEN, STRANGE
@@ -211,15 +210,6 @@ def test_an_exact_case_states_the_truth_of_the_same_sweep():
     assert case.specimen.length_m == pytest.approx(P2.length_m)
     assert case.truth.law == stated.truth.law
     np.testing.assert_array_equal(case.sweep.frequency_hz, stated.sweep.frequency_hz)
-
-
-def test_a_case_comes_back_from_its_files(tmp_path):
-    case = draw_case("sensor_lowpass", 2, plate="P7")
-    back = load_case(save_case(case, tmp_path / "case"))
-    np.testing.assert_allclose(back.sweep.velocity_m_s, case.sweep.velocity_m_s, rtol=1e-8)
-    assert back.specimen == case.specimen
-    assert back.truth == case.truth
-    assert (back.hammer is None) == (case.hammer is None)
 
 
 def test_a_pair_comes_from_two_places_of_the_catalogue():

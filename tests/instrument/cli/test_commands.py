@@ -8,9 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from called import call, facts
 from conftest import DATA
 
-from instrument.cli.main import COMMANDS, run
+from instrument.cli.main import COMMANDS
 from instrument.paper_case import case_file
 
 ZN1, TABLE5 = str(case_file("zn1.toml")), str(case_file("table5.csv"))
@@ -22,19 +23,6 @@ def plate(tmp_path_factory):
     path = tmp_path_factory.mktemp("plate") / "coarse.toml"
     path.write_text(Path(ZN1).read_text() + "\n[mesh]\nelements_x = 10\nelements_y = 10\n")
     return path
-
-
-def call(capsys, *arguments):
-    """Exit status, standard output, standard error."""
-    status = run([str(a) for a in arguments])
-    captured = capsys.readouterr()
-    return status, captured.out, captured.err
-
-
-def facts(capsys, *arguments):
-    status, out, err = call(capsys, *arguments, "--json", "-")
-    assert status == 0, err
-    return json.loads(out)
 
 
 def test_modes(capsys, plate):

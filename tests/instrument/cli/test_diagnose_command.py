@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from called import call
 from conftest import DATA
 from diagnosis_cases import UNSEEN, diagnosed, diagnosis
 from diagnosis_cases import sweep as some_sweep
@@ -13,7 +14,6 @@ from session_cases import RATE, whole_session
 from uff_files import ratio_set, write_sets
 
 import instrument.cli.diagnose as command
-from instrument.cli.main import run
 from instrument.cli.output import Output
 from instrument.cli.reading import read_each
 from instrument.facts.follow_up import FollowUp
@@ -25,13 +25,6 @@ from instrument.session.storage import SessionFile
 from instrument.stream.derived import DiagnosisFound
 
 ZN1, TABLE5 = str(case_file("zn1.toml")), str(case_file("table5.csv"))
-
-
-def call(capsys, *arguments):
-    """Exit status, standard output, standard error."""
-    status = run([str(a) for a in arguments])
-    captured = capsys.readouterr()
-    return status, captured.out, captured.err
 
 
 @pytest.fixture

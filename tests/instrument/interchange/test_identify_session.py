@@ -3,27 +3,14 @@
 import json
 
 import pytest
+from called import call, facts
 from conftest import DATA, TABLE_4
 from session_cases import SyntheticSession, configuration
 
-from instrument.cli.main import run
 from instrument.paper_case import case_file
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import DampingFound
-
-
-def call(capsys, *arguments):
-    """Exit status, standard output, standard error."""
-    status = run([str(a) for a in arguments])
-    captured = capsys.readouterr()
-    return status, captured.out, captured.err
-
-
-def facts(capsys, *arguments):
-    status, out, err = call(capsys, *arguments, "--json", "-")
-    assert status == 0, err
-    return json.loads(out)
 
 
 def test_the_law_behind_the_session_is_found(capsys, session_path):

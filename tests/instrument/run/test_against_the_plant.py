@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from quick_run import no_fit
 
 from drivers.simulated.plant.bare import StruckPlate
 from drivers.simulated.plant.effects import Effects
@@ -15,16 +16,12 @@ from instrument.run.replay import replay
 from instrument.session.configuration import read_whole_experiment
 from instrument.session.storage import SessionFile
 from instrument.simulated_case import write_case
-from instrument.stream.derived import CalibrationFound, DiagnosisFound, FitUpdated, HitJudged
+from instrument.stream.derived import CalibrationFound, DiagnosisFound, HitJudged
 from instrument.stream.raw import StepBegan
 
 pytestmark = pytest.mark.usefixtures("warm")
 
 RATIOS = np.array([0.29, 0.13, 0.18, 0.21, 0.11, 0.07, 0.09, 0.04]) / 100
-
-
-def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, None, "not fitted")
 
 
 def no_diagnosis(number, last_step, *_):

@@ -1,6 +1,7 @@
 """A plate of another size on the simulated rig over its wires: struck bare, then swept."""
 
 import pytest
+from quick_run import no_fit
 
 from drivers.simulated.plant.effects import Effects
 from drivers.simulated.plant.shaken import ShakenPlate
@@ -11,7 +12,6 @@ from instrument.run.experiment import run_experiment
 from instrument.session.configuration import read_whole_experiment
 from instrument.simulated_case import case_file
 from instrument.simulated_case.plate import plate_mount
-from instrument.stream.derived import FitUpdated
 
 EXPERIMENT = """
 specimen = "plate.toml"
@@ -31,10 +31,6 @@ mode = 1
 span_percent = 40.0
 points = 7
 """
-
-
-def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, None, "not fitted")
 
 
 @pytest.mark.long

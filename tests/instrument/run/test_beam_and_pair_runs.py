@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from quick_run import no_fit
 
 from drivers.simulated.plant.effects import Effects
 from drivers.simulated.plant.law import maxwell_series
@@ -24,7 +25,6 @@ from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.simulated_case import case_file
 from instrument.simulated_case.structure import mounted_structure
-from instrument.stream.derived import FitUpdated
 
 SEGMENTS = {
     "shear-pair": ((60.0, 110.0, 16), (220.0, 420.0, 11)),
@@ -34,10 +34,6 @@ CHANNELS = {"shear-pair": "\n[tolerances]\ngain_percent = 0.3\nphase_deg = 0.001
 """The rig's are not turned; between two accelerometers half a degree would be allowed for."""
 PAIR_LAW = "g0_mpa = 4.0"
 SOFTER = "g0_mpa = 3.0"
-
-
-def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, None, "not fitted")
 
 
 def write_files(folder, kind, noise=1.0):

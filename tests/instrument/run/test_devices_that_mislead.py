@@ -4,6 +4,7 @@ import time
 from dataclasses import replace
 
 import pytest
+from engine_cases import is_silent
 from formula_rig import formula_rig, gain
 from quick_run import no_fit
 from run_at_point import RunAtPoint
@@ -38,12 +39,6 @@ def all_are_right(points):
         )
         for p in points
     )
-
-
-def is_silent(rig):
-    with rig.world.lock:
-        status = rig.device.status(rig.world.clock()[1])
-    return status.drive_v == 0 and not status.running
 
 
 def change_range(rig):

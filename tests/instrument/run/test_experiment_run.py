@@ -7,6 +7,7 @@ from collections.abc import Callable
 import h5py
 import pytest
 from formula_rig import formula_rig, gain
+from quick_run import no_fit
 from run_at_point import RunAtPoint
 
 from drivers.simulated.rig import SimulatedRig
@@ -16,15 +17,10 @@ from instrument.run.control import RunControl
 from instrument.run.experiment import run_experiment
 from instrument.run.replay import replay
 from instrument.session.storage import SessionFile
-from instrument.stream.derived import FitUpdated, PointMeasured
+from instrument.stream.derived import PointMeasured
 from instrument.stream.raw import SessionEnded, StepBegan
 
 HEARTBEAT_S = 2.0
-
-
-def no_fit(number, last_step, points, damping, specimen):
-    """The formula plate is nobody's plate: a fit of it means nothing."""
-    return FitUpdated(number, last_step, None, f"{sum(p.step <= last_step for p in points)} points")
 
 
 def run(experiment, folder, parts, **options):

@@ -6,12 +6,13 @@ import formula_rig
 import numpy as np
 import pytest
 from formula_rig import FormulaPlate
+from quick_run import no_fit
 
 from instrument.errors import RigStopped
 from instrument.run.experiment import run_experiment
 from instrument.run.replay import replay
 from instrument.session.storage import SessionFile
-from instrument.stream.derived import FitUpdated, PointMeasured
+from instrument.stream.derived import PointMeasured
 from instrument.stream.raw import ShakerCommanded
 
 COARSE = """
@@ -44,10 +45,6 @@ def shaken(monkeypatch):
     monkeypatch.setattr(formula_rig, "gain", gain)
     monkeypatch.setattr(formula_rig, "FormulaPlate", Watched)
     return peaks
-
-
-def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, None, "not fitted")
 
 
 def measured(folder):

@@ -2,6 +2,7 @@
 
 import pytest
 from formula_rig import formula_rig
+from quick_run import no_fit
 from run_at_point import RunAtPoint
 
 from instrument.errors import BadInput, RigStopped
@@ -11,7 +12,7 @@ from instrument.run.replay import replay
 from instrument.session.configuration import read_whole_experiment
 from instrument.session.journal import JOURNAL, SessionJournal
 from instrument.session.storage import SessionFile, part_events
-from instrument.stream.derived import CalibrationFound, FitUpdated, PointMeasured
+from instrument.stream.derived import CalibrationFound, PointMeasured
 from instrument.stream.raw import SegmentEnded
 
 SWEEP = """
@@ -26,10 +27,6 @@ high_hz = 190.0
 points = 4
 range = "5mm/s/V"
 """
-
-
-def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, None, f"{sum(p.step <= last_step for p in points)} points")
 
 
 def run(experiment, folder, **options):

@@ -4,6 +4,7 @@ import json
 import math
 
 import pytest
+from quick_run import no_fit
 
 from drivers.simulated.climate import AMBIENT_C
 from drivers.simulated.plant.law import wlf_shift
@@ -11,7 +12,6 @@ from instrument.cli.main import run
 from instrument.run.experiment import run_experiment
 from instrument.session.configuration import read_whole_experiment
 from instrument.simulated_case import write_case
-from instrument.stream.derived import FitUpdated
 
 WARM_C = 32.0
 CHAMBER = """
@@ -39,10 +39,6 @@ high_hz = 115.0
 points = 6
 """
 CALIBRATION = "calibration.frequencies_hz = [40.0, 120.0, 240.0]"
-
-
-def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, None, "both sweeps are fitted together")
 
 
 def experiment_at(set_point_c, folder, calibration=CALIBRATION):

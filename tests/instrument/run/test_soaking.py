@@ -5,6 +5,7 @@ import threading
 
 import pytest
 from formula_rig import CHAMBER_REGISTERS, formula_rig
+from quick_run import no_fit
 
 from drivers.simulated.climate import Climate
 from drivers.simulated.rig import SimulatedChamber
@@ -20,7 +21,6 @@ from instrument.run.experiment import run_experiment
 from instrument.run.replay import replay
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
-from instrument.stream.derived import FitUpdated
 from instrument.stream.raw import (
     AcquisitionBegan,
     BlockAcquired,
@@ -33,10 +33,6 @@ from instrument.stream.raw import (
 
 SWEEP = "[[sweep.segments]]\nlow_hz = 95.0\nhigh_hz = 107.0\npoints = 3\n"
 WANTED = "set_point_c = 35.0\nsoak_s = 60.0\nmost_s = 2000.0"
-
-
-def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, None, "none")
 
 
 def chamber(air_s: float = 40.0) -> SimulatedChamber:

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from quick_run import no_fit
 
 from fitting.structures.small_modes import small_modes
 from instrument.check.dry_run import all_faults, dry_run
@@ -17,7 +18,6 @@ from instrument.session.configuration import read_whole_experiment
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.simulated_case import case_file
-from instrument.stream.derived import FitUpdated
 
 HAMMER = """[hammer]
 hits = 2
@@ -28,10 +28,6 @@ response_x_mm = 120.0
 response_y_mm = 5.0
 band_hz = [20.0, 1000.0]
 """
-
-
-def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, None, "not fitted")
 
 
 def write_files(folder, *changes):

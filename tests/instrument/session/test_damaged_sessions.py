@@ -6,16 +6,12 @@ import h5py
 import numpy as np
 import pytest
 from formula_rig import formula_rig
+from quick_run import no_fit
 
 from instrument.cli.main import run
 from instrument.errors import BadInput
 from instrument.run.experiment import run_experiment
 from instrument.session.storage import SessionFile
-from instrument.stream.derived import FitUpdated
-
-
-def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, None, f"{sum(p.step <= last_step for p in points)} points")
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,8 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden.base import HiddenInBeam, Hung, Setting
-from instrument.campaign.plates.hidden.base import either_sign, felt_kg, log_uniform
+from instrument.campaign.draws import either_sign, log_uniform
+from instrument.campaign.plates.hidden.base import felt_kg
 
 
 def _place(rng: np.random.Generator, beam: TrueBeam, least: float) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting, driven_by_base
-from instrument.campaign.plates.hidden.base import either_sign, log_uniform
+from instrument.campaign.draws import either_sign, log_uniform
 
 
 @dataclass(frozen=True)

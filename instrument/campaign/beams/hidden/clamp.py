@@ -10,7 +10,7 @@ import numpy as np
 from drivers.simulated.plant.solid_beam import BeamBuild, RootSprings
 from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting
-from instrument.campaign.plates.hidden.base import either_sign, log_uniform
+from instrument.campaign.draws import either_sign, log_uniform
 
 
 @dataclass(frozen=True)

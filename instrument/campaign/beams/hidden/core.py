@@ -12,7 +12,8 @@ from drivers.simulated.plant.solid_beam import BeamBuild
 from fitting.arrays import Array
 from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting
-from instrument.campaign.plates.hidden.base import Softening, draw_softening, either_sign
+from instrument.campaign.draws import either_sign
+from instrument.campaign.plates.hidden.base import Softening, draw_softening
 from instrument.campaign.room import RoomCycles, arrhenius, draw_cycles
 
 

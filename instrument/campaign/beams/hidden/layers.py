@@ -7,7 +7,7 @@ import numpy as np
 
 from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting
-from instrument.campaign.plates.hidden.base import either_sign
+from instrument.campaign.draws import either_sign
 
 
 @dataclass(frozen=True)

@@ -8,14 +8,13 @@ from typing import ClassVar
 import numpy as np
 
 from fitting.arrays import Array
+from instrument.campaign.draws import either_sign, log_uniform
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden.base import (
     Attachment,
     Hidden,
     Setting,
-    either_sign,
     felt_kg,
-    log_uniform,
 )
 from instrument.campaign.plates.response import BaseMotion
 from instrument.campaign.plates.solid import Build, Patch

@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from instrument.campaign.draws import log_uniform
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.response import BaseMotion
 from instrument.campaign.plates.solid import Build, Field
@@ -18,16 +19,6 @@ from instrument.campaign.plates.solid import Build, Field
 def times(first: Field | None, second: Field) -> Field:
     """The product of two factors over the plate."""
     return second if first is None else lambda x, y: first(x, y) * second(x, y)
-
-
-def either_sign(rng: np.random.Generator, low: float, high: float) -> float:
-    """Of a size between."""
-    return float(rng.choice([-1.0, 1.0]) * rng.uniform(low, high))
-
-
-def log_uniform(rng: np.random.Generator, low: float, high: float) -> float:
-    """Even in the logarithm."""
-    return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
 
 def felt_kg(omega: Array, mass_kg: float, own_hz: float, loss_factor: float, power: float) -> Complex:

@@ -8,8 +8,9 @@ from typing import ClassVar
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from instrument.campaign.draws import either_sign, log_uniform
 from instrument.campaign.plates.geometry import TruePlate
-from instrument.campaign.plates.hidden.base import Hidden, Setting, either_sign, log_uniform
+from instrument.campaign.plates.hidden.base import Hidden, Setting
 
 
 @dataclass(frozen=True)

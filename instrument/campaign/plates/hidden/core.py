@@ -8,13 +8,13 @@ from typing import ClassVar
 import numpy as np
 
 from fitting.arrays import Array
+from instrument.campaign.draws import either_sign
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden.base import (
     Hidden,
     Setting,
     Softening,
     draw_softening,
-    either_sign,
     times,
 )
 from instrument.campaign.plates.solid import Build, Field

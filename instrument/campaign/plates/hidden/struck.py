@@ -8,11 +8,12 @@ from typing import ClassVar
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from instrument.campaign.draws import either_sign, log_uniform
 from instrument.campaign.plates.blows import Blows
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden import HIDDEN
 from instrument.campaign.plates.hidden.attached import HiddenTether, plate_mass_kg
-from instrument.campaign.plates.hidden.base import Attachment, Hidden, Setting, either_sign, log_uniform
+from instrument.campaign.plates.hidden.base import Attachment, Hidden, Setting
 from instrument.campaign.plates.response import BaseMotion
 
 Place = tuple[float, float]

@@ -60,7 +60,7 @@ def _models(plate: str, spot_mm: tuple[float, float]) -> Specimen:
 
 
 @dataclass(frozen=True)
-class SimulatedRig:
+class RemeasuredPlate:
     """A plate on a rig, and what has been measured so far."""
 
     truth: PlateTruth
@@ -82,7 +82,7 @@ class SimulatedRig:
         (one,) = self.files
         return diagnose(one.sweep, self._stated, self.hammer, like=one.like)
 
-    def after(self, follow_up: FollowUp, rng: np.random.Generator) -> "SimulatedRig":
+    def after(self, follow_up: FollowUp, rng: np.random.Generator) -> "RemeasuredPlate":
         """With one more measurement. Raises `ValueError` for one that it cannot make."""
         if follow_up.kind == "bare_hammer":
             test = struck(self.truth.plate, self.truth.effects, rng, CAREFUL.damping, yields=True)
@@ -116,7 +116,7 @@ class SimulatedRig:
         level = np.full(len(f), follow_up.level_g)
         return Schedule(f, segment, last.sweep.max() + segment, level, when)
 
-    def _more(self, follow_up: FollowUp, rng: np.random.Generator) -> "SimulatedRig":
+    def _more(self, follow_up: FollowUp, rng: np.random.Generator) -> "RemeasuredPlate":
         new = self._steps(follow_up)
         pairs = zip(_columns(self.schedule), _columns(new), strict=True)
         whole = Schedule(*(np.concatenate(pair) for pair in pairs))
@@ -126,7 +126,7 @@ class SimulatedRig:
         first = replace(first, sweep=_joined(first.sweep, sweep))
         return replace(self, schedule=whole, files=(first, *others))
 
-    def _at_spot(self, follow_up: FollowUp, rng: np.random.Generator) -> "SimulatedRig":
+    def _at_spot(self, follow_up: FollowUp, rng: np.random.Generator) -> "RemeasuredPlate":
         spot = _spot_of(follow_up)
         assert spot is not None
         # Half of those that measured from a wrong edge do it again.
@@ -140,7 +140,7 @@ class SimulatedRig:
         more = File(sweep, replace(self._stated, pickup_m=spot), "", 1, None, near)
         return replace(self, files=_by_spot((*files, more)))
 
-    def _heavier(self, follow_up: FollowUp, rng: np.random.Generator) -> "SimulatedRig":
+    def _heavier(self, follow_up: FollowUp, rng: np.random.Generator) -> "RemeasuredPlate":
         assert follow_up.mass_at_mm is not None
         assert follow_up.mass_kg is not None
         x, y = (1e-3 * at for at in follow_up.mass_at_mm)
@@ -155,7 +155,7 @@ class SimulatedRig:
         masses = (PlacedMass(follow_up.mass_kg, x, y),)
         return self._and_file(sweep, replace(self._stated, masses=masses))
 
-    def _clamped_anew(self, follow_up: FollowUp, rng: np.random.Generator) -> "SimulatedRig":
+    def _clamped_anew(self, follow_up: FollowUp, rng: np.random.Generator) -> "RemeasuredPlate":
         """With a fifth of the torque: what gives then gives more, the line hardly moves."""
         stated = replace(self._stated, pickup_m=_spot_of(follow_up) or self._stated.pickup_m)
         assert stated.pickup_m is not None
@@ -169,7 +169,7 @@ class SimulatedRig:
         like = _near(self.truth.plate, stated, stated.pickup_m) if follow_up.spot_mm is not None else None
         return self._and_file(sweep, stated, like)
 
-    def _struck(self, follow_up: FollowUp, rng: np.random.Generator) -> "SimulatedRig":
+    def _struck(self, follow_up: FollowUp, rng: np.random.Generator) -> "RemeasuredPlate":
         """By a hammer whose force is known to a percent, hung free or in the clamp of the first sweep."""
         assert follow_up.struck_mm is not None
         free, (x, y) = follow_up.held == "free", follow_up.struck_mm
@@ -210,7 +210,7 @@ class SimulatedRig:
 
     def _and_file(
         self, sweep: Sweep, specimen: Specimen, like: Specimen | None = None, *, struck: bool = False
-    ) -> "SimulatedRig":
+    ) -> "RemeasuredPlate":
         files = [replace(f, number=f.number or 1) for f in self.files]
         number = max(f.number for f in files) + 1
         more = File(sweep, specimen, "", number, None, like if struck else like or files[0].like)

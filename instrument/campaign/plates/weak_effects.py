@@ -6,13 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.gravity import PUBLISHED_G_M_S2
-from instrument.campaign.plates.again import SimulatedRig
+from instrument.campaign.draws import either_sign, log_uniform
 from instrument.campaign.plates.cases import draw_case, measured
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden import HIDDEN
-from instrument.campaign.plates.hidden.base import Hidden, either_sign, log_uniform
+from instrument.campaign.plates.hidden.base import Hidden
 from instrument.campaign.plates.hidden.clamp import HiddenClampCompliance, HiddenClampFriction
 from instrument.campaign.plates.judged import models_of
+from instrument.campaign.plates.remeasured import RemeasuredPlate
 from instrument.campaign.plates.simulate import ChannelError
 from instrument.campaign.plates.stated import CAREFUL, CampaignTolerances, draw_stated, specimen_from, toml
 from instrument.campaign.schedule import Schedule
@@ -69,7 +70,7 @@ def _clamp(rng: np.random.Generator, plate: TruePlate) -> HiddenClampCompliance:
     return HiddenClampCompliance(along_x, along_z, bolts, reach, float(rng.uniform(0.15, 0.5)))
 
 
-def draw_weak(kind: str, seed: int) -> SimulatedRig:
+def draw_weak(kind: str, seed: int) -> RemeasuredPlate:
     """A rig with one sweep at 1 g of a plate with an effect of one of `WEAK`."""
     plate = PLATES[seed % len(PLATES)]
     clean = draw_case("none", seed, plate=plate)
@@ -87,7 +88,7 @@ def draw_weak(kind: str, seed: int) -> SimulatedRig:
     level_g = sweep.commanded_m_s2 / PUBLISHED_G_M_S2
     schedule = Schedule(sweep.frequency_hz, sweep.segment, sweep.sweep, level_g, sweep.time_s)
     file = File(sweep, specimen_from(text), like=models_of(plate))
-    rig = SimulatedRig(truth, schedule, (file,), None, float(np.ptp(sweep.time_s)))
+    rig = RemeasuredPlate(truth, schedule, (file,), None, float(np.ptp(sweep.time_s)))
     return replace(rig, files=(replace(file, sweep=measured(truth, rig.plate, schedule, rng)),))
 
 

@@ -11,8 +11,8 @@ from instrument.campaign.plates.answers import Band
 from instrument.campaign.plates.cases import NONE, draw_case
 from instrument.campaign.plates.kept import clean_plate
 from instrument.campaign.plates.noise import draw_noise
+from instrument.campaign.plates.one_piece import draw_whole, in_one_piece, judged_of, of_one_range
 from instrument.campaign.plates.schedule import Resonance, known_to_hz, resonances
-from instrument.campaign.plates.whole import draw_whole, in_one_piece, judged_of, of_one_range
 from instrument.cli.bench import bench
 from instrument.errors import BadInput
 

@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from instrument.campaign.draws import log_uniform, order_of_time
 from instrument.campaign.noise import NoiseFigures
 from instrument.campaign.plates.noise import PlateNoise
-from instrument.campaign.plates.schedule import CYCLES, LATE_S, SECONDS, Resonance, between_s, taken
+from instrument.campaign.plates.schedule import CYCLES, LATE_S, SECONDS, Resonance, between_s
 from instrument.campaign.schedule import Schedule
 
 FEWEST = 5
@@ -42,13 +43,13 @@ def judged_of(chosen: list[Resonance]) -> list[Resonance]:
 
 def draw_whole(rng: np.random.Generator, chosen: list[Resonance], levels_g: tuple[float, ...]) -> Schedule:
     """Even lines from below the first to above the last; one pass at each level, from low to high."""
-    count = int(np.exp(rng.uniform(*np.log(_LINES))) / len(levels_g))
+    count = int(log_uniform(rng, *_LINES) / len(levels_g))
     low, high = chosen[0].frequency_hz * rng.uniform(*_BEGINS), chosen[-1].frequency_hz * rng.uniform(*_ENDS)
     f = np.round(np.linspace(low, high, count), 4)
     along = str(rng.choice(["up", "down"], p=[0.8, 0.2]))
     times, now = [], 0.0
     for _ in levels_g:
-        order = taken(rng, count, along)
+        order = order_of_time(rng, count, along)
         when = now + np.cumsum(SECONDS + CYCLES / f[order] + rng.exponential(LATE_S, count))
         now = float(when[-1]) + between_s(rng)
         time = np.empty(count)
@@ -66,5 +67,5 @@ def draw_whole(rng: np.random.Generator, chosen: list[Resonance], levels_g: tupl
 
 def of_one_range(rng: np.random.Generator, noise: PlateNoise) -> PlateNoise:
     """The same drifts, over a floor that the largest peak alone decides."""
-    floor = float(np.exp(rng.uniform(*np.log(_FLOOR))))
+    floor = log_uniform(rng, *_FLOOR)
     return replace(noise, white=NoiseFigures(floor, noise.white.repeat_scatter))
