@@ -12,7 +12,7 @@ from instrument.errors import BadInput
 from instrument.files.column import Column
 from instrument.files.nearest import nearest
 from instrument.files.point_columns import understood
-from instrument.files.table import number, read_rows
+from instrument.files.table import check_frequency, number, read_rows
 
 IMPORT_READS = "'viscorig import' reads other programs' tables"
 """For people whose columns have other names."""
@@ -209,6 +209,8 @@ def _number(path: Path, line: int, column: Column, text: str) -> float:
 def _check_number(where: str, column: Column, value: float, text: str) -> None:
     if column.above_zero and value <= 0:
         raise BadInput(f"{where}: {column.name} = {text}, expected more than 0")
+    if column.name == "frequency_hz":
+        check_frequency(where, column.name, value, text)
     if column.whole and (value != int(value) or abs(value) > _LARGEST_WHOLE):
         raise BadInput(f"{where}: {column.name} = {text}, expected a whole number below 1e9")
 

@@ -16,6 +16,8 @@ from instrument.files.text import read_text
 Rows = list[tuple[int, list[str]]]
 LARGEST = 1e30
 """A size in SI units that nothing measured has; its square is still a number."""
+LOWEST_HZ = 1e-6
+"""Below it nothing vibrates, and the square of a frequency is lost beside a stiffness."""
 _RATE = re.compile(r"^#\s*sample_rate_hz\s*:\s*(\S+)", re.M)
 _OFF_GRID = 0.2
 """Times are often written with few digits: judged by their place on the grid, in steps."""
@@ -77,6 +79,12 @@ def number(path: Path, line: int, name: str, text: str) -> float:
     if abs(value) > LARGEST:
         raise BadInput(f"{path}: line {line}: {name} = {text}, expected nothing beyond {LARGEST:g} in size")
     return value
+
+
+def check_frequency(where: str, name: str, value: float, text: str) -> None:
+    """Raise `BadInput` for a frequency that is above 0 Hz and none all the same."""
+    if 0 < value < LOWEST_HZ:
+        raise BadInput(f"{where}: {name} = {text}, expected at least {LOWEST_HZ:g} Hz")
 
 
 def stated_rate_hz(path: Path) -> float | None:
