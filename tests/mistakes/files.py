@@ -41,6 +41,17 @@ def dma(pattern: str, by: str):
     return do
 
 
+def at_spot(number: str):
+    """An FRF's lines at a spot of that number."""
+
+    def do(folder: Path) -> None:
+        head, *rows = (folder / "frf.csv").read_text().splitlines()
+        lines = [f"{head},pickup", *(f"{row},{number}" for row in rows)]
+        (folder / "frf.csv").write_text("\n".join(lines) + "\n")
+
+    return do
+
+
 def in_khz(folder):
     path = folder / "modes.csv"
     head, *rows = [line.split(",") for line in path.read_text().splitlines()]
@@ -103,6 +114,10 @@ FILES = [
         "freq",
         "identify frf.csv --specimen coarse.toml",
         "column frequency_hz missing, found freq",
+    ),
+    *(
+        Mistake(f"an FRF at spot {n}", at_spot(n), "identify frf.csv --specimen coarse.toml", f"pickup = {n}")
+        for n in ("0.5", "1e20")
     ),
     Mistake("a mode of nearly nothing", table_of_modes("74.3", "1e-200"), OF_MODES, "1e-200.*1e-06 Hz"),
     wrong("predict coarse.toml --frequencies 1e-30,20", "at least 1e-06 Hz"),
