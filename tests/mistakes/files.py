@@ -96,6 +96,7 @@ FILES = [
     wrong("damping coarse.toml", "coarse.toml"),
     wrong("check coarse.toml", "coarse.toml"),
     wrong("run rig.toml", "rig.toml"),
+    wrong("simulate coarse.toml", "a specimen, expected a rig"),
     wrong("report sweep.csv", "sweep.csv"),
     wrong("replay coarse.toml", "coarse.toml"),
     wrong("export found.json --to csv", "found.json"),
