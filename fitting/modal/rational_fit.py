@@ -215,10 +215,14 @@ def _fitted(window: Frf, starts: Sequence[float], start_ratio: float, terms: int
     omega, H = window.omega, window.H
     start = np.array([complex(-max(start_ratio, 1e-4) * 2 * np.pi * f, 2 * np.pi * f) for f in starts])
     scale = float(np.abs(start[0].real))
+    # The search may end by its gradient, which has the unit of |H|^2: of 1e-6 m/N it ended where it began.
+    # Of large numbers it never does.
+    size = min(float(np.sqrt(np.mean(np.abs(H) ** 2))) or 1.0, 1.0)
+    shape = H / size
     found = least_squares(
-        lambda p: _stack(_remainder(omega, H, _poles(p, start, scale), terms)),
+        lambda p: _stack(_remainder(omega, shape, _poles(p, start, scale), terms)),
         np.zeros(2 * len(start)),
-        jac=lambda p: scale * _jacobian(omega, H, _poles(p, start, scale), terms),
+        jac=lambda p: scale * _jacobian(omega, shape, _poles(p, start, scale), terms),
         x_scale="jac",
         xtol=1e-12,
         ftol=1e-12,
@@ -226,18 +230,18 @@ def _fitted(window: Frf, starts: Sequence[float], start_ratio: float, terms: int
     )
     poles = _poles(found.x, start, scale)
     count, unknowns = 2 * len(H), 2 * (2 * len(start) + terms)
-    noise = float(np.sqrt(2 * found.cost / (count - unknowns)))
+    left = float(np.sqrt(2 * found.cost / (count - unknowns)))
     # zeta = -Re/|lambda|: with Re << |lambda| its error is that of the real part.
-    errors = scale * noise * np.sqrt(np.diag(np.linalg.pinv(found.jac.T @ found.jac)))
+    errors = scale * left * np.sqrt(np.diag(np.linalg.pinv(found.jac.T @ found.jac)))
     n = len(start)
     return _Fitted(
         poles,
         errors[:n],
         errors[n:],
         np.abs(_coefficients(omega, H, poles, terms)[:n]),
-        noise,
+        left * size,
         H - _remainder(omega, H, poles, terms),
-        count * np.log(max(2 * found.cost, _NOTHING * float(np.sum(np.abs(H) ** 2))) / count)
+        count * np.log(size**2 * max(2 * found.cost, _NOTHING * float(np.sum(np.abs(shape) ** 2))) / count)
         + unknowns * np.log(count),
     )
 

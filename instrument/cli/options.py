@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.errors import BadInput
 from instrument.files.acceleration import UNITS, USUAL, show_acceleration_in
+from instrument.files.table import LOWEST_HZ
 
 _MOST_FREQUENCIES = 100_000
 
@@ -127,6 +128,8 @@ class Frequencies(click.ParamType):  # type: ignore[type-arg]
             self.fail(DECIMAL_COMMA.format(value), param, ctx)
         if not np.all(np.isfinite(f)) or np.any(f <= 0):
             self.fail(f"{value!r}, expected frequencies above 0 Hz", param, ctx)
+        if np.any(f < LOWEST_HZ):
+            self.fail(f"{value!r}, expected frequencies of at least {LOWEST_HZ:g} Hz", param, ctx)
         return f
 
 

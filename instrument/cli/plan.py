@@ -30,6 +30,8 @@ from instrument.planning.wish import CAUSES_SHARE, NOISE, TARGET, Wish
 from instrument.progress import bar
 
 _LEAST_RATIO = 1.05
+_LOWEST_HZ = 0.01
+"""Of a band: no shaker sweeps below, and a plan of decades without a resonance takes minutes, or for ever."""
 
 
 class Band(click.ParamType):  # type: ignore[type-arg]
@@ -47,6 +49,8 @@ class Band(click.ParamType):  # type: ignore[type-arg]
             self.fail(f"{value!r}, expected LOW:HIGH in Hz", param, ctx)
         if not 0 < low * _LEAST_RATIO <= high < 1e5:
             self.fail(f"{value!r}, expected 0 < LOW < HIGH in Hz, at least 5 % apart", param, ctx)
+        if low < _LOWEST_HZ:
+            self.fail(f"{value!r}, expected LOW of at least {_LOWEST_HZ:g} Hz", param, ctx)
         return low, high
 
 

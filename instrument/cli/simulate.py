@@ -31,8 +31,8 @@ def simulate(rig: Path, virtual_time: bool, log: Path | None, modbus_port: int, 
     """Stand up the instruments of RIG.toml's [simulation] until interrupted.
 
     The first line of output is JSON: modbus_tcp, modbus_rtu, vibrometer_tty, frontend_url,
-    chamber_tcp (empty without a [chamber]). Everything is bound to loopback. Where standard input is a
-    pipe, its end is the end.
+    chamber_tcp (empty without a [chamber]). Everything is bound to loopback. With --virtual-time the end
+    of standard input is the end.
     """
     document = read_rig(rig)
     ports = modbus_port, frontend_port

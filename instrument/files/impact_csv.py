@@ -9,7 +9,7 @@ from fitting.modal.frf import Frf, Motion
 from instrument.errors import BadInput
 from instrument.files.at_once import write_at_once
 from instrument.files.rates import CONTRADICTION
-from instrument.files.table import number, rate_of_times, read_rows, stated_rate_hz
+from instrument.files.table import check_frequency, number, rate_of_times, read_rows, stated_rate_hz
 from instrument.impact.record import Hit, ResponseChannel
 
 MOTIONS: dict[str, Motion] = {
@@ -73,7 +73,11 @@ def write_frf_csv(path: Path, frf: Frf, coherence: Array | None = None) -> None:
 
 def frfs_of(path: Path, header: list[str], rows: list[tuple[int, list[str]]]) -> dict[str, Frf]:
     """The FRFs of some rows of a file, by their stems. Raises `BadInput`."""
+    if "frequency_hz" not in header:
+        raise BadInput(f"{path}: header: column frequency_hz missing, found {', '.join(header)[:100]}")
     f = _column(path, header, rows, "frequency_hz")
+    for (line, row), value in zip(rows, f, strict=True):
+        check_frequency(f"{path}: line {line}", "frequency_hz", value, row[header.index("frequency_hz")])
     if np.any(np.diff(f) <= 0) or len(f) < 5 or f[0] < 0:
         raise BadInput(f"{path}: frequency_hz, expected 5 or more lines, ascending from 0 or above")
     found = {}

@@ -12,12 +12,10 @@ from instrument.errors import BadInput
 from instrument.files.column import Column
 from instrument.files.nearest import nearest
 from instrument.files.point_columns import understood
-from instrument.files.table import number, read_rows
+from instrument.files.table import check_frequency, check_whole, number, read_rows
 
 IMPORT_READS = "'viscorig import' reads other programs' tables"
 """For people whose columns have other names."""
-_LARGEST_WHOLE = 1e9
-"""Numbers of segments and passes are small; beyond this a double may no longer be whole."""
 _SAME_SIZE = 0.02
 """Between an amplitude and its phasor, written with few digits."""
 _DRIVES: dict[Drive, tuple[str, str]] = {
@@ -209,8 +207,10 @@ def _number(path: Path, line: int, column: Column, text: str) -> float:
 def _check_number(where: str, column: Column, value: float, text: str) -> None:
     if column.above_zero and value <= 0:
         raise BadInput(f"{where}: {column.name} = {text}, expected more than 0")
-    if column.whole and (value != int(value) or abs(value) > _LARGEST_WHOLE):
-        raise BadInput(f"{where}: {column.name} = {text}, expected a whole number below 1e9")
+    if column.name == "frequency_hz":
+        check_frequency(where, column.name, value, text)
+    if column.whole:
+        check_whole(where, column.name, value, text)
 
 
 def _check_phasors(path: Path, places: list[str], columns: dict[str, Array]) -> None:

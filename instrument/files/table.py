@@ -16,6 +16,12 @@ from instrument.files.text import read_text
 Rows = list[tuple[int, list[str]]]
 LARGEST = 1e30
 """A size in SI units that nothing measured has; its square is still a number."""
+LARGEST_WHOLE = 1e9
+"""Numbers of segments, passes and spots are small; beyond this a double may no longer be whole."""
+LOWEST_HZ = 1e-6
+"""Below it nothing vibrates, and the square of a frequency is lost beside a stiffness."""
+_MOST_SHOWN = 60
+"""Letters of a cell: no number needs as many."""
 _RATE = re.compile(r"^#\s*sample_rate_hz\s*:\s*(\S+)", re.M)
 _OFF_GRID = 0.2
 """Times are often written with few digits: judged by their place on the grid, in steps."""
@@ -71,12 +77,31 @@ def number(path: Path, line: int, name: str, text: str) -> float:
         # Python also takes 1_4.3, and digits of other scripts.
         value = float(text if text.isascii() and "_" not in text else "no number")
     except ValueError:
-        raise BadInput(f"{path}: line {line}: {name} = {text!r}, expected a number") from None
+        raise BadInput(f"{path}: line {line}: {name} = {shown(text)!r}, expected a number") from None
     if not math.isfinite(value):
-        raise BadInput(f"{path}: line {line}: {name} = {text}, expected a finite number")
+        raise BadInput(f"{path}: line {line}: {name} = {shown(text)}, expected a finite number")
     if abs(value) > LARGEST:
-        raise BadInput(f"{path}: line {line}: {name} = {text}, expected nothing beyond {LARGEST:g} in size")
+        raise BadInput(
+            f"{path}: line {line}: {name} = {shown(text)}, expected nothing beyond {LARGEST:g} in size"
+        )
     return value
+
+
+def check_frequency(where: str, name: str, value: float, text: str) -> None:
+    """Raise `BadInput` for a frequency that is above 0 Hz and none all the same."""
+    if 0 < value < LOWEST_HZ:
+        raise BadInput(f"{where}: {name} = {text}, expected at least {LOWEST_HZ:g} Hz")
+
+
+def check_whole(where: str, name: str, value: float, text: str) -> None:
+    """Raise `BadInput` for a number that counts nothing."""
+    if value != int(value) or abs(value) > LARGEST_WHOLE:
+        raise BadInput(f"{where}: {name} = {shown(text)}, expected a whole number below 1e9")
+
+
+def shown(text: str) -> str:
+    """A cell as a message quotes it: a line has room for so much."""
+    return text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}..."
 
 
 def stated_rate_hz(path: Path) -> float | None:

@@ -12,7 +12,7 @@ from fitting.sweep import Sweep, segments_by_gap
 from instrument.errors import BadInput
 from instrument.files.impact_csv import FRF_STEMS, frfs_of
 from instrument.files.sweep_file import SweepFile, sweep_of_columns
-from instrument.files.table import number, read_rows
+from instrument.files.table import check_whole, number, read_rows
 from instrument.interchange.importing import one_table
 from instrument.interchange.readers import read_foreign
 
@@ -33,7 +33,9 @@ def sweep_of_frf_csv(path: Path, amplitude: float) -> Sweep:
     at = header.index("pickup")
     spots: dict[int, list[tuple[int, list[str]]]] = {}
     for line, row in rows:
-        spots.setdefault(int(number(path, line, "pickup", row[at])), []).append((line, row))
+        spot = number(path, line, "pickup", row[at])
+        check_whole(f"{path}: line {line}", "pickup", spot, row[at])
+        spots.setdefault(int(spot), []).append((line, row))
     each = [_sweep(path, _only(path, frfs_of(path, header, some)), amplitude) for some in spots.values()]
     which = np.repeat(np.array(list(spots), dtype=np.intp), [len(s) for s in each])
     return replace(joined(each), pickup=which)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from instrument.errors import BadInput
-from instrument.files.table import Rows, rate_stated_in
+from instrument.files.table import Rows, rate_stated_in, shown
 from instrument.interchange.celsius import is_temperature
 from instrument.interchange.decoded import decoded
 from instrument.interchange.found import CARRIED, EXPECTED, Found
@@ -133,5 +133,5 @@ def _check_marks(path: Path, rows: Rows, *, comma: bool) -> None:
 
 def _number(path: Path, line: int, text: str, *, comma: bool) -> complex:
     if not is_number(text, comma=comma):
-        raise BadInput(f"{path}: line {line}: {text!r}, expected a number")
+        raise BadInput(f"{path}: line {line}: {shown(text)!r}, expected a number")
     return number_of(text, comma=comma)

@@ -41,6 +41,17 @@ def dma(pattern: str, by: str):
     return do
 
 
+def at_spot(number: str):
+    """An FRF's lines at a spot of that number."""
+
+    def do(folder: Path) -> None:
+        head, *rows = (folder / "frf.csv").read_text().splitlines()
+        lines = [f"{head},pickup", *(f"{row},{number}" for row in rows)]
+        (folder / "frf.csv").write_text("\n".join(lines) + "\n")
+
+    return do
+
+
 def in_khz(folder):
     path = folder / "modes.csv"
     head, *rows = [line.split(",") for line in path.read_text().splitlines()]
@@ -85,6 +96,7 @@ FILES = [
     wrong("damping coarse.toml", "coarse.toml"),
     wrong("check coarse.toml", "coarse.toml"),
     wrong("run rig.toml", "rig.toml"),
+    wrong("simulate coarse.toml", "a specimen, expected a rig"),
     wrong("report sweep.csv", "sweep.csv"),
     wrong("replay coarse.toml", "coarse.toml"),
     wrong("export found.json --to csv", "found.json"),
@@ -96,6 +108,21 @@ FILES = [
     wrong("identify nowhere.csv --specimen coarse.toml", "nowhere.csv"),
     wrong("predict coarse.toml --frequencies 20;30", "20;30"),
     wrong("identify modes.csv --specimen coarse.toml", "modes.csv: no core.*another specimen", insists=True),
+    text(
+        "an FRF's frequency",
+        "frf.csv",
+        "frequency_hz",
+        "freq",
+        "identify frf.csv --specimen coarse.toml",
+        "column frequency_hz missing, found freq",
+    ),
+    *(
+        Mistake(f"an FRF at spot {n}", at_spot(n), "identify frf.csv --specimen coarse.toml", f"pickup = {n}")
+        for n in ("0.5", "1e20")
+    ),
+    Mistake("a mode of nearly nothing", table_of_modes("74.3", "1e-200"), OF_MODES, "1e-200.*1e-06 Hz"),
+    wrong("predict coarse.toml --frequencies 1e-30,20", "at least 1e-06 Hz"),
+    wrong("plan coarse.toml --band 1e-6:1", "at least 0.01 Hz"),
     Mistake("modes in kHz", in_khz, OF_MODES, "modes.csv.*in kHz", True),
     Mistake("a loss in percent", table_of_modes(r"0\.221$", "22.1"), OF_MODES, "22.1.*in percent", True),
     Mistake("modes in kelvin", table_of_modes(r"$", ",293.0", ",temperature_c"), OF_MODES, "in K", True),

@@ -82,6 +82,8 @@ SHEETS = [
     sheet("doubled rows", lambda t: t + t.splitlines()[-1] + "\n", "same point"),
     sheet("units below the head", lambda t: t.replace("\n", "\n-,-,g,Hz,m/s,m/s,m/s2,m/s2,s\n", 1), "line 2"),
     sheet("capitals", lambda t: t.replace("frequency_hz", "Frequency_Hz"), "is it Frequency_Hz"),
+    sheet("a frequency of nearly nothing", lambda t: t.replace(",14,", ",1e-30,", 1), "1e-06 Hz"),
+    sheet("a cell without end", lambda t: t.replace(",14,", f",{'x' * 3000},", 1), r"'x{60}\.\.\.'"),
     sheet("a column twice", lambda t: t.replace("time_s", "level_g", 1), "level_g twice"),
     sheet("a row cut short", lambda t: t.rstrip().rpartition(",")[0] + "\n", "8 columns, expected 9"),
     sheet("a word for a number", lambda t: t.replace("0.", "o.", 1), "expected a number"),

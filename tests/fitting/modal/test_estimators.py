@@ -86,6 +86,16 @@ def test_rational_fit_is_immune_to_truncation(zeta, f_n):
     assert found.estimate.frequency_hz == pytest.approx(f_n, rel=1e-4)
 
 
+@pytest.mark.parametrize("size", [1e-12, 1e-6, 1e6])
+def test_rational_fit_is_the_same_in_any_unit(size):
+    modes = [(50.0, 0.004, 1.0), (180.0, 0.002, -0.6), (420.0, 0.001, 0.3)]
+    frf = analytic(np.arange(5.0, 600.0, 0.25), [(f, z, a * size) for f, z, a in modes], "displacement")
+    for f, zeta, _ in modes:
+        found = rational_fit(frf, f, 0.002)
+        assert isinstance(found, RationalFit)
+        assert found.estimate.ratio == pytest.approx(zeta, rel=1e-4)
+
+
 @pytest.mark.parametrize("apart", [2, 3, 5, 10])
 @pytest.mark.parametrize("strength", [1.0, -0.6, 2.0])
 def test_rational_fit_separates_close_modes(apart, strength):
