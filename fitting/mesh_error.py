@@ -8,6 +8,9 @@ have the wave's lambda as the mesh has it, exactly. The deflection of Adini, Clo
 bilinear motions in the plane are too stiff, both as the square of an element's share of the wave; which of
 them is larger goes with the plate, how large with the wave's direction.
 
+Beside a clamped or a free edge faces slide on their core within a length of sqrt(E h h_v/|G|); where an
+element is a good part of that its straight sides are too stiff there, whatever the mode.
+
 Source: the dispersion of periodic structures, Brillouin, Wave Propagation in Periodic Structures (1946).
 """
 
@@ -28,6 +31,14 @@ _SHARES = np.array([0.25, 0.5, 0.25])
 """Of each way in the mean over all: an error goes with the cosine of four times the angle."""
 _OF_HALVES = 4 / 3
 """Of what halving an element's sides changes: the error goes with their square."""
+
+
+SLIDING_FREQUENCY, SLIDING_LOSS = 4e-3, 1.2e-2
+"""Sizes of the errors beside edges, in units of r/(1 + r), r an element over the length of sliding.
+
+Six modes each of fourteen cantilevers and free plates against meshes twice as fine, r 0.03 to 4.5: 0.02 % at
+0.05, up to 0.15 % at 0.5 and 0.3 % at 4.
+"""
 
 
 @dataclass(frozen=True)
@@ -59,6 +70,17 @@ def mesh_error(specimen: Specimen, wavenumber: Array, G: Complex) -> MeshError:
     # Half the difference of the extremes is the amplitude of that cosine.
     by_way = np.abs(each[1] - (each[0] + each[2]) / 2) / np.sqrt(8)
     return MeshError(*mean, *by_way)
+
+
+def beside_edges(specimen: Specimen, G: Complex) -> Array:
+    """r/(1 + r) at core moduli; none on simply supported edges, where waves run through. Shape of `G`."""
+    b, v, c = specimen.substrate, specimen.core, specimen.constraining
+    if v is None or c is None or set(specimen.edges) == {"simply-supported"}:
+        return np.zeros(np.shape(G))
+    give = sum(1 / (face.young_pa * face.thickness_m) for face in (b, c))
+    sliding_m = np.sqrt(v.thickness_m / give / np.abs(G))
+    r = max(mesh_of(specimen).sides_m) / sliding_m
+    return np.asarray(r / (1 + r))
 
 
 @dataclass(frozen=True)

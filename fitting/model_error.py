@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.mesh_error import MeshError, mesh_error
+from fitting.mesh_error import SLIDING_FREQUENCY, SLIDING_LOSS, MeshError, beside_edges, mesh_error
 from fitting.specimen import Specimen
 from fitting.theory_error import EDGE_FREQUENCY, EDGE_LOSS, theory_error
 
@@ -58,10 +58,10 @@ def model_error_at(
     Not `of_mesh`: where what the mesh gets wrong is known otherwise.
     """
     found = theory_error(specimen, frequency_hz, G)
-    k = found.wavenumber
-    mesh = (
-        mesh_error(specimen, k, np.broadcast_to(G, k.shape)) if of_mesh else MeshError(*np.zeros((4, len(k))))
-    )
+    at = np.broadcast_to(np.asarray(G, dtype=complex), found.wavenumber.shape)
+    mesh, beside = MeshError(*np.zeros((4, len(at)))), np.zeros(len(at))
+    if of_mesh:
+        mesh, beside = mesh_error(specimen, found.wavenumber, at), beside_edges(specimen, at)
     # Beside clamped and free edges a mode is no sum of plain waves: how large is known, not in which sense.
     sense = float(set(specimen.edges) == {"simply-supported"})
     s = specimen
@@ -72,9 +72,13 @@ def model_error_at(
     edge = (thickness / min(specimen.length_m, specimen.width_m)) ** 2
     return ModelError(
         frequency=_together(
-            FREQUENCY, found.frequency_error, mesh.frequency, mesh.frequency_by_way, EDGE_FREQUENCY * edge
+            *(FREQUENCY, found.frequency_error, EDGE_FREQUENCY * edge),
+            *(mesh.frequency, mesh.frequency_by_way, SLIDING_FREQUENCY * beside),
         ),
-        loss=_together(LOSS, found.loss_factor_error, mesh.loss, mesh.loss_by_way, EDGE_LOSS * edge),
+        loss=_together(
+            *(LOSS, found.loss_factor_error, EDGE_LOSS * edge),
+            *(mesh.loss, mesh.loss_by_way, SLIDING_LOSS * beside),
+        ),
         modal_loss=found.loss_factor,
         signed=(found.frequency_error + sense * mesh.frequency, found.loss_factor_error + sense * mesh.loss),
     )

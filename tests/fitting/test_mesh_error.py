@@ -95,3 +95,26 @@ def test_a_fit_counts_it():
     coarse, fine = (model_error_at(square(elements=(n, n))[0], f, G) for n in (12, 48))
     assert coarse.frequency[0] > 2 * fine.frequency[0] > 2 * FREQUENCY
     assert coarse.signed[0][0] != pytest.approx(fine.signed[0][0], rel=0.1)
+
+
+@pytest.mark.parametrize("G", [2e6, 4e8])
+def test_edges_of_a_stiff_core_are_counted_as_they_are(G):
+    plate, law = square(G, (20, 20))
+    plate = replace(
+        plate,
+        boundary="clamped-free-free-free",
+        substrate=replace(ALUMINIUM, thickness_m=0.35e-3),
+        constraining=replace(FOIL, thickness_m=0.25e-3),
+        core=replace(plate.core, thickness_m=3.8e-3),
+    )
+    coarse, fine = (
+        np.array([m.frequency_hz for m in complex_modes(Plate(replace(plate, elements=(n, n))), law, 4)])
+        for n in (20, 40)
+    )
+    off = 4 / 3 * np.sqrt(np.mean((coarse / fine - 1) ** 2))
+    said = model_error_at(plate, coarse, law.modulus(2 * np.pi * coarse))
+    plain = model_error_at(plate, coarse, law.modulus(2 * np.pi * coarse), of_mesh=False)
+    assert off < 2 * np.sqrt(np.mean(said.frequency**2 - plain.frequency**2 + FREQUENCY**2))
+    if G > 1e8:
+        assert off > FREQUENCY
+        assert np.all(said.frequency**2 > plain.frequency**2 + FREQUENCY**2)
