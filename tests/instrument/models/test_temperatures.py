@@ -23,7 +23,7 @@ FORMS = {"wlf": wlf(), "arrhenius": arrhenius()}
 
 
 @pytest.fixture(scope="module")
-def plate(coarse):
+def plate(coarse, mesh_is_right):
     return replace(coarse, exact=False)
 
 
