@@ -45,7 +45,6 @@ GLUE_POISSON = 0.4
 
 _QUICK_ORDER = 3
 """Parabolic shear in each layer: which assumption is to blame shows in it as it does in ORDER."""
-"""For the correction: parabolic shear in each layer, where ORDER would tell nothing more."""
 
 
 @dataclass(frozen=True)

@@ -136,6 +136,10 @@ class DiagnosisProblem:
         random = np.random.default_rng(_PLACES_SEED)
         places = _REACH * random.standard_normal((_PLACES if self.nuisances else 0, len(self.nuisances)))
         changes = [self.nuisances.change(self.plate, z) for z in places]
+        if self.nuisances.masses:
+            # What sits on it is no part of the plate: its motions are stirred however exact all is.
+            changes.append(self.nuisances.change(self.plate, self.as_stated))
+            sides = [*sides, *(self.plate.row(m.x_m, m.y_m) for m in self.nuisances.masses)]
         around = np.tile(omega, len(factors))
         plate = self.plate.condensed(around, G, changes, omega, law.modulus(omega), sides)
         return replace(self, plate=plate)

@@ -125,7 +125,8 @@ def set_up_spots(
     places = [s.force_m for s in specimens if s.force_m is not None]
     places += [s.pickup_m for s in specimens if s.pickup_m is not None]
     spots = tuple(dict.fromkeys(place for place in places if place != first.force_m))
-    shared = replace(_usual(first, first), pickup_m=spots[0], further_pickups_m=spots[1:])
+    usual = _usual(first, first)
+    shared = replace(usual, pickup_m=spots[0], further_pickups_m=(*spots[1:], *usual.further_pickups_m))
     models = Models.of(shared, np.concatenate([s.frequency_hz for s in sweeps]), progress)
     reduced, plate = _damped(models, first, with_effects=with_effects)
     known: dict[bytes, RationalSweeps] = {}
@@ -165,9 +166,13 @@ def _between(
 
 
 def _usual(plate: Specimen, specimen: Specimen) -> Specimen:
-    """A plate with usual damping ratios: as many models are made of, whatever the specimen's are."""
+    """A plate with usual damping ratios: as many models are made of, whatever the specimen's are.
+
+    What a force does where masses sit on the specimen is among its motions: they are put on afterwards.
+    """
     count = max(_USUAL_MODES, len(specimen.modal_ratios))
-    return replace(plate, modal_ratios=(_USUAL_RATIO,) * count, masses=())
+    places = tuple((m.x_m, m.y_m) for m in specimen.masses)
+    return replace(plate, modal_ratios=(_USUAL_RATIO,) * count, masses=(), further_pickups_m=places)
 
 
 def _damped(
