@@ -32,7 +32,6 @@ _SHARES = np.array([0.25, 0.5, 0.25])
 _OF_HALVES = 4 / 3
 """Of what halving an element's sides changes: the error goes with their square."""
 
-
 SLIDING_FREQUENCY, SLIDING_LOSS = 4e-3, 1.2e-2
 """Sizes of the errors beside edges, in units of r/(1 + r), r an element over the length of sliding.
 
@@ -73,9 +72,9 @@ def mesh_error(specimen: Specimen, wavenumber: Array, G: Complex) -> MeshError:
 
 
 def beside_edges(specimen: Specimen, G: Complex) -> Array:
-    """r/(1 + r) at core moduli; none on simply supported edges, where waves run through. Shape of `G`."""
+    """r/(1 + r) at core moduli; none of a bare plate. Shape of `G`."""
     b, v, c = specimen.substrate, specimen.core, specimen.constraining
-    if v is None or c is None or set(specimen.edges) == {"simply-supported"}:
+    if v is None or c is None:
         return np.zeros(np.shape(G))
     give = sum(1 / (face.young_pa * face.thickness_m) for face in (b, c))
     sliding_m = np.sqrt(v.thickness_m / give / np.abs(G))

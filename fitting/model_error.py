@@ -60,10 +60,11 @@ def model_error_at(
     found = theory_error(specimen, frequency_hz, G)
     at = np.broadcast_to(np.asarray(G, dtype=complex), found.wavenumber.shape)
     mesh, beside = MeshError(*np.zeros((4, len(at)))), np.zeros(len(at))
-    if of_mesh:
-        mesh, beside = mesh_error(specimen, found.wavenumber, at), beside_edges(specimen, at)
-    # Beside clamped and free edges a mode is no sum of plain waves: how large is known, not in which sense.
-    sense = float(set(specimen.edges) == {"simply-supported"})
+    if of_mesh and set(specimen.edges) == {"simply-supported"}:
+        mesh = mesh_error(specimen, found.wavenumber, at)
+    elif of_mesh:
+        # A mode there is no sum of plain waves, and less off than they are: sliding faces are what counts.
+        beside = beside_edges(specimen, at)
     s = specimen
     layers = (s.substrate, s.core, s.constraining)
     thickness = sum(layer.thickness_m for layer in layers if layer is not None)
@@ -80,7 +81,7 @@ def model_error_at(
             *(mesh.loss, mesh.loss_by_way, SLIDING_LOSS * beside),
         ),
         modal_loss=found.loss_factor,
-        signed=(found.frequency_error + sense * mesh.frequency, found.loss_factor_error + sense * mesh.loss),
+        signed=(found.frequency_error + mesh.frequency, found.loss_factor_error + mesh.loss),
     )
 
 
