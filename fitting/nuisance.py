@@ -22,6 +22,8 @@ class Nuisance:
     """Of `fitting.tolerances.STATED`, or `OF_THEORY`."""
     sigma: float
     """Relative, m or s."""
+    stated: float | None = None
+    """In SI, of a number that no specimen states."""
 
     @property
     def unit(self) -> Unit:

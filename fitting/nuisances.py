@@ -5,7 +5,7 @@ the row that reads the pickup, by the modal ratios and by the velocity channel. 
 derivatives of the response follow from theirs by the chain rule.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
@@ -14,6 +14,7 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.narrow import NarrowResonances
 from fitting.nuisance import Nuisance, felt
 from fitting.nuisance_sums import Kept, SideBySide, between
 from fitting.parts import coefficients, loaded, names_of
@@ -47,6 +48,8 @@ class Nuisances:
     each: tuple[Nuisance, ...] = ()
     like: Specimen | None = None
     """Whose parts and row the plate has, where they are not the specimen's own: one as long in elements."""
+    narrow: NarrowResonances = field(default_factory=NarrowResonances, kw_only=True)
+    """Whose places are numbers of the fit; the last of `each` are theirs."""
 
     def __len__(self) -> int:
         return len(self.each)
@@ -184,8 +187,12 @@ class Nuisances:
             for a, b in ((0, n_0), (n_0, n_0 + n_1), (n_0 + n_1, n_0 + n_1 + n_M))
         )
         M, load = M.real, self._load(plate, c) + self._force_change(plate, z)
+        moved: Complex | float = 0.0
+        if self.narrow:
+            s = self._narrow_sides(plate)
+            moved = (s * self.narrow.stiffer(z[self._of_narrow])) @ s.T
         own = Change(
-            K=K,
+            K=K + moved,
             K_1=K_1.real,
             M=M,
             load=load,
@@ -200,6 +207,18 @@ class Nuisances:
         `z` of shape (numbers,).
         """
         return self._masses.moved(plate, z, longer_m)
+
+    @cached_property
+    def _of_narrow(self) -> list[int]:
+        return [self._places[n.name] for n in self.narrow.numbers]
+
+    def _narrow_sides(self, plate: EnrichedReducedPlate) -> Array:
+        """Shape (k, resonances)."""
+        return plate.U[:, plate.U.shape[1] - len(self.narrow) :]
+
+    def with_narrow(self, narrow: NarrowResonances) -> "Nuisances":
+        """The same with where some resonances lie; the plate has their sides (`NarrowResonances`)."""
+        return replace(self, each=(*self.each, *narrow.numbers), narrow=narrow)
 
     @cached_property
     def _points(self) -> Points:
@@ -302,6 +321,9 @@ class Nuisances:
             found[k] += q @ row
         for k, moved_mass in self._masses.by_mass(plate, q, adjoint, z).items():
             found[k] += omega**2 * moved_mass
+        if self.narrow:
+            s, at = self._narrow_sides(plate), self._of_narrow
+            found[at] -= self.narrow.by(z[at]) @ ((adjoint @ s) * (q @ s)).T
         damped = self.by_damping(len(plate.d), z)
         modes = [mode for mode, _ in damped.values()]
         strength = np.array([slope for _, slope in damped.values()]) * plate.d[modes]

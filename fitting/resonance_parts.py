@@ -9,6 +9,7 @@ with K = K_0 + G K_1. The parts of all modes add up to x and to its derivative t
 """
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from scipy.linalg import eigh
@@ -61,6 +62,8 @@ class Part:
     """Shape (points,)."""
     by_frequency: Complex
     """Derivative of the displacement to ln of its natural frequency. Shape (points,)."""
+    shape: Array | None = None
+    """Of the one resonance of the band in it. Shape (k,)."""
 
 
 def parts_of(answers: Answers, law: CoreLaw, low_hz: float, high_hz: float) -> list[Part]:
@@ -70,35 +73,65 @@ def parts_of(answers: Answers, law: CoreLaw, low_hz: float, high_hz: float) -> l
     band's middle.
     """
     whole = answers.displacement, answers.by_frequency()
-    modes = _modes(answers, law, low_hz, high_hz)
+    modes = modes_between(answers, law, low_hz, high_hz)
     if len(modes) < 2:
-        return [Part(float(np.sqrt(low_hz * high_hz)), *whole)]
+        middle, shape = float(np.sqrt(low_hz * high_hz)), modes[0].shape if modes else None
+        return [Part(middle, whole[0], whole[1], shape)]
     found = [
-        Part(f, (answers.observe @ y) * (answers.q @ (answers.M @ y)), answers.by_frequency(y))
-        for f, y in modes
+        Part(
+            m.frequency_hz,
+            (answers.observe @ m.shape) * (answers.q @ (answers.M @ m.shape)),
+            answers.by_frequency(m.shape),
+            m.shape,
+        )
+        for m in modes
     ]
-    rest = (all_ - sum(some) for all_, some in zip(whole, _columns(found), strict=True))
+    x, by_frequency = whole
+    rest = x - sum(p.displacement for p in found), by_frequency - sum(p.by_frequency for p in found)
     return [*found, Part(high_hz, *rest)]
 
 
-def _columns(parts: list[Part]) -> tuple[list[Complex], list[Complex]]:
-    return [p.displacement for p in parts], [p.by_frequency for p in parts]
+class Moving(Protocol):
+    """What moves: shape (k, k) each."""
+
+    @property
+    def K_0(self) -> Complex:
+        """Without the core's shear."""
+
+    @property
+    def K_1(self) -> Array:
+        """By the core's modulus."""
+
+    @property
+    def M(self) -> Array:
+        """Inertia."""
 
 
-def _modes(answers: Answers, law: CoreLaw, low_hz: float, high_hz: float) -> list[tuple[float, Array]]:
-    """Frequency in Hz and shape of those in a band, each at the modulus of its own frequency."""
-    omega_r, _ = _at(answers, law, np.sqrt(low_hz * high_hz))
+@dataclass(frozen=True)
+class RealMode:
+    """Of a plate at the core's modulus of its own frequency, phi^T M phi = 1."""
+
+    number: int
+    """Among all it has, from 0 in ascending order."""
+    frequency_hz: float
+    shape: Array
+    """Shape (k,)."""
+
+
+def modes_between(moving: Moving, law: CoreLaw, low_hz: float, high_hz: float) -> list[RealMode]:
+    """Those in a band, each at the modulus of its own frequency, ascending."""
+    omega_r, _ = _at(moving, law, np.sqrt(low_hz * high_hz))
     found = []
     for r in np.flatnonzero((omega_r > 2 * np.pi * low_hz / _NEAR) & (omega_r < 2 * np.pi * high_hz * _NEAR)):
-        own, shapes = _at(answers, law, omega_r[r] / (2 * np.pi))
+        own, shapes = _at(moving, law, omega_r[r] / (2 * np.pi))
         f = float(own[r] / (2 * np.pi))
         if low_hz < f < high_hz:
-            found.append((f, shapes[:, r]))
+            found.append(RealMode(int(r), f, shapes[:, r]))
     return found
 
 
-def _at(answers: Answers, law: CoreLaw, frequency_hz: float) -> tuple[Array, Array]:
+def _at(moving: Moving, law: CoreLaw, frequency_hz: float) -> tuple[Array, Array]:
     """Natural frequencies in rad/s and shapes under the modulus of one frequency. Shapes (k,), (k, k)."""
     G = law.modulus(np.array([2 * np.pi * frequency_hz]))[0]
-    squared, shapes = eigh(np.real(answers.K_0) + G.real * answers.K_1, answers.M)
+    squared, shapes = eigh(np.real(moving.K_0) + G.real * moving.K_1, moving.M)
     return np.sqrt(np.maximum(squared, 0.0)), shapes

@@ -73,10 +73,15 @@ OF_THEORY = {
     "metal_loss": StatedNumber(
         "metal_loss", "1", 0.0, "what a beam's metal and its clamp lose by themselves"
     ),
+    "resonance": StatedNumber("resonance", "1", 0.0, "where a narrow resonance lies, by the plate's theory"),
+    "loss": StatedNumber("loss", "1", 0.0, "the loss factor of a narrow resonance, by the plate's theory"),
+    "theory": StatedNumber("theory", "1", 0.0, "how much of what exact elasticity says it is off"),
     "free_edges": StatedNumber("free_edges", "1", 0.0, "what free edges of a pair's discs take of G A/t"),
 }
 """Numbers that a theory leaves open: nobody states them, and no file names them."""
-ADDED = ("gain", "metal_loss")
+OF_NARROW = ("resonance", "loss", "theory")
+"""Those of narrow resonances (`fitting.narrow`)."""
+ADDED = ("gain", "metal_loss", "loss", "theory")
 """Numbers without a unit that are off by so much; the others are by a factor."""
 
 OF_CHANNELS = ("gain", "delay", "phase")

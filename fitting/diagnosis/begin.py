@@ -71,6 +71,7 @@ def begin(
     if not problem.specimen.exact:
         laws = [BentLaw.over(one, sweep.frequency_hz, problem.freedom) for one in laws]
         stated = BentLaw.over(stated, sweep.frequency_hz, problem.freedom)
+    problem = problem.with_narrow(laws[0])
     law, u = laws[0], problem.as_stated
     v = model.velocity(law)
     for round in range(_ROUNDS):

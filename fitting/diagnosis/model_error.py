@@ -4,24 +4,28 @@ Of each resonance of a segment: itself a little off, its damping, and how much i
 instruments read wrongly (`channel_error`). Sizes are the specimen's own (`fitting.model_error`).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.channel_error import blow_rows, channel_rows
+from fitting.diagnosis.narrow_resonances import shapes_of
 from fitting.diagnosis.plate_answer import Asked, motions
 from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.diagnosis.sharing import plate_alone
 from fitting.effects.change import Change
 from fitting.laws import CoreLaw
 from fitting.model_error import GAIN, STRUCK_GAIN, model_error_at
 from fitting.reduced import ReducedPlate
-from fitting.resonance_parts import Answers, parts_of
-from fitting.specimen import Specimen
+from fitting.resonance_parts import Answers, Part, parts_of
+from fitting.specimen import Specimen, StatedSpecimen
 
 _ALIKE = 1e-3
 """Of a frequency, within which resonances of two files of one plate are the same one."""
+_SAME_SHAPE = 0.7
+"""Of phi^T M psi, from which two modes are one."""
 COMMON = "theory"
 """Kind of the one cause by which all resonances of a plate are off, each in the sense that exact elasticity
 says."""
@@ -70,16 +74,20 @@ def own_errors(problem: DiagnosisProblem, reduced: ReducedPlate, law: CoreLaw, v
         inside = problem.sweep.segment == number
         f = problem.sweep.frequency_hz[inside]
         parts = parts_of(answers, law, float(f.min()), float(f.max()))
+        beside = shapes_of(problem.nuisances.narrow, problem.plate.take([]), answers, law, f)
         middle = np.array([p.frequency_hz for p in parts])
         size = model_error_at(problem.specimen, middle, law.modulus(2 * np.pi * middle))
         for k, part in enumerate(parts):
-            dv = velocity(part.by_frequency)
+            left = _of_others(answers, part, parts, beside) if beside else part.by_frequency
+            if left is None:
+                continue
+            dv = velocity(left)
             # d ln f = 1/2 d ln K, and a loss is the imaginary part of ln K.
-            by_loss = 0.5j * float(size.modal_loss[k]) * dv
+            by_loss = 0.5j * float(size.modal_loss[k])
             keys += [(part.frequency_hz, "frequency"), (part.frequency_hz, "loss")]
-            rows += [size.frequency[k] * dv * inside, size.loss[k] * by_loss * inside]
+            rows += [size.frequency[k] * dv * inside, size.loss[k] * by_loss * dv * inside]
             f_off, loss_off = (float(one[k]) for one in size.signed)
-            common += (f_off * dv + loss_off * by_loss) * inside
+            common += (f_off + loss_off * by_loss) * dv * inside
         each = [velocity(p.displacement) for p in parts[:-1]]
         # The rest has the base's motion too, where the laser reads it.
         gains = [*each, v - sum(each, np.zeros(len(v)))]
@@ -92,16 +100,32 @@ def own_errors(problem: DiagnosisProblem, reduced: ReducedPlate, law: CoreLaw, v
     return OwnErrors(tuple(keys), np.array([common, *rows]), np.array(channels))
 
 
+def _of_others(answers: Answers, part: Part, parts: list[Part], beside: list[Array]) -> Complex | None:
+    """Derivative of a part to ln f of all resonances in it but those `beside`, whose places the fit finds.
+
+    None where there are no others. Shape (points,), of each shape (k,).
+    """
+
+    def same(y: Array, other: Array) -> bool:
+        return bool(abs(y @ answers.M @ other) > _SAME_SHAPE)
+
+    if len(parts) > 1 and part.shape is not None:
+        return None if any(same(y, part.shape) for y in beside) else part.by_frequency
+    apart = [p.shape for p in parts if p.shape is not None] if len(parts) > 1 else []
+    known = [answers.by_frequency(y) for y in beside if not any(same(y, other) for other in apart)]
+    return np.asarray(part.by_frequency - sum(known))
+
+
 class OfOnePlate:
     """Errors of plates' theories, file by file: a resonance of one plate is off alike in all its files."""
 
     def __init__(self, points: int) -> None:
         self._points = points
-        self._known: list[tuple[Specimen, float, str, Complex]] = []
+        self._known: list[tuple[StatedSpecimen, float, str, Complex]] = []
 
     def add(self, specimen: Specimen, part: slice | NDArray[np.intp], found: OwnErrors) -> None:
         """Those of a file, whose points are `part` of all; of shape (points of all,) where it is no slice."""
-        its = replace(specimen, force_m=None, pickup_m=None, further_pickups_m=())
+        its = plate_alone(specimen)
         before = [(k, one) for k, one in enumerate(self._known) if one[0] == its]
         for (f, kind), row in zip(found.keys, found.of_plate, strict=True):
             same = [k for k, (_, g, of, _) in before if of == kind and abs(f - g) <= _ALIKE * max(f, g)]
@@ -123,7 +147,7 @@ def _answers(problem: DiagnosisProblem, reduced: ReducedPlate, omega: Array, G: 
 
     Shape (frequencies,) of `omega` and `G`.
     """
-    if not len(problem.plate.shares) and problem.found is None:
+    if not len(problem.plate.shares) and problem.found is None and not problem.nuisances.narrow:
         return reduced.answers(omega, G)
     # Half as many columns: a third of the time, and 1e-6 off.
     plate = problem.plate.take([])

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.diagnosis.narrow_resonances import narrow_of
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -40,6 +41,24 @@ def condensed(
         replace(m, plate=_at(found[k], m) if plates.count(k) > 1 else found[k])
         for m, k in zip(members, plates, strict=True)
     )
+
+
+def with_narrow(
+    members: Sequence[DiagnosisProblem], plates: Plates, laws: Sequence[CoreLaw]
+) -> tuple[DiagnosisProblem, ...]:
+    """Every member with where the narrow resonances of its plate lie among its numbers."""
+    found = list(members)
+    for number in dict.fromkeys(plates):
+        its = [k for k, plate in enumerate(plates) if plate == number]
+        m = members[its[0]]
+        if not isinstance(m.specimen, Specimen):
+            continue
+        narrow, plate = narrow_of(m.specimen, m.plate, [members[k].sweep for k in its], laws[its[0]])
+        if narrow:
+            for k in its:
+                own = replace(members[k].plate, U=plate.U, d=plate.d)
+                found[k] = replace(members[k], plate=own, nuisances=members[k].nuisances.with_narrow(narrow))
+    return tuple(found)
 
 
 def around(

@@ -8,6 +8,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.every_point import EveryPoint
+from fitting.diagnosis.narrow_resonances import narrow_of
 from fitting.diagnosis.nodes import HZ_A_NODE, Nodes
 from fitting.diagnosis.plate_poles import PlatePoles, cuts_between
 from fitting.diagnosis.pole_following import KnownPoles
@@ -168,7 +169,17 @@ class DiagnosisProblem:
 
         A struck plate's: its resonances are narrow, many and seen over hundreds of lines each.
         """
-        return self.specimen.drive == "force" and len(self.nuisances) > 0
+        struck = self.specimen.drive == "force" and len(self.nuisances) > 0
+        return struck or len(self.nuisances.narrow) > 0
+
+    def with_narrow(self, law: CoreLaw) -> "DiagnosisProblem":
+        """The same with where its narrow resonances lie, under a law, among its numbers."""
+        if not isinstance(self.specimen, Specimen):
+            return self
+        narrow, plate = narrow_of(self.specimen, self.plate, [self.sweep], law)
+        if not narrow:
+            return self
+        return replace(self, plate=plate, nuisances=self.nuisances.with_narrow(narrow))
 
     def as_found(self, z: Array) -> "DiagnosisProblem":
         """The same, its model's error asked with its stated numbers there. `z` of shape (numbers,)."""

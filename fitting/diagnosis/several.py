@@ -25,7 +25,7 @@ from fitting.diagnosis.plate_answer import motions
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid, spans_of
 from fitting.diagnosis.response import SweepResponse
-from fitting.diagnosis.sharing import Places, shared
+from fitting.diagnosis.sharing import Places, shared, with_narrow
 from fitting.diagnosis.small_problem import BENT_MORE, LEVEL, SmallProblem
 from fitting.diagnosis.strains import Reference
 from fitting.diagnosis.unknowns import STATED_NUMBER
@@ -157,6 +157,26 @@ class SeveralProblem(DiagnosisProblem):
     def errs_as_found(self) -> bool:
         """Where any member's does."""
         return any(m.errs_as_found for m in self.members)
+
+    def with_narrow(self, law: CoreLaw) -> "SeveralProblem":
+        """Every member with those of its plate: alike in all its files, where they lie alike."""
+        moved = one_plate.with_narrow(
+            self.members, self.plates, [law_at(law, k) for k in range(len(self.members))]
+        )
+        if all(a is b for a, b in zip(moved, self.members, strict=True)):
+            return self
+        each, places, owners = with_narrow(self.nuisances.each, self.places, self.owners, moved, self.belongs)
+        first = moved[0]
+        return replace(
+            self,
+            plate=first.plate,
+            nuisances=SharedNuisances(
+                first.nuisances.specimen, each, first=first.nuisances, places=places[0]
+            ),
+            members=moved,
+            places=places,
+            owners=owners,
+        )
 
     def as_found(self, z: Array) -> "SeveralProblem":
         """Every member with its own. `z` of shape (numbers,)."""

@@ -10,6 +10,7 @@ from fitting.diagnosis.of_files import Place
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.identification.adjusted import stated_number
 from fitting.nuisance import Nuisance
+from fitting.specimen import Specimen, StatedSpecimen
 
 OF_EACH_SPOT = ("gain", "delay", "pickup")
 """Kinds of stated numbers that are another one at every spot, though they are stated alike."""
@@ -21,6 +22,8 @@ OF_EACH_FILE = ("force",)
 """And in every file, its spots sharing them."""
 OF_EACH_PLATE = ("mass", "place", "damping", "length", "width")
 """And in every file, but of one plate that is struck, there or elsewhere: it was not mounted anew."""
+_SAME = 1e-3
+"""Of a number of two files' resonances, within which it is the same one."""
 Places = tuple[NDArray[np.intp], ...]
 
 
@@ -61,13 +64,59 @@ def shared(
             owners[keys[key]].append(k)
             at.append(keys[key])
         places.append(np.array(at, dtype=np.intp))
-    named = [
-        n
-        if len(its) == len(members)
-        else replace(n, name=f"{n.name} [{_whose(n, [of[k] for k in its], of)}]")
-        for n, its in zip(each, owners, strict=True)
-    ]
+    named = [_named(n, its, of) for n, its in zip(each, owners, strict=True)]
     return tuple(named), tuple(places), tuple(tuple(its) for its in owners)
+
+
+def with_narrow(
+    each: Sequence[Nuisance],
+    places: Places,
+    owners: Sequence[tuple[int, ...]],
+    members: Sequence[DiagnosisProblem],
+    of: Sequence[Place],
+) -> tuple[tuple[Nuisance, ...], Places, tuple[tuple[int, ...], ...]]:
+    """The same with the members' narrow resonances, the last numbers of each, behind all others.
+
+    One of a plate is off alike in all its files, as long as it lies where it did.
+    """
+    known: list[tuple[object, Nuisance]] = []
+    whose: list[list[int]] = []
+    found = []
+    for k, m in enumerate(members):
+        at = []
+        plate = plate_alone(m.specimen)
+        for n in m.nuisances.narrow.numbers:
+            same = [j for j, (its, other) in enumerate(known) if its == plate and _alike(n, other)]
+            if not same:
+                same = [len(known)]
+                known.append((plate, n))
+                whose.append([])
+            whose[same[0]].append(k)
+            at.append(len(each) + same[0])
+        found.append(np.append(places[k], np.array(at, dtype=np.intp)))
+    named = [_named(n, its, of) for (_, n), its in zip(known, whose, strict=True)]
+    return (*each, *named), tuple(found), (*owners, *(tuple(its) for its in whose))
+
+
+def plate_alone(specimen: StatedSpecimen) -> StatedSpecimen:
+    """A plate without where it is driven and read; another structure as it is."""
+    if not isinstance(specimen, Specimen):
+        return specimen
+    return replace(specimen, force_m=None, pickup_m=None, further_pickups_m=())
+
+
+def _alike(n: Nuisance, other: Nuisance) -> bool:
+    """Whether the numbers of two resonances of one plate are the same one's."""
+    assert n.stated is not None
+    assert other.stated is not None
+    return n.name == other.name and abs(n.stated - other.stated) <= _SAME * abs(n.stated)
+
+
+def _named(n: Nuisance, its: Sequence[int], of: Sequence[Place]) -> Nuisance:
+    """Under a name that says whose it is, if it is not of all."""
+    if len(its) == len(of):
+        return n
+    return replace(n, name=f"{n.name} [{_whose(n, [of[k] for k in its], of)}]")
 
 
 def _whose(n: Nuisance, its: Sequence[Place], every: Sequence[Place]) -> str:

@@ -64,6 +64,8 @@ def is_relative(n: Nuisance) -> bool:
 
 def stated_number(specimen: StatedSpecimen, n: Nuisance) -> tuple[float, float, str]:
     """The number in SI, and its unit in results with the factor to it."""
+    if n.stated is not None:
+        return n.stated, 1.0, "Hz" if n.kind == "resonance" else "1"
     if not isinstance(specimen, Specimen):
         return specimen.stated_number(n.kind)  # type: ignore[attr-defined]
     if n.kind in ("length", "width"):

@@ -17,7 +17,7 @@ from fitting.laws import CoreLaw
 from fitting.nuisance import Nuisance
 from fitting.nuisances import Nuisances
 from fitting.specimen import Specimen, StatedSpecimen
-from fitting.tolerances import kind_of
+from fitting.tolerances import OF_NARROW, kind_of
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult
 from instrument.files.text import read_text
@@ -124,7 +124,8 @@ class FoundLaw(BaseModel):
                 ratios += [0.0] * (mode - len(ratios))
                 ratios[mode - 1] = one.stated / 100
         specimen = replace(specimen, modal_ratios=tuple(ratios))
-        both = [one.moved(specimen) for one in self.adjusted]
+        # Where its narrow resonances lie is of the fit, and goes with no plate that is planned for.
+        both = [one.moved(specimen) for one in self.adjusted if kind_of(one.name) not in OF_NARROW]
         return FittedPlate(
             specimen,
             Nuisances(specimen, tuple(n for n, _ in both)),

@@ -1,0 +1,87 @@
+"""Which resonances of a plate are narrow in some data, and the plate that can move them."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from fitting.arrays import Array
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.laws import CoreLaw
+from fitting.model_error import model_error_at
+from fitting.narrow import NARROW, NarrowResonance, NarrowResonances
+from fitting.resonance_parts import Moving, RealMode, modes_between
+from fitting.specimen import Specimen
+from fitting.sweep import Sweep
+
+_BESIDE = 1.5
+"""Of a segment's ends, within which resonances beside it count. A choice: between two of them little is read,
+and where each lies says how much."""
+_ALIKE = 0.7
+"""Of phi^T M psi, from which two modes are one: the law has moved by a little since."""
+_OWN = "plate"
+
+
+def narrow_of(
+    specimen: Specimen, plate: EnrichedReducedPlate, sweeps: Sequence[Sweep], law: CoreLaw
+) -> tuple[NarrowResonances, EnrichedReducedPlate]:
+    """Those in or beside a segment of some sweeps, under a law, and the plate with what moves them."""
+    own = plate.take([])
+    found: dict[int, tuple[NarrowResonance, Array]] = {}
+    for sweep in sweeps:
+        for number in np.unique(sweep.segment):
+            f = sweep.frequency_hz[sweep.segment == number]
+            for mode in modes_between(own, law, float(f.min()) / _BESIDE, float(f.max()) * _BESIDE):
+                one = _narrow(specimen, own, mode, law)
+                if one is not None:
+                    found.setdefault(mode.number, (one, 2 * np.pi * mode.frequency_hz * mode.shape))
+    each = [found[number] for number in sorted(found)]
+    shapes = np.zeros((len(plate.load), len(each)))
+    if each:
+        shapes[plate.group == _OWN] = np.array([y for _, y in each]).T
+    moved = replace(
+        plate, U=np.hstack([plate.U, plate.M @ shapes]), d=np.append(plate.d, np.zeros(len(each)))
+    )
+    return NarrowResonances(tuple(one for one, _ in each)), moved
+
+
+def _narrow(
+    specimen: Specimen, plate: EnrichedReducedPlate, mode: RealMode, law: CoreLaw
+) -> NarrowResonance | None:
+    """A mode as one whose place is a number of the fit; None where it is wide enough."""
+    f, y = np.array([mode.frequency_hz]), mode.shape
+    omega = 2 * np.pi * f
+    G = law.modulus(omega)
+    size = model_error_at(specimen, f, G)
+    by_itself, (by_theory, loss_by_theory) = size.frequency[0], (float(one[0]) for one in size.signed)
+    stiffness = y @ plate.K_0 @ y + G[0] * (y @ plate.K_1 @ y)
+    loss = (stiffness.imag + omega[0] * (y @ plate.viscous() @ y)) / stiffness.real
+    if 2 * np.hypot(by_itself, by_theory) < NARROW * loss:
+        return None
+    own = float(size.modal_loss[0])
+    return NarrowResonance(
+        number=mode.number + 1,
+        frequency_hz=mode.frequency_hz,
+        by_itself=float(by_itself),
+        by_theory=by_theory,
+        loss=own,
+        loss_by_itself=own * float(size.loss[0]),
+        loss_by_theory=own * loss_by_theory,
+    )
+
+
+def shapes_of(
+    narrow: NarrowResonances, plate: EnrichedReducedPlate, moving: Moving, law: CoreLaw, band_hz: Array
+) -> list[Array]:
+    """Of modes in a band and beside it, those of a plate's narrow ones. Shape (k,) each.
+
+    `plate` is on its own columns and `moving` is like it, its stated numbers where they may be.
+    """
+    if not narrow.each:
+        return []
+    sides = plate.U[:, -len(narrow) :]
+    omega = 2 * np.pi * np.array([one.frequency_hz for one in narrow.each])
+    near = modes_between(
+        moving, law, float(band_hz.min()) / (2 * _BESIDE), float(band_hz.max()) * 2 * _BESIDE
+    )
+    return [m.shape for m in near if np.any(np.abs(m.shape @ sides) > _ALIKE * omega)]
