@@ -83,11 +83,11 @@ def own_errors(problem: DiagnosisProblem, reduced: ReducedPlate, law: CoreLaw, v
                 continue
             dv = velocity(left)
             # d ln f = 1/2 d ln K, and a loss is the imaginary part of ln K.
-            by_loss = 0.5j * float(size.modal_loss[k])
+            by_loss = 0.5j * float(size.modal_loss[k]) * dv
             keys += [(part.frequency_hz, "frequency"), (part.frequency_hz, "loss")]
-            rows += [size.frequency[k] * dv * inside, size.loss[k] * by_loss * dv * inside]
+            rows += [size.frequency[k] * dv * inside, size.loss[k] * by_loss * inside]
             f_off, loss_off = (float(one[k]) for one in size.signed)
-            common += (f_off + loss_off * by_loss) * dv * inside
+            common += (f_off * dv + loss_off * by_loss) * inside
         each = [velocity(p.displacement) for p in parts[:-1]]
         # The rest has the base's motion too, where the laser reads it.
         gains = [*each, v - sum(each, np.zeros(len(v)))]

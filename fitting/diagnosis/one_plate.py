@@ -57,7 +57,7 @@ def with_narrow(
         if narrow:
             for k in its:
                 own = replace(members[k].plate, U=plate.U, d=plate.d)
-                found[k] = replace(members[k], plate=own, nuisances=members[k].nuisances.with_narrow(narrow))
+                found[k] = members[k].moving_each_of(narrow, own)
     return tuple(found)
 
 

@@ -18,6 +18,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.span import Span
 from fitting.identification.adjusted import Adjusted, adjusted
 from fitting.laws import CoreLaw
+from fitting.narrow import NarrowResonances
 from fitting.nuisances import Nuisances, nuisances_of
 from fitting.rational import RationalSweep
 from fitting.specimen import Specimen, StatedSpecimen
@@ -148,7 +149,8 @@ class DiagnosisProblem:
     @property
     def resonances(self) -> Complex:
         """Poles of the structure without any effect, in and near the points, rad/s. Shape (poles,)."""
-        return self.fine.nodes.poles
+        narrow = [2 * np.pi * one.frequency_hz * (1 + 0.5j * one.loss) for one in self.nuisances.narrow.each]
+        return np.append(self.fine.nodes.poles, narrow)
 
     @property
     def pickup_x_m(self) -> float:
@@ -177,9 +179,21 @@ class DiagnosisProblem:
         if not isinstance(self.specimen, Specimen):
             return self
         narrow, plate = narrow_of(self.specimen, self.plate, [self.sweep], law)
-        if not narrow:
-            return self
-        return replace(self, plate=plate, nuisances=self.nuisances.with_narrow(narrow))
+        return self.moving_each_of(narrow, plate) if narrow else self
+
+    def moving_each_of(self, narrow: NarrowResonances, plate: EnrichedReducedPlate) -> "DiagnosisProblem":
+        """The same with where some resonances lie among its numbers; `plate` is its own with their sides."""
+        # Nodes are too far apart for what changes within a narrow resonance.
+        each = self.each
+        return replace(
+            self,
+            plate=plate,
+            nuisances=self.nuisances.with_narrow(narrow),
+            fine=each,
+            coarse=each,
+            passes=each,
+            dense=each.nodes,
+        )
 
     def as_found(self, z: Array) -> "DiagnosisProblem":
         """The same, its model's error asked with its stated numbers there. `z` of shape (numbers,)."""

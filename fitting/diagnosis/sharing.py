@@ -23,7 +23,7 @@ OF_EACH_FILE = ("force",)
 OF_EACH_PLATE = ("mass", "place", "damping", "length", "width")
 """And in every file, but of one plate that is struck, there or elsewhere: it was not mounted anew."""
 _SAME = 1e-3
-"""Of a number of two files' resonances, within which it is the same one."""
+"""Of the frequencies of two files' resonances, within which they are the same one."""
 Places = tuple[NDArray[np.intp], ...]
 
 
@@ -79,22 +79,23 @@ def with_narrow(
 
     One of a plate is off alike in all its files, as long as it lies where it did.
     """
-    known: list[tuple[object, Nuisance]] = []
+    known: list[tuple[object, float, Nuisance]] = []
     whose: list[list[int]] = []
     found = []
     for k, m in enumerate(members):
         at = []
-        plate = plate_alone(m.specimen)
-        for n in m.nuisances.narrow.numbers:
-            same = [j for j, (its, other) in enumerate(known) if its == plate and _alike(n, other)]
+        plate, narrow = plate_alone(m.specimen), m.nuisances.narrow
+        lies = [one.frequency_hz for one in narrow.each for _ in one.numbers] + [0.0]
+        for n, f in zip(narrow.numbers, lies, strict=bool(narrow)):
+            same = [j for j, one in enumerate(known) if one[0] == plate and _alike((f, n), one[1:])]
             if not same:
                 same = [len(known)]
-                known.append((plate, n))
+                known.append((plate, f, n))
                 whose.append([])
             whose[same[0]].append(k)
             at.append(len(each) + same[0])
         found.append(np.append(places[k], np.array(at, dtype=np.intp)))
-    named = [_named(n, its, of) for (_, n), its in zip(known, whose, strict=True)]
+    named = [_named(n, its, of) for (*_, n), its in zip(known, whose, strict=True)]
     return (*each, *named), tuple(found), (*owners, *(tuple(its) for its in whose))
 
 
@@ -105,11 +106,9 @@ def plate_alone(specimen: StatedSpecimen) -> StatedSpecimen:
     return replace(specimen, force_m=None, pickup_m=None, further_pickups_m=())
 
 
-def _alike(n: Nuisance, other: Nuisance) -> bool:
-    """Whether the numbers of two resonances of one plate are the same one's."""
-    assert n.stated is not None
-    assert other.stated is not None
-    return n.name == other.name and abs(n.stated - other.stated) <= _SAME * abs(n.stated)
+def _alike(one: tuple[float, Nuisance], other: tuple[float, Nuisance]) -> bool:
+    """Whether the numbers of two resonances of one plate, which lie there (Hz), are the same one's."""
+    return one[1].name == other[1].name and abs(one[0] - other[0]) <= _SAME * one[0]
 
 
 def _named(n: Nuisance, its: Sequence[int], of: Sequence[Place]) -> Nuisance:

@@ -2,8 +2,11 @@
 
 from types import SimpleNamespace
 
+import numpy as np
+
 from fitting.diagnosis.of_files import Place
-from fitting.diagnosis.sharing import shared
+from fitting.diagnosis.sharing import shared, with_narrow
+from fitting.narrow import NarrowResonance, NarrowResonances
 from fitting.nuisance import Nuisance
 from fitting.specimen import Specimen
 
@@ -56,3 +59,22 @@ def test_files_that_are_driven_alike_have_one_angle_between_their_channels():
     shaken, struck = (member(drive=drive, numbers=phase) for drive in ("base", "force"))
     said = names([shaken, struck, shaken], [Place(1), Place(2), Place(3)])
     assert said == ["phase [1, 3]", "phase [2]"]
+
+
+def narrow(f, length_m=0.3):
+    specimen = SimpleNamespace(length_m=length_m)
+    each = NarrowResonances((NarrowResonance(2, f, 1e-3, 1e-3, 0.01, 1e-4, 1e-4),))
+    return SimpleNamespace(specimen=specimen, nuisances=SimpleNamespace(narrow=each))
+
+
+def test_a_narrow_resonance_of_one_plate_is_one_in_all_files_where_it_lies_there():
+    here, colder = narrow(200.0), narrow(210.0)
+    again = SimpleNamespace(specimen=here.specimen, nuisances=narrow(200.1).nuisances)
+    elsewhere = SimpleNamespace(specimen=here.specimen, nuisances=colder.nuisances)
+    of = [Place(1), Place(2), Place(3)]
+    first = tuple(np.array([0]) for _ in of)
+    numbers, places, owners = with_narrow(NUMBERS[:1], first, ((0, 1, 2),), [here, again, elsewhere], of)
+    said = ["gain", "resonance_2 [1, 2]", "loss_2 [1, 2]", "theory", "resonance_2 [3]", "loss_2 [3]"]
+    assert [n.name for n in numbers] == said
+    assert [p.tolist() for p in places] == [[0, 1, 2, 3], [0, 1, 2, 3], [0, 4, 5, 3]]
+    assert owners[3] == (0, 1, 2)
