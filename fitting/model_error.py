@@ -49,6 +49,13 @@ class ModelError:
     together: Array = field(default_factory=lambda: np.zeros((0, 1)))
     """Of all resonances by one cause each. Shape (causes, frequencies)."""
 
+    @property
+    def in_common(self) -> tuple[float, float]:
+        """Of the first frequency: what the one cause that all share makes of it, and of its loss."""
+        if self.signed:
+            return float(self.signed[0][0]), float(self.signed[1][0])
+        return float(self.together[:, 0].sum()), 0.0
+
 
 def model_error_at(
     specimen: Specimen, frequency_hz: Array, G: Complex, *, of_mesh: bool = True

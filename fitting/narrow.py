@@ -78,3 +78,6 @@ class NarrowResonances:
     def by(self, z: Array) -> Complex:
         """Its derivatives. Shape (numbers, resonances)."""
         return np.asarray(self.steps * (1 + self.stiffer(z)))
+
+
+NONE = NarrowResonances()

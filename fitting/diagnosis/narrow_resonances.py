@@ -1,17 +1,16 @@
-"""Which resonances of a plate are narrow in some data, and the plate that can move them."""
+"""Which resonances of a plate or a beam are narrow in some data, and the structure that can move them."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Complex
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
-from fitting.model_error import model_error_at
+from fitting.model_error import ModelError
 from fitting.narrow import NARROW, NarrowResonance, NarrowResonances
 from fitting.resonance_parts import Moving, RealMode, modes_between
-from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 
 _BESIDE = 1.5
@@ -21,18 +20,21 @@ _ALIKE = 0.7
 """Of phi^T M psi, from which two modes are one: the law has moved by a little since."""
 _OWN = "plate"
 
+Errs = Callable[[Array, Complex], ModelError]
+"""What the theory gets wrong at some frequencies in Hz, the modulus there given. Shape (points,) each."""
+
 
 def narrow_of(
-    specimen: Specimen, plate: EnrichedReducedPlate, sweeps: Sequence[Sweep], law: CoreLaw
+    errs: Errs, plate: EnrichedReducedPlate, sweeps: Sequence[Sweep], law: CoreLaw
 ) -> tuple[NarrowResonances, EnrichedReducedPlate]:
-    """Those in or beside a segment of some sweeps, under a law, and the plate with what moves them."""
+    """Those in or beside a segment of some sweeps, under a law, and the structure with what moves them."""
     own = plate.take([])
     found: dict[int, tuple[NarrowResonance, Array]] = {}
     for sweep in sweeps:
         for number in np.unique(sweep.segment):
             f = sweep.frequency_hz[sweep.segment == number]
             for mode in modes_between(own, law, float(f.min()) / _BESIDE, float(f.max()) * _BESIDE):
-                one = _narrow(specimen, own, mode, law)
+                one = _narrow(errs, own, mode, law)
                 if one is not None:
                     found.setdefault(mode.number, (one, 2 * np.pi * mode.frequency_hz * mode.shape))
     each = [found[number] for number in sorted(found)]
@@ -45,15 +47,13 @@ def narrow_of(
     return NarrowResonances(tuple(one for one, _ in each)), moved
 
 
-def _narrow(
-    specimen: Specimen, plate: EnrichedReducedPlate, mode: RealMode, law: CoreLaw
-) -> NarrowResonance | None:
+def _narrow(errs: Errs, plate: EnrichedReducedPlate, mode: RealMode, law: CoreLaw) -> NarrowResonance | None:
     """A mode as one whose place is a number of the fit; None where it is wide enough."""
     f, y = np.array([mode.frequency_hz]), mode.shape
     omega = 2 * np.pi * f
     G = law.modulus(omega)
-    size = model_error_at(specimen, f, G)
-    by_itself, (by_theory, loss_by_theory) = size.frequency[0], (float(one[0]) for one in size.signed)
+    size = errs(f, G)
+    by_itself, (by_theory, loss_by_theory) = size.frequency[0], size.in_common
     stiffness = y @ plate.K_0 @ y + G[0] * (y @ plate.K_1 @ y)
     loss = (stiffness.imag + omega[0] * (y @ plate.viscous() @ y)) / stiffness.real
     if 2 * np.hypot(by_itself, by_theory) < NARROW * loss:

@@ -5,6 +5,7 @@ Loads and readings are vectors beside the plate's matrices: members share the ma
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.span import Span
 from fitting.laws import CoreLaw
+from fitting.model_error import model_error_at
 from fitting.specimen import Specimen
 
 _MOST_TAKEN = 12
@@ -47,13 +49,17 @@ def with_narrow(
     members: Sequence[DiagnosisProblem], plates: Plates, laws: Sequence[CoreLaw]
 ) -> tuple[DiagnosisProblem, ...]:
     """Every member with where the narrow resonances of its plate lie among its numbers."""
-    found = list(members)
+    found = [
+        m if isinstance(m.specimen, Specimen) else m.with_narrow(law)
+        for m, law in zip(members, laws, strict=True)
+    ]
     for number in dict.fromkeys(plates):
         its = [k for k, plate in enumerate(plates) if plate == number]
         m = members[its[0]]
         if not isinstance(m.specimen, Specimen):
             continue
-        narrow, plate = narrow_of(m.specimen, m.plate, [members[k].sweep for k in its], laws[its[0]])
+        errs = partial(model_error_at, m.specimen)
+        narrow, plate = narrow_of(errs, m.plate, [members[k].sweep for k in its], laws[its[0]])
         if narrow:
             for k in its:
                 own = replace(members[k].plate, U=plate.U, d=plate.d)

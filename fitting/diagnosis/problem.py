@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -14,10 +14,11 @@ from fitting.diagnosis.plate_poles import PlatePoles, cuts_between
 from fitting.diagnosis.pole_following import KnownPoles
 from fitting.effects.added_mass import AddedMassEffect
 from fitting.effects.base import Effect, Points
-from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.enriched_plate import CONDENSED, EnrichedReducedPlate
 from fitting.effects.span import Span
 from fitting.identification.adjusted import Adjusted, adjusted
 from fitting.laws import CoreLaw
+from fitting.model_error import model_error_at
 from fitting.narrow import NarrowResonances
 from fitting.nuisances import Nuisances, nuisances_of
 from fitting.rational import RationalSweep
@@ -36,6 +37,9 @@ _MOST = 500
 """Frequencies that it answers at: of a small structure every point is a node, and its motions are few."""
 _SMALL = 40
 """Columns of a plate that is not condensed: a small structure, or one whose basis was never large."""
+OF_NARROW = 1e-6
+"""Of the largest singular value, what a condensed plate with narrow resonances may leave out: it stiffens
+them by 1e-6 and less, and their losses are hardly more than a thousand times that."""
 _PLACES, _REACH, _PLACES_SEED = 4, 2.0, 5
 """Of the tolerances' box, that a condensed plate answers for: how many, how far in standard deviations."""
 _BESIDE = 0.25
@@ -143,8 +147,13 @@ class DiagnosisProblem:
             changes.append(self.nuisances.change(self.plate, self.as_stated))
             sides = [*sides, *(self.plate.row(m.x_m, m.y_m) for m in self.nuisances.masses)]
         around = np.tile(omega, len(factors))
-        plate = self.plate.condensed(around, G, changes, omega, law.modulus(omega), sides)
+        plate = self.plate.condensed(around, G, changes, omega, law.modulus(omega), sides, self.left_out)
         return replace(self, plate=plate)
+
+    @property
+    def left_out(self) -> float:
+        """Of the largest singular value, by its condensed plate."""
+        return OF_NARROW if self.nuisances.narrow else CONDENSED
 
     @property
     def resonances(self) -> Complex:
@@ -178,7 +187,7 @@ class DiagnosisProblem:
         """The same with where its narrow resonances lie, under a law, among its numbers."""
         if not isinstance(self.specimen, Specimen):
             return self
-        narrow, plate = narrow_of(self.specimen, self.plate, [self.sweep], law)
+        narrow, plate = narrow_of(partial(model_error_at, self.specimen), self.plate, [self.sweep], law)
         return self.moving_each_of(narrow, plate) if narrow else self
 
     def moving_each_of(self, narrow: NarrowResonances, plate: EnrichedReducedPlate) -> "DiagnosisProblem":

@@ -11,8 +11,12 @@ from itertools import product
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.diagnosis.narrow_resonances import shapes_of
+from fitting.dynamic_stiffness import dynamic_stiffness, stacked
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
+from fitting.narrow import NONE, NarrowResonances
+from fitting.resonance_parts import Answers
 from fitting.structures.small import SmallSpecimen, SmallSystem, displacement
 
 OCTAVE = 0.7
@@ -22,11 +26,16 @@ _H = 1e-4
 
 
 def theory_rows(
-    specimen: SmallSpecimen, system: SmallSystem, omega: Array, law: CoreLaw, drive: Array
+    specimen: SmallSpecimen,
+    system: SmallSystem,
+    omega: Array,
+    law: CoreLaw,
+    drive: Array,
+    narrow: NarrowResonances = NONE,
 ) -> list[Complex]:
     """Changes of the velocity, one standard deviation each; `drive` is what drives it, at every point.
 
-    Shape (points,) each.
+    Where `narrow` resonances lie, and how lossy they are, are numbers of the fit. Shape (points,) each.
     """
     error = specimen.theory_error(omega / (2 * np.pi), law.modulus(omega))
     if error is None:
@@ -37,12 +46,24 @@ def theory_rows(
     stiffer = displacement(replace(own, K_0=(1 + _H) * own.K_0), omega, (1 + _H) * G)
     # d ln f = 1/2 d ln K, and a loss is the imaginary part of ln K.
     dv = per_x * (stiffer - x) / (_H / 2)
+    if narrow:
+        answers = _answers(own, omega, G)
+        known = shapes_of(narrow, own, answers, law, omega / (2 * np.pi))
+        dv = dv - per_x * sum(answers.by_frequency(y) for y in known)
     by_loss = 0.5j * error.modal_loss * dv
     shares = octaves(omega)
     rows = [error.frequency * share * dv for share in shares]
     rows += [shift * dv for shift in error.together]
     rows += [error.loss * share * by_loss for share in shares]
     return rows + [per_x * displacement(side, omega, G) for side in _read_otherwise(system, own)]
+
+
+def _answers(own: EnrichedReducedPlate, omega: Array, G: Complex) -> Answers:
+    """To its load and to a unit force where it is read."""
+    A = dynamic_stiffness(stacked(own.K_0, own.K_1, own.M, own.viscous()), omega, G)
+    sides = np.stack([own.load, own.observe], axis=1).astype(complex)
+    q, z = np.moveaxis(np.linalg.solve(A, np.broadcast_to(sides, (len(omega), *sides.shape))), 2, 0)
+    return Answers(own.K_0, own.K_1, own.M, own.observe, q, z, G)
 
 
 def _read_otherwise(system: SmallSystem, own: EnrichedReducedPlate) -> list[EnrichedReducedPlate]:

@@ -8,11 +8,13 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.channel_error import channel_rows
 from fitting.diagnosis.every_point import EveryPoint
+from fitting.diagnosis.narrow_resonances import narrow_of
 from fitting.diagnosis.plate_poles import PlatePoles
-from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid, points_of
+from fitting.diagnosis.problem import OF_NARROW, DiagnosisProblem, NodeGrid, points_of
 from fitting.diagnosis.small_error import octaves, theory_rows
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
+from fitting.model_error import ModelError
 from fitting.noise import Noise
 from fitting.structures.small import (
     SmallNuisances,
@@ -102,6 +104,25 @@ class SmallProblem(DiagnosisProblem):
         """The same under any law."""
         return self
 
+    def with_narrow(self, law: CoreLaw) -> "SmallProblem":
+        """As `DiagnosisProblem.with_narrow`, of a beam; a pair's resonance is never narrow."""
+        if not isinstance(self.plate, SmallSystem) or self.specimen.kind != "beam":
+            return self
+        narrow, system = narrow_of(self._errs, self.plate, [self.sweep], law)
+        found = self.moving_each_of(narrow, system) if narrow else self
+        assert isinstance(found, SmallProblem)
+        return found
+
+    def _errs(self, frequency_hz: Array, G: Complex) -> ModelError:
+        found = self.specimen.theory_error(frequency_hz, G)  # type: ignore[attr-defined]
+        assert isinstance(found, ModelError)
+        return found
+
+    @property
+    def left_out(self) -> float:
+        """As where resonances are narrow: most beams lose little."""
+        return OF_NARROW
+
     @property
     def resonances(self) -> Complex:
         """None are looked for: a disturbance shows in the readings themselves. Shape (0,)."""
@@ -155,7 +176,8 @@ class SmallProblem(DiagnosisProblem):
         rows = [row for s in segments for row in channel_rows(self.sweep, s, v, has_phase=has_phase)]
         if isinstance(self.plate, SmallSystem):
             drive, omega = self.points.acceleration_m_s2, self.sweep.omega
-            rows += theory_rows(self.specimen, self._system(), omega, law, drive)  # type: ignore[arg-type]
+            narrow = self.nuisances.narrow
+            rows += theory_rows(self.specimen, self._system(), omega, law, drive, narrow)  # type: ignore[arg-type]
         if self.misfit:
             hats = octaves(self.sweep.omega)
             size = WANDERING * self.misfit

@@ -115,6 +115,11 @@ class FoundLaw(BaseModel):
             raise BadInput(f"bend: {len(whitened)} values at {len(knots)} knots, expected two at each")
         return BentLaw(law, tuple(knots), tuple(float(b) for b in np.exp(whitened)))
 
+    @property
+    def of_specimen(self) -> list[_Adjusted]:
+        """Stated numbers alone: where narrow resonances lie is the data's."""
+        return [one for one in self.adjusted if kind_of(one.name) not in OF_NARROW]
+
     def plate(self, specimen: Specimen) -> FittedPlate:
         """The specimen's plate as it was found. Raises `BadInput` where that cannot be."""
         ratios = list(self.hammer.modal_ratios if self.hammer is not None else specimen.modal_ratios)
@@ -124,8 +129,7 @@ class FoundLaw(BaseModel):
                 ratios += [0.0] * (mode - len(ratios))
                 ratios[mode - 1] = one.stated / 100
         specimen = replace(specimen, modal_ratios=tuple(ratios))
-        # Where its narrow resonances lie is of the fit, and goes with no plate that is planned for.
-        both = [one.moved(specimen) for one in self.adjusted if kind_of(one.name) not in OF_NARROW]
+        both = [one.moved(specimen) for one in self.of_specimen]
         return FittedPlate(
             specimen,
             Nuisances(specimen, tuple(n for n, _ in both)),

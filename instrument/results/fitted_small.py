@@ -28,7 +28,7 @@ class FittedSmall:
     def of(cls, specimen: SmallSpecimen, found: FoundLaw) -> "FittedSmall":
         """As a fit has left them. Raises `BadInput` for a law of another kind."""
         assert specimen.core is not None
-        both = [one.moved(specimen) for one in found.adjusted]
+        both = [one.moved(specimen) for one in found.of_specimen]
         nuisances = SmallNuisances(specimen, tuple(n for n, _ in both), None, specimen.parts())
         return cls(
             specimen, found.law(specimen.core.law), nuisances, np.array([z for _, z in both], dtype=float)

@@ -1,6 +1,7 @@
 """Resonances hardly wider than they may be off: numbers of the fit, and the law's errors with them."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from fitting.diagnosis.narrow_resonances import narrow_of
 from fitting.diagnosis.responses import response_of
 from fitting.laws import LAWS
 from fitting.laws.constant import ConstantModulus
+from fitting.model_error import model_error_at
 from fitting.narrow import THEORY
 from fitting.noise import Noise
 from fitting.resonance_parts import modes_between
@@ -34,6 +36,7 @@ PLATE = Specimen(
     elements=(16, 12),
 )
 NOISE = 0.003
+ERRS = partial(model_error_at, PLATE)
 
 
 def sweep_of(f, segment, v=None):
@@ -56,13 +59,13 @@ def ready():
 
 def test_those_are_narrow_whose_width_is_not_much_more_than_they_may_be_off(ready, mesh_is_right):
     sweep, plate = ready.problem.sweep, ready.problem.plate
-    narrow, moved = narrow_of(PLATE, plate, [sweep], LAW)
+    narrow, moved = narrow_of(ERRS, plate, [sweep], LAW)
     assert len(narrow) >= 4
     assert all(1e-4 < one.by_itself < 1e-2 and one.loss < 0.02 for one in narrow.each)
     assert moved.U.shape[1] == plate.U.shape[1] + len(narrow)
     # A core that loses much has none, and then the plate is as it was.
     lossy = ConstantModulus(20e6, 1.0)
-    wide, same = narrow_of(PLATE, plate, [sweep], lossy)
+    wide, same = narrow_of(ERRS, plate, [sweep], lossy)
     assert len(wide) == 0
     assert same.U.shape == plate.U.shape
 
