@@ -1,6 +1,7 @@
-"""Sweeps of plates from exact elasticity, struck and read at a point: is the law within its errors?
+"""Sweeps of plates from exact elasticity, struck or shaken, read at a point: is the law within its errors?
 
 python tests/campaigns/exact_sweeps.py --specimens 60 --seed 1
+python tests/campaigns/exact_sweeps.py --specimens 60 --seed 1 --shaken
 
 Simply supported plates of five kinds (soft, usual, thick, thick-faced, with a stiff core), whose response is
 a sum of plain waves through the thickness (`exact_elasticity`): nothing of it is the program's own.
@@ -39,7 +40,7 @@ class Swept:
     least_loss: float
 
 
-def drawn(rng: np.random.Generator) -> Case:
+def drawn(rng: np.random.Generator, *, shaken: bool) -> Case:
     """One of the kinds, with its spots; sizes evenly in their logarithms."""
 
     def between(low: float, high: float) -> float:
@@ -63,26 +64,35 @@ def drawn(rng: np.random.Generator) -> Case:
     law = LAWS["fractional-zener"](G, G * between(3, 100), between(1e-5, 1e-2), float(rng.uniform(0.35, 0.8)))
     core = Core(core_m, float(rng.uniform(0.4, 0.495)), between(700, 1600), law)
     spots = [(sides[0] * rng.uniform(0.12, 0.88), sides[1] * rng.uniform(0.12, 0.88)) for _ in range(2)]
-    plate = Specimen(
-        *sides, "simply-supported", *layers, core, exact=True, pickup_m=spots[0], force_m=spots[1]
-    )
+    plate = Specimen(*sides, "simply-supported", *layers, core, exact=True, pickup_m=spots[0])
+    if not shaken:
+        plate = replace(plate, force_m=spots[1])
     return Case(kind, plate, law)
 
 
 def waves(plate: Specimen) -> tuple[np.ndarray, np.ndarray]:
-    """Wavenumbers, ascending, and the product of their shapes at both spots. Shape (waves,) each."""
-    assert plate.force_m is not None
+    """Wavenumbers, ascending, and how much of each is driven and read. Shape (waves,) each.
+
+    Driven is the shape at the force, or its mean over the plate: half waves in odd numbers are shaken alone.
+    """
     assert plate.pickup_m is not None
     m, n = (x.ravel() for x in np.meshgrid(*[np.arange(1, MOST + 1)] * 2, indexing="ij"))
     a, b = m * np.pi / plate.length_m, n * np.pi / plate.width_m
     order = np.argsort(np.hypot(a, b))
-    a, b = a[order], b[order]
-    shapes = [np.sin(a * x) * np.sin(b * y) for x, y in (plate.force_m, plate.pickup_m)]
-    return np.hypot(a, b), shapes[0] * shapes[1]
+    m, n, a, b = (one[order] for one in (m, n, a, b))
+
+    def at(place: tuple[float, float]) -> np.ndarray:
+        return np.asarray(np.sin(a * place[0]) * np.sin(b * place[1]))
+
+    driven = at(plate.force_m) if plate.force_m else 4 / np.pi**2 / (m * n) * (m % 2) * (n % 2)
+    return np.hypot(a, b), driven * at(plate.pickup_m)
 
 
 def compliance(plate: Specimen, k: float, omega: np.ndarray, G: np.ndarray) -> np.ndarray:
-    """Of a wave: mean deflection of the substrate for a pressure that is spread over it as evenly."""
+    """Of a wave: mean deflection of the substrate.
+
+    For a pressure that is spread over it as evenly, or for a base that accelerates all there is.
+    """
     K, M = matrices(plate, k, 0.0)
     assert plate.constraining is not None
     faces = {name: replace(getattr(plate, name), young_pa=0.0) for name in ("substrate", "constraining")}
@@ -93,12 +103,13 @@ def compliance(plate: Specimen, k: float, omega: np.ndarray, G: np.ndarray) -> n
     for e in range(count):
         side[4 * e + 1 : 4 * e + 6 : 2] += np.array([1, 4, 1]) / 6 / count
     A = K + G[:, None, None] * by_G - (omega**2)[:, None, None] * M
-    load = np.broadcast_to(side.astype(complex)[:, None], (len(omega), len(side), 1))
+    given = side if plate.force_m else -M @ np.tile([0.0, 1.0], len(M) // 2)
+    load = np.broadcast_to(given.astype(complex)[:, None], (len(omega), len(side), 1))
     return np.asarray(np.linalg.solve(A, load)[:, :, 0] @ side)
 
 
 def receptance(case: Case, f: np.ndarray, segment: np.ndarray) -> np.ndarray:
-    """Of force and pickup, m/N. Waves far above a segment are solved at its ends and its middle."""
+    """Per force or per acceleration. Waves far above a segment are solved at its ends and its middle."""
     plate = case.plate
     k, shape = waves(plate)
     omega = 2 * np.pi * f
@@ -115,13 +126,14 @@ def receptance(case: Case, f: np.ndarray, segment: np.ndarray) -> np.ndarray:
         x[its] += np.polynomial.polynomial.polyval(
             f[its] - some[1], np.polynomial.polynomial.polyfit(some - some[1], rest, 2)
         )
-    return np.asarray(4 / (plate.length_m * plate.width_m) * x)
+    return np.asarray((4 / (plate.length_m * plate.width_m) if plate.force_m else 4) * x)
 
 
 def swept(case: Case, rng: np.random.Generator) -> Swept | None:
     """Segments about a few resonances that both spots see; None where there are none."""
     k, shape = waves(case.plate)
-    seen = [n for n in range(12) if abs(shape[n]) > SEEN][: rng.integers(2, 6)]
+    driven = shape / (4 / np.pi**2) * 5 if case.plate.force_m is None else shape
+    seen = [n for n in range(12) if abs(driven[n]) > SEEN][: rng.integers(2, 6)]
     lambdas = np.array([exact_mode(case, k[n]) for n in range(12)])
     f, eta = np.sqrt(lambdas.real) / (2 * np.pi), lambdas.imag / lambdas.real
     parts: list[np.ndarray] = []
@@ -181,11 +193,12 @@ def main() -> None:
     parser.add_argument("--specimens", type=int, default=60)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--loss", type=float, default=0.004, help="least modal loss factor")
+    parser.add_argument("--shaken", action="store_true", help="by its base instead of at a point")
     given = parser.parse_args()
     found: list[tuple[Swept, Judged]] = []
     for seed in track(range(given.seed, given.seed + given.specimens), "specimens"):
         rng = np.random.default_rng(seed)
-        one = swept(drawn(rng), rng)
+        one = swept(drawn(rng, shaken=given.shaken), rng)
         if one is not None and one.least_loss > given.loss:
             found.append((one, judge(one)))
             if found[-1][1].chi2 > 2:
