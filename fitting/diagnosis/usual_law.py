@@ -5,7 +5,7 @@ well from there.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -122,7 +122,8 @@ def at_rest(problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted) -> 
     response = response_of(problem.around(fitted.law), fitted.effects)
     found = refit(response, evidence, fitted.law, fitted.u, tolerance=AT_REST)
     if fitted.chi2 - found.chi2 < SEARCH.least_owed:
-        return fitted
+        # Nothing is left to gain: one that was only cut short there has come to its end.
+        return replace(fitted, converged=fitted.converged or found.converged)
     return polished(problem, found.effects, evidence, found.law, found.u)
 
 

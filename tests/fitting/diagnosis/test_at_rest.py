@@ -68,6 +68,12 @@ def test_what_ran_out_of_steps_is_followed_though_one_step_promises_nothing(vall
     assert followed == [AT_REST]
 
 
+def test_what_ran_out_of_steps_where_nothing_is_left_to_gain_has_come_to_its_end(valley):
+    problem, evidence = valley
+    there = refit(Winding(), evidence, END, np.empty(0))
+    assert at_rest(problem, evidence, replace(there, converged=False)).converged
+
+
 OMEGA = 2 * np.pi * np.geomspace(15, 400, 20)
 
 
