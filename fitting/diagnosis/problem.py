@@ -242,7 +242,9 @@ class DiagnosisProblem:
 
         Itself where they are few, or more than numbers of one plate.
         """
-        return replace(self, nuisances=replace(self.nuisances, each=())) if self.nuisances.each else self
+        if not self.nuisances.each:
+            return self
+        return replace(self, nuisances=replace(self.nuisances, each=(), narrow=NarrowResonances()))
 
     @cached_property
     def each(self) -> NodeGrid:

@@ -111,6 +111,12 @@ def test_what_is_a_number_of_the_fit_is_no_error_beside_it(ready):
     assert np.abs(after.of_plate).max() < 2e-3 * np.abs(v).max()
 
 
+def test_taken_at_its_word_it_has_none_of_these_numbers(ready):
+    held = ready.problem.with_narrow(LAW).held
+    v = response_of(held, ()).velocity(LAW, held.as_stated)
+    assert v == pytest.approx(response_of(ready.problem, ()).velocity(LAW, np.zeros(0)), rel=1e-9)
+
+
 def _off(ready, every):
     """Of G' in standard errors, the plate's resonances all higher by some of what is counted."""
     sweep, moving = ready.problem.sweep, ready.problem.with_narrow(LAW)
