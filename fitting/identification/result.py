@@ -32,6 +32,8 @@ CORE_PA = (1e4, 2e8)
 """G' of what is used as a core: soft gels and foams have 10 kPa, rubbers 0.3 to 10 MPa, damping polymers to
 some 100 MPa in their transition, where they damp; a glass of 1 GPa does not (the data sheets in Nashif, Jones
 and Henderson, Vibration Damping, 1985). What lies outside is nearly always a wrong unit."""
+_LARGE, _MOST = 0.3, 9.0
+"""Of a value, from which its standard error is one of its logarithm alone: 1.3 up is not 0.3 down."""
 _PULLED = 3.0
 """Tolerances that a stated number may be moved without a word."""
 _NAMED = 3
@@ -134,6 +136,7 @@ def summarise(
         warnings=(
             *_gain_of_energy(band),
             *_beyond_cores(band),
+            *_hardly_known(band),
             *_warnings(sweep, fit, uncertainty, known),
             *further_warnings,
         ),
@@ -259,6 +262,25 @@ def _beyond_cores(band: LawBand) -> list[str]:
         f"{1e-6 * high:g} MPa: are frequencies in Hz, accelerations in m/s^2, masses in kg, thicknesses in "
         "mm, areas in mm^2, and all discs counted?"
     ]
+
+
+def _hardly_known(band: LawBand) -> list[str]:
+    """Where the data say next to nothing of the core: errors are no longer small parts of it."""
+    said = []
+    each = (
+        ("G'", band.storage_modulus_pa, band.storage_modulus_standard_error_pa),
+        ("the loss factor", band.loss_factor, band.loss_factor_standard_error),
+    )
+    for name, value, error in each:
+        share = np.nan_to_num(error / np.abs(value))
+        k = int(np.argmax(share))
+        if share[k] > _LARGE:
+            said.append(
+                f"{name} is known within a factor of {np.exp(min(share[k], _MOST)):.2g} only at "
+                f"{band.frequency_hz[k]:.3g} Hz: an error as large is one of its logarithm, take the interval by "
+                "--uncertainty profile; the readings hardly feel the core there"
+            )
+    return said
 
 
 def _looseness_warnings(law: CoreLaw, uncertainty: Uncertainty) -> list[str]:

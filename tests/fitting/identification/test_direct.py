@@ -14,6 +14,7 @@ from fitting.identification.result import (
     LawBand,
     _beyond_cores,
     _gain_of_energy,
+    _hardly_known,
     differences_percent,
     summarise,
 )
@@ -262,6 +263,16 @@ def test_a_law_that_gives_energy_is_asked_about():
     assert _gain_of_energy(lossy) == []
     (said,) = _gain_of_energy(giving)
     assert said.startswith("the loss factor is negative (-0.4 at 40 Hz)")
+
+
+def test_what_is_hardly_known_is_said_to_be_known_within_a_factor():
+    f, one = np.array([10.0, 20.0, 40.0]), np.ones(3)
+    well = LawBand(f, 1e6 * one, 0.3 * one, 1e5 * one, 0.03 * one)
+    assert _hardly_known(well) == []
+    (said,) = _hardly_known(replace(well, storage_modulus_standard_error_pa=np.array([1e5, 7e5, np.nan])))
+    assert said.startswith("G' is known within a factor of 2 only at 20 Hz")
+    (said,) = _hardly_known(replace(well, loss_factor_standard_error=0.15 * one))
+    assert said.startswith("the loss factor is known within a factor of 1.6 only at 10 Hz")
 
 
 @pytest.mark.parametrize(("mpa", "asked"), [(0.005, True), (0.02, False), (150.0, False), (350.0, True)])
