@@ -277,8 +277,8 @@ def _hardly_known(band: LawBand) -> list[str]:
         if share[k] > _LARGE:
             said.append(
                 f"{name} is known within a factor of {np.exp(min(share[k], _MOST)):.2g} only at "
-                f"{band.frequency_hz[k]:.3g} Hz: an error as large is one of its logarithm, take the interval by "
-                "--uncertainty profile; the readings hardly feel the core there"
+                f"{band.frequency_hz[k]:.3g} Hz: an error as large is one of its logarithm, take the "
+                "interval by --uncertainty profile; the readings hardly feel the core there"
             )
     return said
 
