@@ -33,14 +33,10 @@ _ANGLES = (0.2, 0.6, 1.0)
 """Of the modulus' argument, rad."""
 _EVERY = 2
 """Of the nodes, those that a condensed plate answers at."""
-_MOST, _MOST_OF_NARROW = 500, 80
-"""Frequencies that it answers at: of a small structure every point is a node, and its motions are few; of a
-plate with narrow resonances, whose motions are not, eighty do as well to 1e-10."""
+_MOST = 500
+"""Frequencies that it answers at: of a small structure every point is a node, and its motions are few."""
 _SMALL = 40
 """Columns of a plate that is not condensed: a small structure, or one whose basis was never large."""
-OF_NARROW = 1e-6
-"""Of the largest singular value, what a condensed plate with narrow resonances may leave out: it stiffens
-them by 1e-6 and less, and their losses are hardly more than a thousand times that."""
 _PLACES, _REACH, _PLACES_SEED = 4, 2.0, 5
 """Of the tolerances' box, that a condensed plate answers for: how many, how far in standard deviations."""
 _BESIDE = 0.25
@@ -135,10 +131,8 @@ class DiagnosisProblem:
             return self
         # With several sides each point has as many answers: fewer points have as much to say.
         omega = self.coarse.nodes.omega[:: _EVERY * max(2, len(sides)) // 2]
-        many = self.nuisances.narrow and isinstance(self.specimen, Specimen)
-        most = _MOST_OF_NARROW if many else _MOST
-        if len(omega) > most:
-            omega = np.sort(omega)[np.linspace(0, len(omega) - 1, most).astype(int)]
+        if len(omega) > _MOST:
+            omega = np.sort(omega)[np.linspace(0, len(omega) - 1, _MOST).astype(int)]
         size = np.abs(law.modulus(omega))
         factors = [s * np.exp(1j * angle) for s in _SIZES for angle in _ANGLES]
         G = np.concatenate([size * f for f in factors])
@@ -156,13 +150,12 @@ class DiagnosisProblem:
     @property
     def left_out(self) -> float:
         """Of the largest singular value, by its condensed plate."""
-        return OF_NARROW if self.nuisances.narrow else CONDENSED
+        return CONDENSED
 
     @property
     def resonances(self) -> Complex:
         """Poles of the structure without any effect, in and near the points, rad/s. Shape (poles,)."""
-        narrow = [2 * np.pi * one.frequency_hz * (1 + 0.5j * one.loss) for one in self.nuisances.narrow.each]
-        return np.append(self.fine.nodes.poles, narrow)
+        return self.fine.nodes.poles
 
     @property
     def pickup_x_m(self) -> float:
@@ -195,17 +188,7 @@ class DiagnosisProblem:
 
     def moving_each_of(self, narrow: NarrowResonances, plate: EnrichedReducedPlate) -> "DiagnosisProblem":
         """The same with where some resonances lie among its numbers; `plate` is its own with their sides."""
-        # Nodes are too far apart for what changes within a narrow resonance.
-        each = self.each
-        return replace(
-            self,
-            plate=plate,
-            nuisances=self.nuisances.with_narrow(narrow),
-            fine=each,
-            coarse=each,
-            passes=each,
-            dense=each.nodes,
-        )
+        return replace(self, plate=plate, nuisances=self.nuisances.with_narrow(narrow))
 
     def as_found(self, z: Array) -> "DiagnosisProblem":
         """The same, its model's error asked with its stated numbers there. `z` of shape (numbers,)."""
