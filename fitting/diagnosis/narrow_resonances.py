@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.diagnosis.plate_poles import PLAIN
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.model_error import ModelError
@@ -18,7 +19,6 @@ _BESIDE = 1.5
 and where each lies says how much."""
 _ALIKE = 0.7
 """Of phi^T M psi, from which two modes are one: the law has moved by a little since."""
-_OWN = "plate"
 
 Errs = Callable[[Array, Complex], ModelError]
 """What the theory gets wrong at some frequencies in Hz, the modulus there given. Shape (points,) each."""
@@ -40,7 +40,7 @@ def narrow_of(
     each = [found[number] for number in sorted(found)]
     shapes = np.zeros((len(plate.load), len(each)))
     if each:
-        shapes[plate.group == _OWN] = np.array([y for _, y in each]).T
+        shapes[plate.group == PLAIN] = np.array([y for _, y in each]).T
     moved = replace(
         plate, U=np.hstack([plate.U, plate.M @ shapes]), d=np.append(plate.d, np.zeros(len(each)))
     )

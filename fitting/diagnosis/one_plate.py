@@ -5,18 +5,15 @@ Loads and readings are vectors beside the plate's matrices: members share the ma
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.diagnosis.narrow_resonances import narrow_of
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.span import Span
 from fitting.laws import CoreLaw
-from fitting.model_error import model_error_at
 from fitting.specimen import Specimen
 
 _MOST_TAKEN = 12
@@ -49,21 +46,15 @@ def with_narrow(
     members: Sequence[DiagnosisProblem], plates: Plates, laws: Sequence[CoreLaw]
 ) -> tuple[DiagnosisProblem, ...]:
     """Every member with where the narrow resonances of its plate lie among its numbers."""
-    found = [
-        m if isinstance(m.specimen, Specimen) else m.with_narrow(law)
-        for m, law in zip(members, laws, strict=True)
-    ]
+    found = list(members)
     for number in dict.fromkeys(plates):
-        its = [k for k, plate in enumerate(plates) if plate == number]
-        m = members[its[0]]
-        if not isinstance(m.specimen, Specimen):
-            continue
-        errs = partial(model_error_at, m.specimen)
-        narrow, plate = narrow_of(errs, m.plate, [members[k].sweep for k in its], laws[its[0]])
-        if narrow:
-            for k in its:
-                own = replace(members[k].plate, U=plate.U, d=plate.d)
-                found[k] = members[k].moving_each_of(narrow, own)
+        first, *rest = (k for k, plate in enumerate(plates) if plate == number)
+        sweeps = [members[k].sweep for k in (first, *rest)]
+        found[first] = one = members[first].with_narrow(laws[first], sweeps)
+        if one is not members[first]:
+            for k in rest:
+                plate = replace(members[k].plate, U=one.plate.U, d=one.plate.d)
+                found[k] = members[k].moving_each_of(one.nuisances.narrow, plate)
     return tuple(found)
 
 

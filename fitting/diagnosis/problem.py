@@ -3,12 +3,13 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
+from typing import Self
 
 import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.every_point import EveryPoint
-from fitting.diagnosis.narrow_resonances import narrow_of
+from fitting.diagnosis.narrow_resonances import Errs, narrow_of
 from fitting.diagnosis.nodes import HZ_A_NODE, Nodes
 from fitting.diagnosis.plate_poles import PlatePoles, cuts_between
 from fitting.diagnosis.pole_following import KnownPoles
@@ -179,14 +180,22 @@ class DiagnosisProblem:
         struck = self.specimen.drive == "force" and len(self.nuisances) > 0
         return struck or len(self.nuisances.narrow) > 0
 
-    def with_narrow(self, law: CoreLaw) -> "DiagnosisProblem":
-        """The same with where its narrow resonances lie, under a law, among its numbers."""
-        if not isinstance(self.specimen, Specimen):
+    @property
+    def errs(self) -> Errs | None:
+        """What the theory of its structure gets wrong of a resonance; None where that is of no account."""
+        return partial(model_error_at, self.specimen) if isinstance(self.specimen, Specimen) else None
+
+    def with_narrow(self, law: CoreLaw, sweeps: Sequence[Sweep] = ()) -> Self:
+        """The same with where its narrow resonances lie, under a law, among its numbers.
+
+        `sweeps`: all that are of its plate, its own alone by default.
+        """
+        if self.errs is None:
             return self
-        narrow, plate = narrow_of(partial(model_error_at, self.specimen), self.plate, [self.sweep], law)
+        narrow, plate = narrow_of(self.errs, self.plate, sweeps or [self.sweep], law)
         return self.moving_each_of(narrow, plate) if narrow else self
 
-    def moving_each_of(self, narrow: NarrowResonances, plate: EnrichedReducedPlate) -> "DiagnosisProblem":
+    def moving_each_of(self, narrow: NarrowResonances, plate: EnrichedReducedPlate) -> Self:
         """The same with where some resonances lie among its numbers; `plate` is its own with their sides."""
         return replace(self, plate=plate, nuisances=self.nuisances.with_narrow(narrow))
 

@@ -7,6 +7,7 @@ for all files or for one of them (`OfFiles`).
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +40,7 @@ from fitting.laws import CoreLaw
 from fitting.nuisances import Nuisances
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
+from fitting.sweep import Sweep
 
 KELVIN = 0.1
 """Standard deviation of how much warmer a core is in one file than in another where nobody took care."""
@@ -158,7 +160,7 @@ class SeveralProblem(DiagnosisProblem):
         """Where any member's does."""
         return any(m.errs_as_found for m in self.members)
 
-    def with_narrow(self, law: CoreLaw) -> "SeveralProblem":
+    def with_narrow(self, law: CoreLaw, sweeps: Sequence[Sweep] = ()) -> Self:
         """Every member with those of its plate: alike in all its files, where they lie alike."""
         moved = one_plate.with_narrow(
             self.members, self.plates, [law_at(law, k) for k in range(len(self.members))]

@@ -8,13 +8,12 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.channel_error import channel_rows
 from fitting.diagnosis.every_point import EveryPoint
-from fitting.diagnosis.narrow_resonances import narrow_of
+from fitting.diagnosis.narrow_resonances import Errs
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid, points_of
 from fitting.diagnosis.small_error import octaves, theory_rows
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
-from fitting.model_error import ModelError
 from fitting.noise import Noise
 from fitting.structures.small import (
     SmallNuisances,
@@ -107,19 +106,10 @@ class SmallProblem(DiagnosisProblem):
         """The same under any law."""
         return self
 
-    def with_narrow(self, law: CoreLaw) -> "SmallProblem":
-        """As `DiagnosisProblem.with_narrow`, of a beam; a pair's resonance is never narrow."""
-        if not isinstance(self.plate, SmallSystem) or self.specimen.kind != "beam":
-            return self
-        narrow, system = narrow_of(self._errs, self.plate, [self.sweep], law)
-        found = self.moving_each_of(narrow, system) if narrow else self
-        assert isinstance(found, SmallProblem)
-        return found
-
-    def _errs(self, frequency_hz: Array, G: Complex) -> ModelError:
-        found = self.specimen.theory_error(frequency_hz, G)  # type: ignore[attr-defined]
-        assert isinstance(found, ModelError)
-        return found
+    @property
+    def errs(self) -> Errs | None:
+        """A beam's theory; a pair's resonance is never narrow."""
+        return self.specimen.theory_error if self.specimen.kind == "beam" else None  # type: ignore[attr-defined]
 
     @property
     def left_out(self) -> float:

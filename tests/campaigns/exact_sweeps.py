@@ -28,6 +28,8 @@ NEAR, MOST = 40, 24
 """Waves that are solved at every frequency, and the half waves along each side that count at all."""
 SEEN = 0.12
 """Of the product of a mode's shape at both spots, from which its resonance is swept."""
+SEEN_SHAKEN = SEEN * 4 / np.pi**2 / 5
+"""Of the product of its mean, 4/pi^2 at most, and its shape at the pickup: a fifth as much of it."""
 
 
 @dataclass(frozen=True)
@@ -132,8 +134,8 @@ def receptance(case: Case, f: np.ndarray, segment: np.ndarray) -> np.ndarray:
 def swept(case: Case, rng: np.random.Generator) -> Swept | None:
     """Segments about a few resonances that both spots see; None where there are none."""
     k, shape = waves(case.plate)
-    driven = shape / (4 / np.pi**2) * 5 if case.plate.force_m is None else shape
-    seen = [n for n in range(12) if abs(driven[n]) > SEEN][: rng.integers(2, 6)]
+    least = SEEN if case.plate.force_m else SEEN_SHAKEN
+    seen = [n for n in range(12) if abs(shape[n]) > least][: rng.integers(2, 6)]
     lambdas = np.array([exact_mode(case, k[n]) for n in range(12)])
     f, eta = np.sqrt(lambdas.real) / (2 * np.pi), lambdas.imag / lambdas.real
     parts: list[np.ndarray] = []
@@ -170,7 +172,7 @@ def judge(one: Swept) -> Judged:
     wrong = LAWS["fractional-zener"](*np.array(law.values) * [1.5, 0.8, 1.5, 0.95])
     none = np.zeros(0)
     try:
-        found = identify(one.sweep, replace(plate).with_law(wrong)).result
+        found = identify(one.sweep, plate.with_law(wrong)).result
     except FittingError as refused:
         return Judged(type(refused).__name__, none, none)
     if not found.fit.converged:
