@@ -11,6 +11,7 @@ from fitting.diagnosis import text
 from fitting.diagnosis.begin import begin
 from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.executor import ALONE, Executor
+from fitting.diagnosis.kin import UNLISTED, Unlisted, kin_of
 from fitting.diagnosis.pairs import Pairs
 from fitting.diagnosis.prediction import over_noise
 from fitting.diagnosis.problem import DiagnosisProblem
@@ -158,9 +159,11 @@ def _diagnosis(
         scale = search.temper(accepted)
         after = stage_of(problem, evidence, accepted.fitted, search.validation(accepted), scale)
         found = found_effects(accepted.fitted, problem.plate, scale)
-    if judgement.verdict != "unknown":
-        after = replace(after, band=mixed_band(problem, search, judgement.group))
+    if judgement.unlisted is not None or judgement.verdict != "unknown":
+        after = replace(after, band=mixed_band(problem, search, _weighing(search.none, judgement)))
     absent, scored_fits = search.tempered(decided.scored_fits)
+    if judgement.unlisted is not None:
+        scored_fits.append(judgement.unlisted)
     scored_fits = sorted([absent, *scored_fits], key=_cost)
     seen = tuple(text.story(catalogue[c.name], c) for c in channels)
     return Diagnosis(
@@ -193,6 +196,20 @@ def _diagnosis(
     )
 
 
+def _weighing(none: ScoredFit, judgement: Judgement) -> list[tuple[ScoredFit, float]]:
+    """Whose laws make the band, with their shares.
+
+    Where nothing explains the readings, two that are wrong say how far laws may be apart: that of no effect,
+    and that of something like what comes nearest.
+    """
+    if judgement.unlisted is None:
+        return list(judgement.group)
+    if judgement.verdict == "unknown":
+        return [(none, 0.5), (judgement.unlisted, 0.5)]
+    akin = judgement.share_of_kin
+    return [*((t, (1 - akin) * share) for t, share in judgement.group), (judgement.unlisted, akin)]
+
+
 def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, list[ScoredFit], Judgement]:
     """The whole catalogue, and the verdict; the search as it ended."""
     singles = Singles(search, lambda x: report(0.5 * x)).best()
@@ -213,10 +230,12 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
     found = [*singles, *pairs]
     best = min([search.none, *found], key=_cost)
     scored_fits = sorted(search.at_rest(found, best, [search.none]), key=_cost)
+    t = search.temper_of(scored_fits)
     judgement = judge(
         *search.tempered(scored_fits),
         hidden=frozenset(e.name for e in search.unnamed),
         held_out=lambda scored: over_noise(search.validation(scored)),
+        kin=lambda scored: kin_of(search, scored.fitted, t),
     )
     return search, [t for t in scored_fits if t.names in judgement.probability], judgement
 
@@ -261,7 +280,7 @@ def _rivals(
     each = tuple((scored.fitted, share) for scored, share in judgement.group)
     inside = {scored.names for scored, _ in judgement.group}
     whole = sum(judgement.probability[names] for names in inside)
-    others = {t.names: t for t in scored_fits if t.names not in inside}
+    others = {t.names: t for t in scored_fits if t.names not in inside and UNLISTED not in t.names}
     shares = [(t.fitted, judgement.probability.get(names, 0.0) / whole) for names, t in others.items()]
     beyond = tuple(sorted((one for one in shares if one[1] > _BEYOND), key=lambda one: -one[1]))
     return Rivals(problem, search.evidence, each, reduced, search.temper(judgement.group[0][0]), beyond)
@@ -297,6 +316,11 @@ def _candidate(
     *,
     noise_known: bool,
 ) -> Candidate:
+    if isinstance(scored, Unlisted):
+        law = mixed_band(problem, search, ((scored, 1.0),), few=True)
+        share = judgement.probability[scored.names]
+        cost, left = scored.cost - best, scored.chi2_per_dof
+        return Candidate((FoundEffect(UNLISTED, {}),), cost, left, share, law)
     chi2 = scored.fitted.chi2_per_dof if noise_known else float("nan")
     scale = search.temper(scored)
     accepted = judgement.accepted

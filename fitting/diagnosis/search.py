@@ -125,10 +125,14 @@ class Search:
 
     def tempered(self, scored_fits: Sequence[ScoredFit]) -> tuple[ScoredFit, list[ScoredFit]]:
         """None and the others with what they are worth where the best explains far more than noise."""
-        t = self.temper(min([self.none, *scored_fits], key=lambda one: one.cost))
+        t = self.temper_of(scored_fits)
         plate = self.problem.plate
         none, *others = (replace(one, cost=cost(one.fitted, plate, t)) for one in (self.none, *scored_fits))
         return none, others
+
+    def temper_of(self, scored_fits: Sequence[ScoredFit]) -> float:
+        """`temper` by the best of them, or by none."""
+        return self.temper(min([self.none, *scored_fits], key=lambda one: one.cost))
 
     def temper(self, best: ScoredFit) -> float:
         """How much less a difference of costs says, where the best explains far more than noise."""

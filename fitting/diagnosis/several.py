@@ -4,7 +4,7 @@ The stated numbers of all members are the unknowns, those of the same thing once
 for all files or for one of them (`OfFiles`).
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Self
@@ -315,6 +315,11 @@ class SeveralResponse(SweepResponse):
                 reference = references.setdefault(number, Reference())
             response = SweepResponse(m, inner, m.coarse if coarse else None, plate, reference)
             self._of_member.append((response, np.concatenate(places)))
+
+    def each(self, law: CoreLaw, u: Array) -> Iterator[tuple[SweepResponse, CoreLaw, Array]]:
+        """Of every member the response, its own law and its own unknowns. `u` of shape (unknowns,)."""
+        for k, (response, at) in enumerate(self._of_member):
+            yield response, law_at(law, k), u[at]
 
     def _solve(self, law: CoreLaw, u: Array) -> None:
         """What several members ask of one plate, all at once."""

@@ -1,12 +1,13 @@
 """A fit before or after, with everything that is said of it."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from fitting.arrays import Array
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.kin import Kin, Unlisted
 from fitting.diagnosis.posterior import posterior
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refitted import Refitted
@@ -90,19 +91,39 @@ def few_of_law(problem: DiagnosisProblem, fitted: Refitted, scale: float) -> Law
 
 
 def mixed_band(
-    problem: DiagnosisProblem, search: Search, group: Sequence[tuple[ScoredFit, float]]
+    problem: DiagnosisProblem, search: Search, group: Sequence[tuple[ScoredFit, float]], *, few: bool = False
 ) -> LawBand:
     """The law over all explanations of a group: mean and standard deviation of their mixture.
 
+    At a `few` frequencies only, where a candidate's law is listed.
+
     Each brings its own posterior; where they disagree, so does the band.
     """
-    bands = []
-    for scored, _ in group:
+    bands, shares = [], []
+    posteriors: dict[ScoredFit, Array] = {}
+    for scored, kin, share in _each_of(group):
         fitted, scale = scored.fitted, search.temper(scored)
-        C = posterior(response_of(problem, fitted.effects), search.evidence, fitted)
-        band = law_band(problem.sweep, fitted.law, _of_law(fitted, scale * C))
-        bands.append(replace(band, known=_known(problem, fitted, C, scale)))
-    return mixture_of(bands, np.array([p for _, p in group]))
+        if scored not in posteriors:
+            response = response_of(problem, fitted.effects)
+            posteriors[scored] = posterior(response, search.evidence, fitted)
+        C, law = posteriors[scored], fitted.law
+        if kin is not None:
+            C, law = C + kin.wider / scale, kin.law(fitted)
+        at = replace(fitted, law=law)
+        points = {"points": _FEW} if few else {}
+        band = law_band(problem.sweep, law, _of_law(at, scale * C), **points)
+        bands.append(replace(band, known=_known(problem, at, C, scale)))
+        shares.append(share)
+    return mixture_of(bands, np.array(shares))
+
+
+def _each_of(group: Sequence[tuple[ScoredFit, float]]) -> Iterator[tuple[ScoredFit, Kin | None, float]]:
+    """Its explanations and their kin, each with its share."""
+    for scored, share in group:
+        if isinstance(scored, Unlisted):
+            yield from ((one, kin, share * part) for one, kin, part in scored.of)
+        else:
+            yield scored, None, share
 
 
 def mixture_of(bands: Sequence[LawBand], shares: Array) -> LawBand:

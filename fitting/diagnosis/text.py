@@ -3,6 +3,7 @@
 import numpy as np
 
 from fitting.arrays import Complex
+from fitting.diagnosis.kin import UNLISTED
 from fitting.diagnosis.parts_with import part_with
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refitted import Refitted
@@ -71,7 +72,7 @@ def explain(
             "stand in for what is not known."
         )
     for name, group in judgement.equivalent.items():
-        others = [n for n in group if n not in (name, NONE)]
+        others = [n for n in group if n not in (name, NONE, UNLISTED)]
         if others:
             said.append(f"These data cannot tell {name} from {', '.join(others)}.")
     if not judgement.confirmed:
@@ -81,6 +82,11 @@ def explain(
         )
     if any(NONE in group for group in judgement.equivalent.values()):
         said.append(f"That there is no effect at all keeps {_percent(judgement.probability[()])}.")
+    if any(UNLISTED in group for group in judgement.equivalent.values()):
+        said.append(
+            f"That it is something of its kind, in no catalogue, has {_percent(judgement.share_of_kin)}: "
+            "what is left of the readings is more like that than what its own formula leaves."
+        )
     said.append(
         f"With it the fit leaves {two_digits(after.rms_percent)} % rms instead of "
         f"{two_digits(before.rms_percent)} %" + _chi2(before, after) + _held_out(before, after, found)

@@ -11,6 +11,7 @@ from itertools import permutations
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.diagnosis.kin import UNLISTED, Kin, Unlisted
 from fitting.diagnosis.marginal import probabilities
 from fitting.diagnosis.predictive import weakest
 from fitting.diagnosis.result import Verdict
@@ -20,6 +21,8 @@ from fitting.diagnosis.thresholds import VERDICT
 from fitting.digits import two_digits
 
 NONE = "none"
+_MOST_OF_KIN = 1 - 1e-9
+"""Probability: what is listed keeps its order beside it."""
 
 
 @dataclass(frozen=True)
@@ -45,6 +48,14 @@ class Judgement:
     """What comes nearest where nothing will do."""
     why: str = ""
     """What speaks against it: half a sentence."""
+    unlisted: Unlisted | None = None
+    """What is in no catalogue and akin to those of the group that nothing refuses; None where nothing may be
+    named, or kin is not asked."""
+
+    @property
+    def share_of_kin(self) -> float:
+        """Probability of what is in no catalogue."""
+        return self.probability.get((UNLISTED,), 0.0)
 
     def of_effect(self, name: str) -> float:
         """Probability that an effect is there, alone or beside another."""
@@ -83,41 +94,107 @@ def judge(
     *,
     hidden: frozenset[str],
     held_out: Callable[[ScoredFit], float],
+    kin: Callable[[ScoredFit], Kin | None] = lambda scored: None,
 ) -> Judgement:
     """Weigh explanations.
 
     `hidden`: effects that may not be named, fitted for comparison. `held_out`: error of a trial over noise on
-    data it has not seen, NaN where there are none.
+    data it has not seen, NaN where there are none. `kin`: of an explanation, what is in no catalogue.
     """
     every = best_of_each([none, *scored_fits])
     p = shares_of(every)
     order = np.argsort(-p, kind="stable")
     ranked = [(every[k], float(p[k])) for k in order]
-    probability = {t.names: share for t, share in ranked}
-    group = _group(ranked)
-
-    def judgement(verdict: Verdict, accepted: ScoredFit | None, **more: object) -> Judgement:
-        equivalent = _equivalent(accepted, group, hidden) if accepted is not None else {}
-        return Judgement(verdict, accepted, equivalent, group, probability, **more)  # type: ignore[arg-type]
-
-    visible = [t for t, _ in group if not hidden & set(t.names)]
-    named = [t for t in visible if t.names]
-    if not named or probability[()] > max(
-        VERDICT.least_doubted, VERDICT.favoured * probability[named[0].names]
-    ):
+    visible = [t for t, _ in _group(ranked) if not hidden & set(t.names)]
+    named, nothing = [t for t in visible if t.names], next(share for t, share in ranked if not t.names)
+    of_best = next((share for t, share in ranked if named and t is named[0]), 0.0)
+    if not named or nothing > max(VERDICT.least_doubted, VERDICT.favoured * of_best):
+        weighed = _Weighed(ranked, hidden)
         if none.fails or not visible:
-            return _unknown(judgement, none, ranked)
-        return judgement("none", None)
+            return _unknown(weighed, none)
+        return weighed.judgement("none", None)
     standing = [t for t in named if not _against(none, t, held_out)]
+    weighed = _beside_kin(ranked, hidden, {t: kin(t) for t in standing or named})
     if not standing:
-        return _unknown(judgement, named[0], ranked, _against(none, named[0], held_out))
+        return _unknown(weighed, named[0], _against(none, named[0], held_out))
     best = standing[0]
-    alone = all(set(best.names) <= set(t.names) for t, _ in group)
+    if weighed.share_of_kin > VERDICT.favoured * weighed.probability[best.names]:
+        share = two_digits(100 * weighed.share_of_kin)
+        why = f"is less likely than something of its kind that is in no catalogue, which has {share} %"
+        return _unknown(weighed, best, why)
+    alone = all(set(best.names) <= set(t.names) for t, _ in weighed.group) and not weighed.doubted
     sure = len(best.names) < 2 or held_out(best) < held_out(none)
     # Beside another, what stands in for something leaves room for anything, refused or not.
     doubtful = best.stands_in or best.unsized
     firm = (len(best.names) < 2 or not doubtful) and best.strains is None and not best.too_large
-    return judgement("effect" if alone and sure and firm else "ambiguous", best, confirmed=sure)
+    return weighed.judgement("effect" if alone and sure and firm else "ambiguous", best, confirmed=sure)
+
+
+@dataclass(frozen=True)
+class _Weighed:
+    """Every explanation with its probability, the likeliest first."""
+
+    ranked: Sequence[tuple[ScoredFit, float]]
+    hidden: frozenset[str]
+    unlisted: Unlisted | None = None
+    share_of_kin: float = 0.0
+
+    @property
+    def probability(self) -> dict[tuple[str, ...], float]:
+        found = {t.names: share * (1 - self.share_of_kin) for t, share in self.ranked}
+        return found if self.unlisted is None else found | {self.unlisted.names: self.share_of_kin}
+
+    @property
+    def group(self) -> tuple[tuple[ScoredFit, float], ...]:
+        return _group(self.ranked)
+
+    @property
+    def doubted(self) -> bool:
+        """Whether what is in no catalogue may as well be there."""
+        return self.share_of_kin > 1 - VERDICT.credible
+
+    def judgement(
+        self,
+        verdict: Verdict,
+        accepted: ScoredFit | None,
+        *,
+        confirmed: bool = True,
+        refused: tuple[str, ...] = (),
+        why: str = "",
+    ) -> Judgement:
+        equivalent = _equivalent(accepted, self.group, self.hidden) if accepted is not None else {}
+        if self.doubted:
+            equivalent = {name: (*group, UNLISTED) for name, group in equivalent.items()}
+        return Judgement(
+            verdict,
+            accepted,
+            equivalent,
+            self.group,
+            self.probability,
+            confirmed,
+            refused=refused,
+            why=why,
+            unlisted=self.unlisted,
+        )
+
+
+def _beside_kin(
+    ranked: Sequence[tuple[ScoredFit, float]],
+    hidden: frozenset[str],
+    kin: Mapping[ScoredFit, Kin | None],
+) -> _Weighed:
+    """Explanations with the kin of some of them as one more."""
+    akin = [(t, own, share * own.odds, share) for t, share in ranked if (own := kin.get(t)) is not None]
+    akin.sort(key=lambda one: -one[2])
+    beside = sum(share for *_, share, _ in akin)
+    if not beside > 0:
+        return _Weighed(ranked, hidden)
+    first, _, _, share_of_first = akin[0]
+    of = tuple((t, own, share / beside) for t, own, share, _ in akin)
+    cost = first.cost - 2 * float(np.log(beside) - np.log(share_of_first))
+    return _Weighed(
+        ranked, hidden, Unlisted(first.fitted, cost, of=of), min(beside / (1 + beside), _MOST_OF_KIN)
+    )
 
 
 def shares_of(every: Sequence[ScoredFit]) -> Array:
@@ -139,14 +216,10 @@ def shares_of(every: Sequence[ScoredFit]) -> Array:
     return p
 
 
-def _unknown(
-    judgement: Callable[..., Judgement],
-    nearest: ScoredFit,
-    ranked: Sequence[tuple[ScoredFit, float]],
-    why: str = "",
-) -> Judgement:
-    best = nearest if nearest.names else next((t for t, _ in ranked if t.names), nearest)
-    return judgement("unknown", None, refused=best.names if why else (), why=why)
+def _unknown(weighed: _Weighed, nearest: ScoredFit, why: str = "") -> Judgement:
+    listed = (t for t, _ in weighed.ranked if t.names and not isinstance(t, Unlisted))
+    best = nearest if nearest.names else next(listed, nearest)
+    return weighed.judgement("unknown", None, refused=best.names if why else (), why=why)
 
 
 def holding(shares: Sequence[float]) -> int:

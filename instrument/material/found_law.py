@@ -25,6 +25,7 @@ from instrument.material.found_shift import FoundShift
 from instrument.material.knowledge import known_curve_of
 from instrument.material.stated_part import Stated, digest_of, stated_numbers
 from instrument.progress import Progress, quiet
+from instrument.results.diagnosis_words import NOT_NAMED
 from instrument.results.session_result import recorded_result
 from instrument.results.standing import none_leads
 from instrument.session.contents import Contents, contents_of
@@ -103,7 +104,7 @@ class _Diagnosed(BaseModel):
             return f"{' and '.join(['no effect', *shown])}, not told from {' and '.join(self.equivalent)}"
         others = [n for name, group in self.equivalent.items() for n in group if n != name]
         if others:
-            said += f", not told from {', '.join('no effect' if n == 'none' else n for n in others)}"
+            said += f", not told from {', '.join(NOT_NAMED.get(n, n) for n in others)}"
         return said
 
 

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from itertools import groupby
 from math import isnan, nan
 
+from fitting.diagnosis.kin import UNLISTED
 from fitting.diagnosis.of_files import ALIKE, EACH, FILE
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.digits import two_digits
@@ -33,6 +34,8 @@ _MEANT = {
     ("level", 0.0): "at every level",
 }
 """Numbers that stand for words, by the key they have."""
+NOT_NAMED = {"none": "no effect", UNLISTED: "something of its kind in no catalogue"}
+"""What stands in a group without being an effect, in words."""
 _SAID = {"none": "nothing beyond noise", "unknown": "structure that nothing in the catalogue explains"}
 
 
@@ -62,7 +65,7 @@ def verdict_line(found: DiagnosisResult) -> str:
         said += _weighed(found)
     parts = [f"verdict: {'by your word' if found.by_hand else found.verdict}: {said}"]
     for name, group in groups.items():
-        others = ["no effect" if n == "none" else n for n in group if n != name]
+        others = [NOT_NAMED.get(n, n) for n in group if n != name]
         if others:
             parts.append(f"these data cannot tell {name} from {', '.join(others)}")
     if channels:

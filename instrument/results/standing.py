@@ -5,10 +5,13 @@ from itertools import product
 from math import isnan
 from typing import Literal
 
+from fitting.diagnosis.kin import UNLISTED
 from fitting.diagnosis.verdict import holding
 from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageFitted, StageName
 
 Standing = Literal["found", "equal", "none", "other"]
+_LEAST = 1e-300
+"""Where the listed ones have nothing left to share."""
 
 
 def standing(name: str, found: DiagnosisResult) -> Standing:
@@ -70,5 +73,7 @@ def _group(found: DiagnosisResult) -> set[str] | None:
     """The likeliest that hold 95 %; None without probabilities."""
     if found.by_hand or any(isnan(c.probability) for c in found.candidates):
         return None
-    ranked = sorted(found.candidates, key=lambda c: -c.probability)
-    return {c.name for c in ranked[: holding([c.probability for c in ranked])]}
+    listed = [c for c in found.candidates if c.name != UNLISTED]
+    ranked, whole = sorted(listed, key=lambda c: -c.probability), sum(c.probability for c in listed)
+    group = {c.name for c in ranked[: holding([c.probability / max(whole, _LEAST) for c in ranked])]}
+    return group | {UNLISTED} if any(UNLISTED in names for names in found.equivalent.values()) else group

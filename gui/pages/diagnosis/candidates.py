@@ -3,6 +3,7 @@
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
+from fitting.diagnosis.kin import UNLISTED
 from gui.pages.diagnosis.ranking import (
     WORDS,
     CandidateRow,
@@ -113,8 +114,8 @@ class Candidates(QWidget):
     def _show_buttons(self) -> None:
         chosen = self._chosen
         self.what_to_do.setVisible(self._able and not chosen and not self.decisions.any)
-        self.accept.setEnabled(bool(chosen))
-        self.decline.setEnabled(bool(chosen) and chosen != "none")
+        self.accept.setEnabled(bool(chosen) and chosen != UNLISTED)
+        self.decline.setEnabled(bool(chosen) and chosen not in ("none", UNLISTED))
         self.compute.setEnabled(self._able and self.decisions.any)
         self.compute.setText(f"Recompute: {self.decisions.words}" if self.decisions.any else "Recompute")
 

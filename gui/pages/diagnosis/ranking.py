@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from inspect import getdoc, getmodule
 from typing import Literal
 
+from fitting.diagnosis.kin import UNLISTED
 from fitting.digits import times
 from fitting.effects import CATALOGUE
 from gui.rediagnosis import effects_of
@@ -72,6 +73,11 @@ def about(name: str) -> str:
     """What an effect is, and what would show it by itself."""
     if name == "none":
         return "The specimen as stated with its best law, no effect added."
+    if name == UNLISTED:
+        return (
+            "Something in no catalogue that does almost what the likeliest effects do. It has no formula: it "
+            "can neither be accepted nor declined."
+        )
     return "\n\n".join(_about_one(one) for one in effects_of([name]) if one in CATALOGUE)
 
 
@@ -94,6 +100,8 @@ class Decisions:
 
     def accept(self, name: str) -> None:
         """A candidate, `none` among them; again to take it back."""
+        if name == UNLISTED:
+            return
         if name == "none":
             again = not self.nothing
             self.clear()
@@ -109,6 +117,8 @@ class Decisions:
 
     def decline(self, name: str) -> None:
         """Leave it out of the search; again to take it back."""
+        if name == UNLISTED:
+            return
         one = effects_of([name])
         self.nothing = False
         self.accepted = tuple(n for n in self.accepted if n not in one)

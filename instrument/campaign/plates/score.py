@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from fitting.diagnosis.kin import UNLISTED
 from instrument.campaign.plates.answers import LAW, Band, PlateOutcome, explains
 from instrument.campaign.plates.cases import KINDS, NONE, PAIR
 
@@ -170,7 +171,7 @@ def in_group(outcome: PlateOutcome) -> bool:
     names = named(outcome)
     if not names or outcome.said is None:
         return False
-    group = outcome.said.group_of(names[0])
+    group = [name for name in outcome.said.group_of(names[0]) if name != UNLISTED]
     clean = not outcome.truth and NONE in group
     return len(group) <= MOST_IN_GROUP and (clean or any(_true(outcome, name) for name in group))
 
@@ -210,6 +211,7 @@ def reliability(outcomes: Sequence[PlateOutcome]) -> list[Bin]:
         for o in outcomes
         if o.said is not None
         for name, p in o.said.probabilities.items()
+        if name != UNLISTED
     ]
     bins = []
     for low, high in pairwise(_EDGES):

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fitting.diagnosis.kin import Kin
 from fitting.diagnosis.search import ScoredFit
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.diagnosis.verdict import (
@@ -346,3 +347,64 @@ def test_two_effects_of_which_one_has_no_size_are_not_sure(unsized, verdict):
     found = judged(POOR_NONE, pair, off={(): 9.0})
     assert found.verdict == verdict
     assert found.accepted is pair
+
+
+def with_kin(odds, *scored_fits, none=POOR_NONE):
+    def kin(one):
+        found = odds.get(one.names)
+        return None if found is None else Kin(found, np.zeros(1), np.zeros((1, 1)), 0.0)
+
+    return judge(none, scored_fits, hidden=frozenset(), held_out=lambda one: 1.0, kin=kin)
+
+
+@pytest.mark.parametrize(
+    ("odds", "verdict"),
+    [
+        (0.9 / 19, "effect"),
+        (1.1 / 19, "ambiguous"),
+        (0.9 * VERDICT.favoured, "ambiguous"),
+        (1.1 * VERDICT.favoured, "unknown"),
+    ],
+)
+def test_what_may_be_akin_and_in_no_catalogue_is_not_certain_and_not_named_where_that_is_likelier(
+    odds, verdict
+):
+    said = with_kin({("gain_error",): odds}, scored("gain_error", cost=0.0))
+    assert said.verdict == verdict
+    assert said.share_of_kin == pytest.approx(odds / (1 + odds))
+    assert said.probability["gain_error",] == pytest.approx(1 / (1 + odds))
+    if verdict == "unknown":
+        assert said.refused == ("gain_error",)
+        assert "in no catalogue" in said.why
+    else:
+        assert said.equivalent["gain_error"] == ("gain_error", "unlisted")[: 1 + (verdict == "ambiguous")]
+
+
+def test_kin_is_asked_of_what_nothing_refuses():
+    refused, stands = scored("spot_offset", cost=0.0, fails=True), scored("gain_error", cost=3.0)
+    said = with_kin({("spot_offset",): 1e9, ("gain_error",): 0.01}, refused, stands)
+    assert said.accepted is stands
+    assert [one.names for one, *_ in said.unlisted.of] == [("gain_error",)]
+    # Where everything is refused nothing is named, and kin says what readings say of the law.
+    alone = with_kin({("spot_offset",): 1e9}, refused)
+    assert (alone.verdict, alone.accepted) == ("unknown", None)
+    assert "once in" in alone.why
+    assert alone.unlisted is not None
+
+
+def test_where_nothing_may_be_named_kin_is_not_asked():
+    said = with_kin({("spot_offset",): 1e9}, scored("spot_offset", cost=9.0), none=scored(cost=0.0))
+    assert (said.verdict, said.unlisted, said.share_of_kin) == ("none", None, 0.0)
+
+
+def test_kin_of_several_explanations_adds_up_and_leaves_their_order():
+    each = scored("gain_error", cost=0.0), scored("spot_offset", cost=1.0)
+    plain, said = judged(POOR_NONE, *each), with_kin({("gain_error",): 0.1, ("spot_offset",): 0.2}, *each)
+    first, second = (plain.probability[one.names] for one in each)
+    beside = 0.1 * first + 0.2 * second
+    assert said.share_of_kin == pytest.approx(beside / (1 + beside))
+    assert said.probability["gain_error",] / said.probability["spot_offset",] == pytest.approx(first / second)
+    assert sum(part for *_, part in said.unlisted.of) == pytest.approx(1)
+    # In cost it stands where its probability does.
+    apart = said.unlisted.cost - each[0].cost
+    assert np.exp(-apart / 2) == pytest.approx(said.share_of_kin / said.probability["gain_error",])
