@@ -64,8 +64,10 @@ class Kin:
     """How far it has the logarithms of the law's parameters from there. Shape (parameters,)."""
     wider: Array
     """Covariance, beyond the explanation's own, of all its columns. Shape (columns, columns)."""
-    gains: float
-    """Of chi-square, by where it has everything."""
+    along: Array
+    """How far it goes along each direction. Shape (directions,)."""
+    leaves: float = float("nan")
+    """Chi-square of the readings, as far as they are linear."""
 
     def law(self, fitted: Refitted) -> CoreLaw:
         """Its own, within the limits of laws."""
@@ -85,7 +87,7 @@ class Unlisted(ScoredFit):
         """That the likeliest leaves."""
         (first, kin, _), *_ = self.of
         dof = first.fitted.data - first.fitted.parameter_count
-        return first.fitted.chi2_per_dof - kin.gains / dof if dof > 0 else float("nan")
+        return kin.leaves / dof if dof > 0 else float("nan")
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -116,10 +118,13 @@ def kin_of(search: Search, fitted: Refitted, temper: float) -> Kin | None:
     # Where a fit ends before its end, what is left to its own unknowns is no one else's.
     left, of_data = r - J @ (C @ (J.T @ r)), J[: fitted.data]
     explained = max(0.0, search.none.fitted.chi2 - fitted.chi2) / temper
-    found = weighed(C, of_data.T @ d, d.T @ d, d.T @ left[: fitted.data], explained, shares)
+    by = of_data.T @ d
+    found = weighed(C, by, d.T @ d, d.T @ left[: fitted.data], explained, shares)
+    still = left[: fitted.data] + d @ found.along - of_data @ (C @ (by @ found.along))
     every = np.zeros(len(kept)), np.zeros((len(kept), len(kept)))
     every[0][kept], every[1][np.ix_(kept, kept)] = found.moved, found.wider
-    return Kin(found.odds, every[0][: len(fitted.law.names)], every[1], temper * found.gains)
+    moved, wider = every[0][: len(fitted.law.names)], every[1]
+    return replace(found, moved=moved, wider=wider, leaves=temper * float(still @ still))
 
 
 def _inside(search: Search, fitted: Refitted) -> Mask:
@@ -150,24 +155,23 @@ def weighed(C: Array, by: Array, dd: Array, b: Array, explained: float, shares: 
     """
     A = dd - by.T @ C @ by
     A = (A + A.T) / 2
-    every, steps, more, gains = list[float](), list[Array](), list[Array](), list[float]()
+    every, along, more = list[float](), list[Array](), list[Array]()
     for eps in shares:
         s2 = eps**2 * explained / max(float(np.trace(A)), _TINY)
         M = np.linalg.inv(np.eye(len(A)) + s2 * A)
         every.append(float(np.linalg.slogdet(M)[1] + s2 * b @ M @ b) / 2)
-        x = -s2 * M @ b
-        gains.append(float(-2 * b @ x - x @ A @ x))
-        # What else was fitted makes room for it.
-        steps.append(-C @ by @ x)
+        along.append(-s2 * M @ b)
         more.append(s2 * C @ by @ M @ by.T @ C)
     logs = np.array(every)
     share = np.exp(logs - logs.max())
     odds = CHANCE / (1 - CHANCE) * float(np.exp(min(logs.max(), _MOST)) * share.mean())
     share /= share.sum()
-    mean = share @ np.array(steps)
-    off = np.array(steps) - mean
+    x = np.array(along)
+    # What else was fitted makes room for it.
+    moved = -x @ by.T @ C
+    off = moved - share @ moved
     wider = np.tensordot(share, np.array(more), 1) + (off.T * share) @ off
-    return Kin(odds, mean, wider, float(share @ gains))
+    return Kin(odds, share @ moved, wider, share @ x)
 
 
 def _directions(search: Search, fitted: Refitted) -> Array:

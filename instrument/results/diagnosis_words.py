@@ -128,7 +128,8 @@ def probability_words(candidate: CandidateFitted, found: DiagnosisResult) -> str
     """
     p = candidate.probability
     fails = any(tail < VERDICT.check_level for tail in candidate.checks.values())
-    if found.verdict == "unknown" and (fails or p > _OUTSIDE_GROUP):
+    refused = fails or p > _OUTSIDE_GROUP
+    if found.verdict == "unknown" and refused and candidate.name != UNLISTED:
         return "refused"
     if found.by_hand or isnan(p):
         return "-"

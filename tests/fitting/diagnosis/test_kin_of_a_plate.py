@@ -55,7 +55,7 @@ def late(ready, gains=(1.0, 1.0, 1.0), delay=DELAY_S, seed=0):
     v = response_of(ready.problem, ()).velocity(LAW, np.zeros(0))
     v = v * np.exp(-1j * sweep.omega * delay) * np.array(gains)[sweep.segment - 1]
     rng = np.random.default_rng(seed)
-    v = v + NOISE * np.abs(v) / np.sqrt(2) * (rng.standard_normal(len(v)) + 1j * rng.standard_normal(len(v)))
+    v = v + NOISE * np.abs(v) * (rng.standard_normal(len(v)) + 1j * rng.standard_normal(len(v)))
     return ready.remade(sweep_of(sweep.frequency_hz, sweep.segment, v))
 
 
@@ -122,3 +122,10 @@ def test_files_of_one_plate_have_their_resonances_in_common(ready):
     alone = [odds(task, ready.reduced) for task in tasks]
     both = SeveralProblem.of_members(tasks, [ready.reduced] * 2)
     assert odds(both, None) > max(alone)
+
+
+def test_what_it_leaves_is_noise_where_it_is_what_is_there(ready):
+    search, fitted = explained(late(ready, gains=(1.1, 0.9, 1.1)), ready.reduced)
+    dof = fitted.data - fitted.parameter_count
+    assert fitted.chi2_per_dof > 1.5
+    assert kin_of(search, fitted, 1.0).leaves / dof == pytest.approx(1.0, abs=0.3)

@@ -352,7 +352,7 @@ def test_two_effects_of_which_one_has_no_size_are_not_sure(unsized, verdict):
 def with_kin(odds, *scored_fits, none=POOR_NONE):
     def kin(one):
         found = odds.get(one.names)
-        return None if found is None else Kin(found, np.zeros(1), np.zeros((1, 1)), 0.0)
+        return None if found is None else Kin(found, np.zeros(1), np.zeros((1, 1)), np.zeros(1))
 
     return judge(none, scored_fits, hidden=frozenset(), held_out=lambda one: 1.0, kin=kin)
 
