@@ -183,8 +183,15 @@ def _beside_kin(
     hidden: frozenset[str],
     kin: Mapping[ScoredFit, Kin | None],
 ) -> _Weighed:
-    """Explanations with the kin of some of them as one more."""
-    akin = [(t, own, share * own.odds, share) for t, share in ranked if (own := kin.get(t)) is not None]
+    """Explanations with the kin of some of them as one more.
+
+    It is worth what these are by their costs: what shares with one that may stand in for something has no
+    more for that.
+    """
+    asked = [t for t, _ in ranked if t in kin]
+    shares = probabilities(np.array([t.cost for t in asked])).tolist()
+    each = [(t, kin[t], share) for t, share in zip(asked, shares, strict=True)]
+    akin = [(t, own, share * own.odds, share) for t, own, share in each if own is not None]
     akin.sort(key=lambda one: -one[2])
     beside = sum(share for *_, share, _ in akin)
     if not beside > 0:

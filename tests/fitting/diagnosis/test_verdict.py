@@ -408,3 +408,13 @@ def test_kin_of_several_explanations_adds_up_and_leaves_their_order():
     # In cost it stands where its probability does.
     apart = said.unlisted.cost - each[0].cost
     assert np.exp(-apart / 2) == pytest.approx(said.share_of_kin / said.probability["gain_error",])
+
+
+def test_kin_of_what_shares_with_a_stand_in_is_worth_no_more_for_that():
+    """A resonance of the fixture fits far better; the other one's share is by rule, and its kin's is not."""
+    best = scored("fixture_resonance", cost=0.0, stands_in="of anything")
+    other = scored("loose_part", cost=140.0)
+    said = with_kin({("fixture_resonance",): 1e-6, ("loose_part",): 200.0}, best, other)
+    assert said.verdict == "ambiguous"
+    assert said.probability["loose_part",] == pytest.approx(1 - VERDICT.stand_in, rel=1e-3)
+    assert said.share_of_kin == pytest.approx(1e-6, rel=1e-3)
