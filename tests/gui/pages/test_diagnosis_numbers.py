@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from diagnosis_cases import AFTER, BEFORE, diagnosis
 
+from fitting.diagnosis.kin import UNLISTED
 from fitting.effects import CATALOGUE
 from gui.pages.diagnosis.ranking import Decisions, about, group_words, ranked
 from gui.pages.diagnosis.residual import limit, panel, quantities, segments
@@ -37,7 +38,7 @@ def test_evidence_is_what_is_gained_over_no_effect():
     assert rows["none"].gain == 0.0
 
 
-@pytest.mark.parametrize("name", [*CATALOGUE, "none"])
+@pytest.mark.parametrize("name", [*CATALOGUE, "none", UNLISTED])
 def test_every_effect_is_explained(name):
     assert len(about(name)) > 20
 
@@ -52,6 +53,10 @@ def test_what_is_accepted_is_not_declined():
     assert words.accept_argument == ()
     assert words.of("none") == "accepted"
     words.accept("none")
+    assert not words.any
+    # What has no formula cannot be fitted, nor left out.
+    words.accept(UNLISTED)
+    words.decline(UNLISTED)
     assert not words.any
 
 

@@ -1,8 +1,9 @@
 import numpy as np
 from diagnosis_cases import diagnosis
 
+from fitting.diagnosis.kin import UNLISTED
 from instrument.facts.diagnosis import DiagnosisResult
-from instrument.results.diagnosis_words import verdict_line
+from instrument.results.diagnosis_words import probability_words, verdict_line
 from instrument.results.standing import (
     law_words,
     none_is_likelier,
@@ -83,3 +84,26 @@ def test_a_law_that_the_group_moves_is_not_the_one_before():
     found = not_excluded()
     moved = found.but(after=found.after.but(law=found.after.law[1:]))
     assert stage_before(moved) is moved.before
+
+
+def doubted(*, verdict="ambiguous", kin=0.4):
+    """An added mass, and something of its kind in no catalogue."""
+    found = weighed(0.97 * (1 - kin), 0.02 * (1 - kin), 0.005 * (1 - kin), 0.005 * (1 - kin))
+    unlisted = found.candidates[0].but(name=UNLISTED, probability=kin, parameters={}, checks={})
+    group = {"added_mass": ("added_mass", UNLISTED)} if verdict == "ambiguous" else {}
+    return found.but(verdict=verdict, candidates=(*found.candidates, unlisted), equivalent=group)
+
+
+def test_what_is_in_no_catalogue_is_not_told_from_what_is_named_and_takes_no_ones_place():
+    found = doubted()
+    said = stand(found)
+    assert (said["added_mass"], said[UNLISTED], said["spot_offset"]) == ("found", "equal", "other")
+    assert "cannot tell added_mass from something of its kind in no catalogue" in verdict_line(found)
+
+
+def test_where_nothing_explains_what_is_in_no_catalogue_is_not_what_is_refused():
+    found = doubted(verdict="unknown", kin=0.99)
+    assert stand(found)[UNLISTED] == "other"
+    words = {c.name: probability_words(c, found) for c in found.candidates}
+    assert words[UNLISTED] == "99.0 %"
+    assert words["added_mass"] != words[UNLISTED]
