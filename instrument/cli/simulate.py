@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from instrument.cli.stopping import ended_as_by_a_person
 from instrument.files.sensor_file import read_rig
 from instrument.progress import bar
 from instrument.simulated_case.simulation import simulated_rig
@@ -36,9 +37,12 @@ def simulate(rig: Path, virtual_time: bool, log: Path | None, modbus_port: int, 
     """
     document = read_rig(rig)
     ports = modbus_port, frontend_port
-    with simulated_rig(
-        document, rig, virtual_time=virtual_time, log=log, ports=ports, progress=bar
-    ) as addresses:
+    with (
+        ended_as_by_a_person(),
+        simulated_rig(
+            document, rig, virtual_time=virtual_time, log=log, ports=ports, progress=bar
+        ) as addresses,
+    ):
         click.echo(json.dumps(addresses))
         sys.stdout.flush()
         if virtual_time:

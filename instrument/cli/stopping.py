@@ -69,3 +69,23 @@ def safe_stop(control: RunControl) -> Iterator[None]:
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+@contextmanager
+def ended_as_by_a_person() -> Iterator[None]:
+    """While this is open SIGTERM and SIGHUP are a Ctrl-C, the first counts: what stands is taken down."""
+    known = [getattr(signal, name) for name in _SIGNALS if hasattr(signal, name)]
+    before = {number: signal.getsignal(number) for number in known}
+
+    def end(_: int, __: FrameType | None) -> None:
+        for other in known:
+            signal.signal(other, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
+    for number in known:
+        signal.signal(number, end)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

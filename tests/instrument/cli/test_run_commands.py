@@ -145,6 +145,20 @@ def test_simulate_stands_up_instruments_for_any_client(tmp_path):
         pytest.skip("mbpoll is not installed: the Modbus part was not shown")
 
 
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_simulate_takes_its_instruments_down_however_it_is_ended(tmp_path, number):
+    case(tmp_path)
+    with viscorig("simulate", tmp_path / "rig.toml", stdin=subprocess.PIPE) as process:
+        try:
+            tty = Path(json.loads(process.stdout.readline())["vibrometer_tty"])
+            assert tty.parent.exists()
+            process.send_signal(number)
+            assert process.wait(30) == 130
+        finally:
+            process.kill()
+    assert not tty.parent.exists()
+
+
 def _speak_to_vibrometer(path: str) -> None:
     """With nothing but the terminal's own calls."""
     handle = os.open(path, os.O_RDWR | os.O_NOCTTY)
