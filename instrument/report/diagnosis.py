@@ -23,7 +23,7 @@ from instrument.results.next_words import NEXT_COLUMNS, NEXT_TITLE, next_row, se
 from instrument.results.numbers import format_number, with_error
 from instrument.results.offer_sketch import offer_view
 from instrument.results.sketch_figure import sketch_figure
-from instrument.results.standing import one_fit_words, stage_before, stages_apart
+from instrument.results.standing import laws_apart, one_fit_words, stage_before
 from instrument.results.typeset import capitalised, heading, note
 from instrument.results.unseen_words import UNSEEN_COLUMNS, UNSEEN_TITLE, unseen_row
 from instrument.session.contents import Contents
@@ -139,7 +139,7 @@ def _candidates(found: DiagnosisResult) -> TableBlock:
 
 
 def _law(found: DiagnosisResult) -> TableBlock:
-    rows, stages = [], [found.stage(name) for name in stages_apart(found)]
+    rows, stages = [], [found.stage(name) for name in laws_apart(found)]
     for f in REFERENCE_FREQUENCIES_HZ:
         pair = [law_at(stage.law, f) for stage in stages]
         known = [r for r in pair if r is not None]

@@ -27,7 +27,7 @@ from instrument.results.drawing import (
     legend_above,
     mark_set_aside,
 )
-from instrument.results.standing import Standing, one_fit_words, stages_apart, standing
+from instrument.results.standing import Standing, laws_apart, one_fit_words, stages_apart, standing
 
 _MOST_BARS = 12
 _PARTS = (
@@ -155,8 +155,8 @@ def law_figure(found: DiagnosisResult) -> Figure:
     figure = Figure(figsize=(WIDTH_IN, 4.2), layout="constrained")
     left, right = figure.subplots(1, 2)
     stages: list[tuple[StageName, str, str]] = [("before", MODEL, "--"), ("after", DATA, "-")]
-    apart = stages_apart(found)
-    for stage, colour, style in stages[: len(apart)]:
+    apart = laws_apart(found)
+    for stage, colour, style in (one for one in stages if one[0] in apart):
         law = found.stage(stage).law
         f = _column(law, "frequency_hz")
         for ax, key, error, scale in (
@@ -171,8 +171,8 @@ def law_figure(found: DiagnosisResult) -> Figure:
     for ax, y in ((left, "Storage modulus G' / MPa"), (right, "Loss factor η")):
         label(ax, x="Frequency / Hz", y=y)
         ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
-    which = "without and with the effects found" if len(apart) > 1 else "without any effect"
-    title = with_verdict(f"The core's law {which}, 95 % bands", found)
+    which = " without and with the effects found" if len(apart) > 1 else ""
+    title = with_verdict(f"The core's law{which}, 95 % bands", found)
     left.set_title(title, fontsize=10, loc="left")
     left.legend(fontsize=8, frameon=False)
     return figure

@@ -64,6 +64,11 @@ def stages_apart(found: DiagnosisResult) -> tuple[StageName, ...]:
     return STAGES if stage_before(found) is not None else STAGES[:1]
 
 
+def laws_apart(found: DiagnosisResult) -> tuple[StageName, ...]:
+    """The fits whose laws differ; the law that stands alone where nothing is accepted: that of the group."""
+    return STAGES if stage_before(found) is not None else STAGES[1:]
+
+
 def one_fit_words(found: DiagnosisResult) -> str:
     """Why there is one fit where nothing comes after it."""
     return "no effect is the likeliest" if found.equivalent else "no effect is accepted"

@@ -96,17 +96,19 @@ class LawChange(QWidget):
             said.insert(0, f"{capitalised(UNRELIABLE)}.")
         self.doubt.setText(" ".join(said))
         self.doubt.setVisible(bool(said))
-        name = "before" if changed else "without any effect"
-        lines = [LawLine(with_verdict(name, found), before, "model", dashed=changed)]
+        lines = [LawLine(with_verdict("law", found), after, "model")]
         if changed:
-            lines.append(LawLine(with_verdict(f"after: with {law_words(found)}", found), after, "data"))
+            lines = [
+                LawLine(with_verdict("before", found), before, "model", dashed=True),
+                LawLine(with_verdict(f"after: with {law_words(found)}", found), after, "data"),
+            ]
         self.plots.show_lines(lines)
         rows = []
         for f in references_hz(found):
             b, a = before.at(f), after.at(f)
             assert b is not None
             assert a is not None
-            rows.append(_law_cells(f, b, a) if changed else _one_law_cells(f, b))
+            rows.append(_law_cells(f, b, a) if changed else _one_law_cells(f, a))
         self.table.show_rows(rows, _LAW if changed else _ONE_LAW)
 
 

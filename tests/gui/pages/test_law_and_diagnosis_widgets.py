@@ -65,7 +65,7 @@ def test_what_effects_change_is_said_in_numbers_and_doubted_where_nothing_fits(m
     change.show_diagnosis(unknown)
     assert change.doubt.text().endswith("No effect is accepted: there is one fit and one law.")
     assert change.doubt.text().startswith("Verdict unknown")
-    assert change.plots.names == ("without any effect (verdict unknown)",)
+    assert change.plots.names == ("law (verdict unknown)",)
     assert "after" not in change.table.text
     assert "+0.00" not in change.table.text
     assert change.table.texts(0) == ["20", "100", "280"]
@@ -87,7 +87,7 @@ def not_excluded():
 def test_what_is_less_likely_than_no_effect_is_not_drawn_as_found(made):
     found, change = not_excluded(), made(LawChange())
     change.show_diagnosis(found)
-    assert change.plots.names == ("without any effect",)
+    assert change.plots.names == ("law",)
     assert "likeliest" in change.doubt.text()
     assert "found" not in [row.standing for row in ranked(found)]
     shown = ShownDiagnosis(found, "recorded")

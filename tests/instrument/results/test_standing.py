@@ -3,9 +3,11 @@ from diagnosis_cases import diagnosis
 
 from fitting.diagnosis.kin import UNLISTED
 from instrument.facts.diagnosis import DiagnosisResult
+from instrument.results.diagnosis_figures import law_figure
 from instrument.results.diagnosis_words import probability_words, verdict_line
 from instrument.results.standing import (
     law_words,
+    laws_apart,
     none_is_likelier,
     one_fit_words,
     stage_before,
@@ -107,3 +109,17 @@ def test_where_nothing_explains_what_is_in_no_catalogue_is_not_what_is_refused()
     words = {c.name: probability_words(c, found) for c in found.candidates}
     assert words[UNLISTED] == "99.0 %"
     assert words["added_mass"] != words[UNLISTED]
+
+
+def test_the_one_law_that_is_shown_is_the_one_that_stands():
+    found = diagnosis().but(verdict="unknown", equivalent={})
+    assert laws_apart(found) == ("after",)
+    assert laws_apart(diagnosis()) == ("before", "after")
+    wider = found.but(
+        after=found.after.but(
+            law=tuple(r.but(storage_modulus_standard_error_pa=1e5) for r in found.after.law)
+        )
+    )
+    ax, _ = law_figure(wider).axes
+    (band,) = ax.collections
+    assert np.ptp(band.get_paths()[0].vertices[:, 1]) > 2 * 1.9 * 0.1
