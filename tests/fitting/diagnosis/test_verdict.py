@@ -418,3 +418,14 @@ def test_kin_of_what_shares_with_a_stand_in_is_worth_no_more_for_that():
     assert said.verdict == "ambiguous"
     assert said.probability["loose_part",] == pytest.approx(1 - VERDICT.stand_in, rel=1e-3)
     assert said.share_of_kin == pytest.approx(1e-6, rel=1e-3)
+
+
+def test_kin_is_held_against_all_that_is_listed():
+    """Pairs that share an effect part its probability: what is like that effect is no likelier for it."""
+    pairs = [
+        scored("base_rocking", other, cost=0.0) for other in ("ac_coupling", "loose_part", "spot_offset")
+    ]
+    said = with_kin({one.names: 1.0 for one in pairs}, *pairs)
+    assert said.share_of_kin == pytest.approx(0.5)
+    assert said.verdict == "ambiguous"
+    assert said.equivalent["base_rocking"] == ("base_rocking", "unlisted")
