@@ -73,7 +73,7 @@ def safe_stop(control: RunControl) -> Iterator[None]:
 
 @contextmanager
 def ended_as_by_a_person() -> Iterator[None]:
-    """While this is open SIGTERM and SIGHUP are a Ctrl-C, the first counts: what stands is taken down."""
+    """While this is open SIGTERM and SIGHUP raise `KeyboardInterrupt`, as Ctrl-C does: the first counts."""
     known = [getattr(signal, name) for name in _SIGNALS if hasattr(signal, name)]
     before = {number: signal.getsignal(number) for number in known}
 
