@@ -50,6 +50,8 @@ _AT = 1e-6
 """Share of a number: nearer to its limit it may not move."""
 _MOST = 600.0
 """Of a logarithm of odds: numbers end there."""
+_Rows = dict[tuple[int, int], Complex]
+"""Changes of the readings: by number of mode or segment, and which of its two. Shape (points,) each."""
 _TINY = 1e-12
 """Where nothing is there to divide by."""
 
@@ -196,9 +198,6 @@ def _directions(search: Search, fitted: Refitted) -> Array:
         for key, row in own.items():
             found.setdefault(key, np.zeros(len(v), complex))[part] += row
     return search.evidence.jacobian(v, np.array(list(found.values())).reshape(-1, len(v)))
-
-
-_Rows = dict[tuple[int, int], Complex]
 
 
 def _of_one(response: SweepResponse, law: CoreLaw, u: Array) -> tuple[Complex, _Rows, _Rows]:

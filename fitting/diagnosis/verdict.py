@@ -224,8 +224,7 @@ def shares_of(every: Sequence[ScoredFit]) -> Array:
 
 
 def _unknown(weighed: _Weighed, nearest: ScoredFit, why: str = "") -> Judgement:
-    listed = (t for t, _ in weighed.ranked if t.names and not isinstance(t, Unlisted))
-    best = nearest if nearest.names else next(listed, nearest)
+    best = nearest if nearest.names else next((t for t, _ in weighed.ranked if t.names), nearest)
     return weighed.judgement("unknown", None, refused=best.names if why else (), why=why)
 
 

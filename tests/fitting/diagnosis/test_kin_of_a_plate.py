@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from supported_plate import supported
 
 from fitting.diagnosis.begin import begin
 from fitting.diagnosis.kin import CHANCE, kin_of
@@ -14,24 +15,11 @@ from fitting.diagnosis.several import SeveralProblem
 from fitting.effects import CATALOGUE
 from fitting.laws import LAWS
 from fitting.noise import Noise
-from fitting.specimen import Core, Face, Specimen
 from fitting.sweep import Sweep
 from instrument.models.set_up import set_up
 
-ALUMINIUM = (70e9, 0.33, 2700.0)
 LAW = LAWS["fractional-zener"](0.4e6, 4e6, 1.4e-4, 0.9)
-PLATE = Specimen(
-    0.3,
-    0.22,
-    "simply-supported",
-    Face(2e-3, *ALUMINIUM),
-    Face(0.5e-3, *ALUMINIUM),
-    Core(0.5e-3, 0.49, 1000.0, LAW),
-    exact=True,
-    pickup_m=(0.2, 0.09),
-    force_m=(0.1, 0.13),
-    elements=(8, 6),
-)
+PLATE = supported(LAW, (8, 6))
 NOISE, DELAY_S = 0.003, 4e-5
 ODDS = CHANCE / (1 - CHANCE)
 GAIN = CATALOGUE["channel_delay"]

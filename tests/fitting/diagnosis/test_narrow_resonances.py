@@ -5,6 +5,7 @@ from functools import partial
 
 import numpy as np
 import pytest
+from supported_plate import supported
 
 from fitting.diagnosis import narrow_resonances
 from fitting.diagnosis.begin import begin
@@ -17,24 +18,11 @@ from fitting.model_error import model_error_at
 from fitting.narrow import THEORY
 from fitting.noise import Noise
 from fitting.resonance_parts import modes_between
-from fitting.specimen import Core, Face, Specimen
 from fitting.sweep import Sweep
 from instrument.models.set_up import set_up
 
-ALUMINIUM = (70e9, 0.33, 2700.0)
 LAW = LAWS["fractional-zener"](50e6, 1e9, 3e-4, 0.5)
-PLATE = Specimen(
-    0.3,
-    0.22,
-    "simply-supported",
-    Face(2e-3, *ALUMINIUM),
-    Face(0.5e-3, *ALUMINIUM),
-    Core(0.5e-3, 0.49, 1000.0, LAW),
-    exact=True,
-    pickup_m=(0.2, 0.09),
-    force_m=(0.1, 0.13),
-    elements=(16, 12),
-)
+PLATE = supported(LAW, (16, 12))
 NOISE = 0.003
 ERRS = partial(model_error_at, PLATE)
 
