@@ -7,6 +7,7 @@ from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from instrument.cli.output import Output
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import (
+    candidate_words,
     law_at,
     percent_of,
     probability_words,
@@ -111,7 +112,7 @@ def _print_candidates(out: Output, found: DiagnosisResult) -> None:
     shown += tuple(c for c in candidates[_MOST_CANDIDATES:] if c.name == "none")
     rows = [
         [
-            c.name,
+            candidate_words(c.name),
             probability_words(c, found),
             _two(c.chi2_per_dof),
             some_parameters(c.parameters) or "-",

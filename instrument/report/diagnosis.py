@@ -8,6 +8,7 @@ from instrument.facts.diagnosis import DiagnosisResult
 from instrument.report.blocks import Block, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.results.diagnosis_figures import evidence_figure, law_figure, residual_figure
 from instrument.results.diagnosis_words import (
+    candidate_words,
     law_at,
     percent_of,
     probability_words,
@@ -126,7 +127,7 @@ def _before_after(found: DiagnosisResult) -> TableBlock:
 def _candidates(found: DiagnosisResult) -> TableBlock:
     rows = tuple(
         (
-            c.name,
+            candidate_words(c.name),
             probability_words(c, found),
             format_number(c.chi2_per_dof, 3),
             some_parameters(c.parameters) or "-",

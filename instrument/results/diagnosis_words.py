@@ -120,6 +120,11 @@ def with_verdict(title: str, found: DiagnosisResult) -> str:
     return f"{title} ({DOUBTED})" if doubts_itself(found.warnings) else title
 
 
+def candidate_words(name: str) -> str:
+    """A candidate's name in a table: what is no effect says what it is."""
+    return f"{name}: like these, in no catalogue" if name == UNLISTED else name
+
+
 def probability_words(candidate: CandidateFitted, found: DiagnosisResult) -> str:
     """Of an explanation, one of those tried being right; a dash where none was weighed.
 

@@ -4,7 +4,7 @@ from diagnosis_cases import diagnosis
 from fitting.diagnosis.kin import UNLISTED
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_figures import law_figure
-from instrument.results.diagnosis_words import probability_words, verdict_line
+from instrument.results.diagnosis_words import candidate_words, probability_words, verdict_line
 from instrument.results.standing import (
     law_words,
     laws_apart,
@@ -123,3 +123,8 @@ def test_the_one_law_that_is_shown_is_the_one_that_stands():
     ax, _ = law_figure(wider).axes
     (band,) = ax.collections
     assert np.ptp(band.get_paths()[0].vertices[:, 1]) > 2 * 1.9 * 0.1
+
+
+def test_in_a_table_what_is_no_effect_says_what_it_is():
+    assert candidate_words("added_mass") == "added_mass"
+    assert candidate_words(UNLISTED) == "unlisted: like these, in no catalogue"
