@@ -160,7 +160,7 @@ def _diagnosis(
         after = stage_of(problem, evidence, accepted.fitted, search.validation(accepted), scale)
         found = found_effects(accepted.fitted, problem.plate, scale)
     if judgement.unlisted is not None or judgement.verdict != "unknown":
-        after = replace(after, band=mixed_band(problem, search, _weighing(search.none, judgement)))
+        after = replace(after, band=mixed_band(problem, search, judgement.weighing(search.none)))
     absent, scored_fits = search.tempered(decided.scored_fits)
     if judgement.unlisted is not None:
         scored_fits.append(judgement.unlisted)
@@ -194,20 +194,6 @@ def _diagnosis(
         nested_held_out_rms_percent=decided.resampled.nested_rms_percent,
         rivals=_rivals(problem, reduced, search, judgement, scored_fits),
     )
-
-
-def _weighing(none: ScoredFit, judgement: Judgement) -> list[tuple[ScoredFit, float]]:
-    """Whose laws make the band, with their shares.
-
-    Where nothing explains the readings, two that are wrong say how far laws may be apart: that of no effect,
-    and that of something like what comes nearest.
-    """
-    if judgement.unlisted is None:
-        return list(judgement.group)
-    if judgement.verdict == "unknown":
-        return [(none, 0.5), (judgement.unlisted, 0.5)]
-    akin = judgement.share_of_kin
-    return [*((t, (1 - akin) * share) for t, share in judgement.group), (judgement.unlisted, akin)]
 
 
 def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, list[ScoredFit], Judgement]:

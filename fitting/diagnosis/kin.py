@@ -14,7 +14,7 @@ given, P onto what the explanation's own law and unknowns do, r the residual, S 
 Weak effects have kin as likely as themselves; of strong ones that fit well none is left.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -29,6 +29,7 @@ from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.several import SeveralResponse
 from fitting.diagnosis.thresholds import VERDICT
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.narrow import NarrowResonance, NarrowResonances
 from fitting.resonance_parts import RealMode, modes_between
@@ -39,12 +40,12 @@ CHANCE = 0.05
 """That what an explanation explains is something of its kind that is in no catalogue. A judgement."""
 SHARES = (0.03, 0.1, 0.3, 1.0)
 """Of what is explained, that kin may differ by: one as likely as another. A choice."""
-_FREQUENCY, _LOSS, _GAIN = 0.01, 0.1, 0.03
+FREQUENCY, LOSS, _GAIN = 0.01, 0.1, 0.03
 """What a cause does to a resonance, to its loss factor and to the gain of a segment, relative: where effects
 of the catalogue show, these go together. Only their proportions count."""
 _LOOSE = 2.0
 """Times the error of an effect's own formula: within it kin is the effect itself. A choice."""
-_HAVE_MODES = ("plate", "beam")
+HAVE_MODES = ("plate", "beam")
 """Kinds of specimens with resonances besides the one that the core's modulus places."""
 _AT = 1e-6
 """Share of a number: nearer to its limit it may not move."""
@@ -104,22 +105,39 @@ def kin_of(search: Search, fitted: Refitted, temper: float) -> Kin | None:
     `marginal.cost` takes it.
     """
     problem = search.problem
+    if not search.evidence.scale_known or problem.specimen.kind not in HAVE_MODES:
+        return None
+    none = search.none.fitted
+    return kin_along(none, fitted, problem.plate, lambda: _directions(search, fitted), temper)
+
+
+def kin_along(
+    none: Refitted,
+    fitted: Refitted,
+    plate: EnrichedReducedPlate,
+    directions: Callable[[], Array],
+    temper: float,
+) -> Kin | None:
+    """The same beside `none`, whitened changes of the readings given, if asked for: shape (data, any).
+
+    None where the effects' own formulas are no better than kin.
+    """
     loose = _LOOSE * np.sqrt(
         max((max(VERDICT.formula_share, e.unexplained_share) for e in fitted.effects), default=1.0)
     )
     shares = [eps for eps in SHARES if eps > loose]
-    if not shares or not search.evidence.scale_known or problem.specimen.kind not in _HAVE_MODES:
+    if not shares:
         return None
-    kept = _inside(search, fitted)
-    d = _directions(search, fitted) / np.sqrt(temper)
+    kept = _inside(fitted, plate)
+    d = directions() / np.sqrt(temper)
     J, r = fitted.jacobian[:, kept].copy(), fitted.residuals.copy()
     J[: fitted.data] /= np.sqrt(temper)
     r[: fitted.data] /= np.sqrt(temper)
-    H = J.T @ J + np.diag(prior_precision(fitted, problem.plate)[kept])
+    H = J.T @ J + np.diag(prior_precision(fitted, plate)[kept])
     C = _inverse(H)
     # Where a fit ends before its end, what is left to its own unknowns is no one else's.
     left, of_data = r - J @ (C @ (J.T @ r)), J[: fitted.data]
-    explained = max(0.0, search.none.fitted.chi2 - fitted.chi2) / temper
+    explained = max(0.0, none.chi2 - fitted.chi2) / temper
     by = of_data.T @ d
     found = weighed(C, by, d.T @ d, d.T @ left[: fitted.data], explained, shares)
     still = left[: fitted.data] + d @ found.along - of_data @ (C @ (by @ found.along))
@@ -129,13 +147,13 @@ def kin_of(search: Search, fitted: Refitted, temper: float) -> Kin | None:
     return replace(found, moved=moved, wider=wider, leaves=temper * float(still @ still))
 
 
-def _inside(search: Search, fitted: Refitted) -> Mask:
+def _inside(fitted: Refitted, plate: EnrichedReducedPlate) -> Mask:
     """Which columns of a fit are of what may move: not at a limit. Shape (columns,)."""
     kept, start = fitted.weighted()[1], fitted.stated
     inside = np.ones(len(fitted.u), bool)
     for effect in fitted.effects:
         own = slice(start, start + len(effect.parameters))
-        low, high = effect.limits(search.problem.plate)
+        low, high = effect.limits(plate)
         u, size = fitted.u[own], np.maximum(np.abs(fitted.u[own]), _TINY)
         inside[own] = (u - low > _AT * size) & (high - u > _AT * size)
         start = own.stop
@@ -222,8 +240,8 @@ def _of_one(response: SweepResponse, law: CoreLaw, u: Array) -> tuple[Complex, _
     by_modes, by_gains, first = _Rows(), _Rows(), len(law.names) + others
     for k, one in enumerate(free.each):
         by_place, by_loss = dv[first + 2 * k : first + 2 * k + 2]
-        by_modes[one.number, 0] = _FREQUENCY / one.by_itself * by_place
-        by_modes[one.number, 1] = _LOSS * one.loss / max(one.loss_by_itself, _TINY) * by_loss
+        by_modes[one.number, 0] = FREQUENCY / one.by_itself * by_place
+        by_modes[one.number, 1] = LOSS * one.loss / max(one.loss_by_itself, _TINY) * by_loss
     for number in np.unique(problem.sweep.segment):
         by_gains[int(number), 0] = _GAIN * v * (problem.sweep.segment == number)
         if problem.points.has_phase:
@@ -242,4 +260,4 @@ def _modes(problem: DiagnosisProblem, law: CoreLaw) -> list[RealMode]:
 
 
 def _free(loss: float, mode: RealMode) -> NarrowResonance:
-    return NarrowResonance(mode.number + 1, mode.frequency_hz, _FREQUENCY, 0.0, loss, _LOSS * loss, 0.0)
+    return NarrowResonance(mode.number + 1, mode.frequency_hz, FREQUENCY, 0.0, loss, LOSS * loss, 0.0)

@@ -22,7 +22,7 @@ from fitting.identification.result import LawBand, differences_percent, law_band
 from fitting.identification.uncertainty import Uncertainty, limits_reached
 from fitting.identification.validation import Validation
 
-_FEW = 9
+FEW = 9
 """Frequencies at which a candidate's law is listed, and the reference ones."""
 
 
@@ -87,7 +87,7 @@ def adjusted_of(problem: DiagnosisProblem, fitted: Refitted, covariance: Array) 
 def few_of_law(problem: DiagnosisProblem, fitted: Refitted, scale: float) -> LawBand:
     """The law of a fit at a few frequencies."""
     uncertainty = _of_law(fitted, scale * fitted.covariance)
-    return law_band(problem.sweep, fitted.law, uncertainty, points=_FEW)
+    return law_band(problem.sweep, fitted.law, uncertainty, points=FEW)
 
 
 def mixed_band(
@@ -101,7 +101,7 @@ def mixed_band(
     """
     bands, shares = [], []
     posteriors: dict[ScoredFit, Array] = {}
-    for scored, kin, share in _each_of(group):
+    for scored, kin, share in each_of(group):
         fitted, scale = scored.fitted, search.temper(scored)
         if scored not in posteriors:
             response = response_of(problem, fitted.effects)
@@ -110,14 +110,14 @@ def mixed_band(
         if kin is not None:
             C, law = C + kin.wider / scale, kin.law(fitted)
         at = replace(fitted, law=law)
-        points = {"points": _FEW} if few else {}
+        points = {"points": FEW} if few else {}
         band = law_band(problem.sweep, law, _of_law(at, scale * C), **points)
         bands.append(replace(band, known=_known(problem, at, C, scale)))
         shares.append(share)
     return mixture_of(bands, np.array(shares))
 
 
-def _each_of(group: Sequence[tuple[ScoredFit, float]]) -> Iterator[tuple[ScoredFit, Kin | None, float]]:
+def each_of(group: Sequence[tuple[ScoredFit, float]]) -> Iterator[tuple[ScoredFit, Kin | None, float]]:
     """Its explanations and their kin, each with its share."""
     for scored, share in group:
         if isinstance(scored, Unlisted):

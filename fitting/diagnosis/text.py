@@ -82,11 +82,7 @@ def explain(
         )
     if any(NONE in group for group in judgement.equivalent.values()):
         said.append(f"That there is no effect at all keeps {_percent(judgement.probability[()])}.")
-    if any(UNLISTED in group for group in judgement.equivalent.values()):
-        said.append(
-            f"That it is something of its kind, in no catalogue, has {_percent(judgement.share_of_kin)}: "
-            "what is left of the readings is more like that than what its own formula leaves."
-        )
+    said += beside_kin(judgement)
     said.append(
         f"With it the fit leaves {two_digits(after.rms_percent)} % rms instead of "
         f"{two_digits(before.rms_percent)} %" + _chi2(before, after) + _held_out(before, after, found)
@@ -101,6 +97,17 @@ def how_likely(judgement: Judgement, names: tuple[str, ...]) -> str:
         return "By your word"
     nothing = judgement.probability.get((), 0.0)
     return "If anything," if nothing > judgement.probability[names] else "Most likely"
+
+
+def beside_kin(judgement: Judgement) -> list[str]:
+    """That the accepted explanation may be something like it, where that is in the group."""
+    if not any(UNLISTED in group for group in judgement.equivalent.values()):
+        return []
+    share = _percent(judgement.share_of_kin)
+    return [
+        f"That it is something of its kind, in no catalogue, has {share}: what is left of the readings is "
+        "more like that than what its own formula leaves."
+    ]
 
 
 def _beside_none(judgement: Judgement) -> list[str]:

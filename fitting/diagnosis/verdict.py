@@ -57,6 +57,19 @@ class Judgement:
         """Probability of what is in no catalogue."""
         return self.probability.get((UNLISTED,), 0.0)
 
+    def weighing(self, none: ScoredFit) -> list[tuple[ScoredFit, float]]:
+        """Whose laws make the band, with their shares.
+
+        Where nothing explains the readings, two that are wrong say how far laws may be apart: that of no
+        effect, and that of something like what comes nearest.
+        """
+        if self.unlisted is None:
+            return list(self.group)
+        if self.verdict == "unknown":
+            return [(none, 0.5), (self.unlisted, 0.5)]
+        akin = self.share_of_kin
+        return [*((t, (1 - akin) * share) for t, share in self.group), (self.unlisted, akin)]
+
     def of_effect(self, name: str) -> float:
         """Probability that an effect is there, alone or beside another."""
         return float(sum(p for names, p in self.probability.items() if name in names))

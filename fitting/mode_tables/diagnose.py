@@ -18,6 +18,7 @@ from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
 from fitting.mode_tables.explaining import Explaining
 from fitting.mode_tables.fit import BegunModal, begin_modal
+from fitting.mode_tables.kin import kin_of_modes
 from fitting.mode_tables.misread import Misread, misread
 from fitting.mode_tables.pairs import best_pairs, called_for
 from fitting.mode_tables.problem import ModalProblem
@@ -34,8 +35,9 @@ class DiagnosedModes:
     begun: BegunModal
     judgement: Judgement
     scored: tuple[ScoredFit, ...]
-    """Best first, the one without effects among them."""
+    """Best first, the one without effects among them, and what is in no catalogue where that was weighed."""
     temper: float
+    none: ScoredFit
     odd: Misread | None = None
     """The mode that does not go with the others, where that says more than any effect."""
 
@@ -66,14 +68,22 @@ def diagnose_modes(
     alone = {name: one.fitted.chi2 for one in found for name in one.names if len(one.names) == 1}
     t = temper(begun.none, best.fitted, alone) if begun.evidence.scale_known else 1.0
     none, *found = (work.scored(one.fitted, t) for one in (none, *found))
-    judgement = judge(none, found, hidden=frozenset(), held_out=work.held_out)
+    judgement = judge(
+        none,
+        found,
+        hidden=frozenset(),
+        held_out=work.held_out,
+        kin=lambda scored: kin_of_modes(begun, scored.fitted, t),
+    )
     report(1.0)
     every = sorted([none, *found], key=_cost)
     odd = misread(begun)
     if odd is not None and odd.says_more_than(every[0], begun.problem.response().plate):
-        unknown = replace(judgement, verdict="unknown", accepted=None, equivalent={})
-        return DiagnosedModes(begun, unknown, tuple(every), t, odd)
-    return DiagnosedModes(begun, _in_light_of_the_law(work, none, seen, judgement), tuple(every), t)
+        unknown = replace(judgement, verdict="unknown", accepted=None, equivalent={}, unlisted=None)
+        return DiagnosedModes(begun, unknown, tuple(every), t, none, odd)
+    if judgement.unlisted is not None:
+        every = sorted([*every, judgement.unlisted], key=_cost)
+    return DiagnosedModes(begun, _in_light_of_the_law(work, none, seen, judgement), tuple(every), t, none)
 
 
 def _cost(scored: ScoredFit) -> float:

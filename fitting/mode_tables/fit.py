@@ -12,6 +12,7 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.kin import Kin
 from fitting.diagnosis.posterior import posterior
 from fitting.diagnosis.refit import ROUGH, refit
 from fitting.diagnosis.refitted import Refitted
@@ -150,21 +151,28 @@ def start_of(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> 
     return BentLaw.over(law, frequency_hz)
 
 
-def modal_fit_of(begun: BegunModal, fitted: Refitted | None = None) -> ModalFit:
-    """What is said of a fit; the one without effects by default."""
+def modal_fit_of(
+    begun: BegunModal, fitted: Refitted | None = None, scale: float = 1.0, kin: Kin | None = None
+) -> ModalFit:
+    """What is said of a fit; the one without effects by default. Of its `kin`, where that is given, the law.
+
+    `scale` multiplies the covariance.
+    """
     problem = begun.problem
     fitted = fitted or begun.none
     response = problem.response(fitted.effects)
-    C = posterior(response, begun.evidence, fitted)
-    n = len(fitted.law.names)
+    C, law = scale * posterior(response, begun.evidence, fitted), fitted.law
+    if kin is not None:
+        C, law = C + kin.wider, kin.law(fitted)
+    n = len(law.names)
     errors = np.sqrt(np.maximum(np.diag(C)[n : n + fitted.stated], 0))
     logs = fitted.velocity_m_s
     kappa = np.concatenate([m.kappa for m in problem.members])
     f, eta = np.exp(logs.real), np.exp(logs.imag / kappa)
     as_stated = problem.response().velocity(fitted.law, np.zeros(fitted.stated))
     return ModalFit(
-        fitted.law,
-        Uncertainty(C[:n, :n], limits_reached(fitted.law), fitted.chi2_per_dof),
+        law,
+        Uncertainty(C[:n, :n], limits_reached(law), fitted.chi2_per_dof),
         C,
         tuple(f[part] for part in problem.parts),
         tuple(eta[part] for part in problem.parts),

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from fitting.diagnosis import text
+from fitting.diagnosis.kin import UNLISTED, Unlisted
 from fitting.diagnosis.result import Candidate, FoundEffect
 from fitting.diagnosis.search import ScoredFit
-from fitting.diagnosis.stage import found_effects, mixture_of
-from fitting.diagnosis.verdict import NONE
+from fitting.diagnosis.stage import FEW, each_of, found_effects, mixture_of
 from fitting.digits import two_digits
 from fitting.identification.result import LawBand
 from fitting.mode_tables.diagnose import DiagnosedModes
@@ -17,7 +17,8 @@ from fitting.mode_tables.table import ModalTable
 from instrument.facts.diagnosis import DiagnosisResult, EffectFound, ModeLeft, StageFitted
 from instrument.models.modal import TablesDiagnosed
 from instrument.results.diagnosis_from import candidate_from, parameters_from
-from instrument.results.modal_from import modal_band, percent_off
+from instrument.results.diagnosis_words import NOT_NAMED
+from instrument.results.modal_from import BAND_POINTS, modal_band, percent_off
 from instrument.results.rows_from import adjusted_from, law_known_from, law_rows_from
 
 _READ_AGAIN = "That mode's peak once more, in the record that it was read from; or diagnose without its row."
@@ -30,13 +31,10 @@ def modal_diagnosis_from(
     found, judgement = diagnosed.found, diagnosed.found.judgement
     before = modal_fit_of(found.begun)
     accepted = judgement.accepted
-    after = modal_fit_of(found.begun, accepted.fitted) if accepted is not None else before
+    after = modal_fit_of(found.begun, accepted.fitted, found.temper) if accepted is not None else before
     band = modal_band(after, tables)
-    if judgement.verdict != "unknown" and judgement.group:
-        fits = [modal_fit_of(found.begun, scored.fitted) for scored, _ in judgement.group]
-        band = mixture_of(
-            [modal_band(fit, tables) for fit in fits], np.array([share for _, share in judgement.group])
-        )
+    if judgement.unlisted is not None or (judgement.verdict != "unknown" and judgement.group):
+        band = _band_over(found, judgement.weighing(found.none), tables)
     effects = _effects(found, accepted) if accepted is not None else ()
     catalogue = {e.name: e for e in diagnosed.effects}
     first, last = _stage(before, tables, modal_band(before, tables)), _stage(after, tables, band)
@@ -69,6 +67,22 @@ def modal_diagnosis_from(
     )
 
 
+def _band_over(
+    found: DiagnosedModes,
+    weighing: Sequence[tuple[ScoredFit, float]],
+    tables: Sequence[ModalTable],
+    points: int = BAND_POINTS,
+) -> LawBand:
+    """The law over explanations and their kin, by their shares."""
+    each = [
+        (modal_fit_of(found.begun, scored.fitted, found.temper, kin), share)
+        for scored, kin, share in each_of(weighing)
+    ]
+    return mixture_of(
+        [modal_band(fit, tables, points) for fit, _ in each], np.array([share for _, share in each])
+    )
+
+
 def _effects(found: DiagnosedModes, scored: ScoredFit) -> tuple[FoundEffect, ...]:
     plate = found.begun.problem.response(scored.fitted.effects).plate
     return found_effects(scored.fitted, plate, found.temper)
@@ -79,12 +93,14 @@ def _candidate(found: DiagnosedModes, scored: ScoredFit, tables: Sequence[ModalT
     accepted = found.judgement.accepted
     # Its sizes are those of the verdict, which may have the last word on them.
     sized = accepted if accepted is not None and accepted.names == scored.names else scored
+    akin = isinstance(scored, Unlisted)
+    chi2 = scored.chi2_per_dof if isinstance(scored, Unlisted) else scored.fitted.chi2_per_dof
     return Candidate(
-        _effects(found, sized),
+        (FoundEffect(UNLISTED, {}),) if akin else _effects(found, sized),
         scored.cost - found.scored[0].cost,
-        scored.fitted.chi2_per_dof if known else float("nan"),
+        chi2 if known else float("nan"),
         found.judgement.probability.get(scored.names, 0.0),
-        None,
+        _band_over(found, ((sized, 1.0),), tables, FEW),
         dict(scored.checks),
     )
 
@@ -148,9 +164,10 @@ def _explanation(
     stories = [text.story(e, f) for e, f in zip(judgement.accepted.fitted.effects, effects, strict=True)]
     said.append(f"Most likely {' and '.join(stories)}.")
     for name, group in judgement.equivalent.items():
-        others = ["no effect" if n == NONE else n for n in group if n != name]
+        others = [NOT_NAMED.get(n, n) for n in group if n not in (name, UNLISTED)]
         if others:
             said.append(f"These data cannot tell {name} from {', '.join(others)}.")
+    said += text.beside_kin(judgement)
     them = "it" if len(effects) == 1 else "them"
     said.append(f"With {them} {two_digits(after.rms_percent)} % is left.")
     if not judgement.confirmed:

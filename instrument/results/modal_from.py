@@ -15,7 +15,8 @@ from instrument.facts.modal import FormulaRow, ModalResult, ModeFitted
 from instrument.models.modal import TablesIdentified
 from instrument.results.rows_from import adjusted_from, law_known_from, law_rows_from
 
-_BAND_POINTS = 41
+BAND_POINTS = 41
+"""Of a law that is listed."""
 
 
 def modal_from(
@@ -90,12 +91,12 @@ def mean_temperature(tables: Sequence[ModalTable]) -> float | None:
     return float(np.mean(np.concatenate(stated))) if stated else None
 
 
-def modal_band(found: ModalFit, tables: Sequence[ModalTable]) -> LawBand:
+def modal_band(found: ModalFit, tables: Sequence[ModalTable], points: int = BAND_POINTS) -> LawBand:
     """The law over the tables' range with its standard errors."""
     every = np.concatenate([t.frequency_hz for t in tables])
     low, high = float(every.min()), float(every.max())
     inside = [f for f in REFERENCE_FREQUENCIES_HZ if low <= f <= high]
-    f = np.unique(np.concatenate([np.geomspace(low, high, _BAND_POINTS), inside]))
+    f = np.unique(np.concatenate([np.geomspace(low, high, points), inside]))
     G, eta = found.law.storage_and_loss(2 * np.pi * f)
     known = known_curve(found.law, found.posterior, [one.name for one in found.adjusted], low, high)
     return LawBand(f, G, eta, *found.uncertainty.law_band(found.law, 2 * np.pi * f), known)

@@ -177,7 +177,7 @@ def test_the_json_of_tables_has_the_keys_of_a_sweep_s(stiffer):
 
 def test_candidates_carry_their_probability_and_the_story_says_what_was_found(stiffer):
     _, result = stiffer
-    assert [c.name for c in result.candidates] == ["substrate_stiffness", "none"]
+    assert [c.name for c in result.candidates] == ["substrate_stiffness", "unlisted", "none"]
     assert result.candidates[0].delta_bic == 0.0 < result.candidates[1].delta_bic
     assert sum(c.probability for c in result.candidates) == pytest.approx(1.0)
     first, likely, left = result.explanation
@@ -192,3 +192,34 @@ def test_of_a_beam_as_stated_no_effect_is_called_for():
     assert (result.verdict, result.effects) == ("none", ())
     assert result.explanation[-1] == "That is what the modes' errors leave: no effect is called for."
     assert result.after.rms_percent == result.before.rms_percent
+
+
+def test_every_candidate_of_tables_has_its_own_law(stiffer):
+    _, result = stiffer
+    named, akin, none = (c.law for c in result.candidates)
+    wide = [np.array([row.storage_modulus_standard_error_pa for row in law]) for law in (named, akin)]
+    assert (wide[1] > wide[0]).all()
+    at_100 = [next(row for row in law if row.frequency_hz == 100.0) for law in (named, none)]
+    off = [abs(row.storage_modulus_pa / 3e6 - 1) for row in at_100]
+    assert off[0] < off[1]
+
+
+def test_what_tables_show_and_no_catalogue_has_makes_a_band_that_holds_the_law():
+    table = read(replace(BEAM, substrate=replace(FACE, young_pa=1.35 * 70e9)))
+    other = replace(table, frequency_hz=table.frequency_hz * (1 + 0.01 * (-1) ** table.mode))
+    result = diagnosed(other, "substrate_stiffness")
+    assert (result.verdict, result.effects) == ("unknown", ())
+    assert "nothing that was tried explains it" in " ".join(result.explanation)
+    assert result.candidates[0].name == "unlisted"
+    for row in result.after.law:
+        off = np.array([row.storage_modulus_pa - 3e6, row.loss_factor - 0.5])
+        known = [row.storage_modulus_standard_error_pa, row.loss_factor_standard_error]
+        assert (np.abs(off) < 2 * np.array(known)).all()
+
+
+def test_that_it_may_be_something_like_it_is_said():
+    table = read(replace(BEAM, substrate=replace(FACE, young_pa=1.35 * 70e9)))
+    other = replace(table, frequency_hz=table.frequency_hz * (1 - 0.002 * (-1) ** table.mode))
+    result = diagnosed(other, "substrate_stiffness")
+    assert result.equivalent == {"substrate_stiffness": ("substrate_stiffness", "unlisted")}
+    assert "That it is something of its kind, in no catalogue, has " in " ".join(result.explanation)
