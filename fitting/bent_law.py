@@ -185,13 +185,20 @@ def _times(storage: Array, loss: Array, G: Complex) -> Complex:
 def _weights_at(knots_hz: tuple[float, ...], omega: bytes, slow: float, slow_reach: float) -> Array:
     """k(f, knots) L^-T for frequencies in rad/s, kept: every step of a fit asks for the same ones."""
     x = np.log(np.maximum(np.frombuffer(omega), 1e-9) / (2 * np.pi))
+    between = _alike(x[:, None] - np.log(np.array(knots_hz)), slow, slow_reach)
+    return np.asarray(np.ascontiguousarray((between @ _whitening(knots_hz, slow, slow_reach)).T))
+
+
+@lru_cache(maxsize=32)
+def _whitening(knots_hz: tuple[float, ...], slow: float, slow_reach: float) -> Array:
+    """L^-T of k(knots, knots) = L L^T."""
     at = np.log(np.array(knots_hz))
-
-    def alike(apart: Array) -> Array:
-        found = np.exp(-0.5 * (apart / REACH) ** 2)
-        return found + slow**2 * np.exp(-0.5 * (apart / slow_reach) ** 2) if slow else found
-
-    K = alike(at[:, None] - at)
+    K = _alike(at[:, None] - at, slow, slow_reach)
     L = np.linalg.cholesky(K + 1e-9 * (1 + slow**2) * np.eye(len(K)))
-    between = alike(x[:, None] - at)
-    return np.asarray(np.ascontiguousarray((between @ np.linalg.inv(L).T).T))
+    return np.asarray(np.linalg.inv(L).T)
+
+
+def _alike(apart: Array, slow: float, slow_reach: float) -> Array:
+    """What knots say of each other, by their distances in ln f."""
+    found = np.exp(-0.5 * (apart / REACH) ** 2)
+    return found + slow**2 * np.exp(-0.5 * (apart / slow_reach) ** 2) if slow else found

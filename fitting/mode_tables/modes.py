@@ -6,13 +6,12 @@ A widened plate has a hundred columns and more: its modes are sought among its r
 all columns.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg as la
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array, Complex, Mask
 from fitting.complex_modes import ComplexMode
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -26,6 +25,8 @@ _CORRECTIONS, _CORRECTED = 4, 1e-8
 """A bound for Rayleigh's quotient, and its relative change at the end: stiff springs leave no more digits."""
 _FOLLOWED, _ALIKE = 12, 0.8
 """A bound for Rayleigh's quotient from another modulus on; how much of its shape a mode keeps on the way."""
+_NEARBY = 1e-6
+"""Relative step of a frequency, for the law's slope."""
 _BESIDE = 1e-8
 """Relative: a shift that is an eigenvalue to all digits leaves nothing to solve."""
 _RIGID = 1e-6
@@ -51,44 +52,42 @@ class ModalMatrices:
         """On the combinations V of the columns. Shape (k, few)."""
         return ModalMatrices(V.T @ self.K_0 @ V, V.T @ self.K_1 @ V, V.T @ self.M @ V, V.T @ self.C_1 @ V)
 
-    def stiffness(self, G: complex, omega: float) -> Complex:
-        """K_0 + G* K_1 + i omega C_1. Shape (k, k)."""
+    def stiffness(self, G: complex | Complex, omega: float | Array) -> Complex:
+        """K_0 + G* K_1 + i omega C_1. Shape (k, k), or of several (any, k, k) of (any, 1, 1)."""
         return np.asarray(self.K_0 + G * self.K_1 + 1j * omega * self.C_1)
 
 
 def modes_of(A: ModalMatrices, law: CoreLaw, count: int, near_hz: float) -> list[ComplexMode]:
     """The first `count` elastic modes, fewer where there are fewer; `near_hz` is a guess of the first."""
-
-    def modulus(omega: float) -> complex:
-        return complex(law.modulus(np.array([omega]))[0])
-
     if len(A.M) <= count + 2 * _SPARE:
-        return _by_fixed_point(A, modulus, count, near_hz)
-    G = abs(modulus(2 * np.pi * near_hz))
+        return _sought(A, law, count, near_hz)
+    G = abs(_modulus(law, 2 * np.pi * near_hz))
     _, V = la.eigh(A.K_0.real + G * A.K_1, A.M, subset_by_index=[0, count + _SPARE - 1])
-    found = _by_fixed_point(A.on(V), modulus, count, near_hz)
-    return [_corrected(A, modulus, ComplexMode(m.eigenvalue, V @ m.shape)) for m in found]
+    found = _sought(A.on(V), law, count, near_hz)
+    return _corrected(A, law, [ComplexMode(m.eigenvalue, V @ m.shape) for m in found])
 
 
-def _by_fixed_point(
-    A: ModalMatrices, modulus: Callable[[float], complex], count: int, near_hz: float
-) -> list[ComplexMode]:
+def _modulus(law: CoreLaw, omega: float) -> complex:
+    return complex(law.modulus(np.array([omega]))[0])
+
+
+def _sought(A: ModalMatrices, law: CoreLaw, count: int, near_hz: float) -> list[ComplexMode]:
     # M = L L^T: an ordinary problem is solved several times faster.
     back = la.inv(la.cholesky(A.M, lower=True)).T
     turned = A.on(back)
 
     def elastic(omega: float) -> tuple[Complex, Complex]:
-        values, vectors = np.linalg.eig(turned.stiffness(modulus(omega), omega))
+        values, vectors = np.linalg.eig(turned.stiffness(_modulus(law, omega), omega))
         order = np.argsort(values.real)
         order = order[values.real[order] > _RIGID * np.median(np.abs(values))]
         return np.asarray(values[order]), vectors[:, order]
 
-    modes: list[ComplexMode] = []
     omega = 2 * np.pi * near_hz
     values, shapes = elastic(omega)
-    followed = _followed(turned, modulus, values[:count], shapes[:, :count])
+    followed = _followed(turned, law, values[:count], shapes[:, :count].T)
     if followed is not None:
-        return [_normal(A, value, back @ y) for value, y in followed]
+        return [_normal(A, value, back @ y) for value, y in zip(*followed, strict=True)]
+    modes: list[ComplexMode] = []
     for k in range(min(count, len(values))):
         for _ in range(_STEPS):
             values, shapes = elastic(omega)
@@ -99,58 +98,80 @@ def _by_fixed_point(
             omega = found
             if settled:
                 break
-        modes.append(_normal(A, complex(values[at]), back @ shapes[:, at]))
+        modes.append(_normal(A, values[at], back @ shapes[:, at]))
     return modes
 
 
 def _normal(A: ModalMatrices, value: complex, y: Complex) -> ComplexMode:
-    return ComplexMode(value, y / np.sqrt(y @ (A.M @ y)))
+    return ComplexMode(complex(value), y / np.sqrt(y @ (A.M @ y)))
 
 
 def _followed(
-    turned: ModalMatrices, modulus: Callable[[float], complex], values: Complex, shapes: Complex
-) -> list[tuple[complex, Complex]] | None:
+    turned: ModalMatrices, law: CoreLaw, values: Complex, begun: Complex
+) -> tuple[Complex, Complex] | None:
     """Modes at one modulus, each followed to its own by Rayleigh's quotient: a tenth of the time.
 
     None where one does not stay what it was, or they change places: then each is sought in its order.
-    Shapes (modes,), (k, modes).
+    Shapes (modes,), (modes, k).
     """
-    found: list[tuple[complex, Complex]] = []
-    one = np.eye(len(shapes))
-    for value, begun in zip(values.tolist(), shapes.T, strict=True):
-        y, before = begun / np.sqrt(begun @ begun), 0j
-        for _ in range(_FOLLOWED):
-            omega = float(np.sqrt(max(value.real, 0.0)))
-            K = turned.stiffness(modulus(omega), omega)
-            value = complex(y @ (K @ y))
-            if abs(value - before) < _SETTLED * abs(value):
-                break
-            before = value
-            y = np.linalg.solve(K - value * (1 + _BESIDE) * one, y)
-            y = y / np.sqrt(y @ y)
-        else:
-            return None
-        alike = abs(np.vdot(y, begun)) / np.sqrt(np.vdot(y, y).real * np.vdot(begun, begun).real)
-        if alike < _ALIKE or (found and value.real <= found[-1][0].real):
-            return None
-        found.append((value, y))
-    return found
+    begun = begun / np.sqrt(np.sum(begun**2, axis=1))[:, None]
+    at = _own_values(turned, law, np.sqrt(np.maximum(values.real, 0)), begun)
+    found, y, settled = _by_rayleigh(turned, law, at, begun, _FOLLOWED, _SETTLED)
+    if not settled.all() or np.any(np.diff(found.real) <= 0):
+        return None
+    size = np.linalg.norm(y, axis=1) * np.linalg.norm(begun, axis=1)
+    alike = np.abs(np.sum(y.conj() * begun, axis=1)) / size
+    return None if np.any(alike < _ALIKE) else (found, y)
 
 
-def _corrected(A: ModalMatrices, modulus: Callable[[float], complex], mode: ComplexMode) -> ComplexMode:
-    """Rayleigh quotient iteration on all columns."""
-    value, y = mode.eigenvalue, mode.shape
-    for _ in range(_CORRECTIONS):
-        omega = float(np.sqrt(value.real))
-        K = A.stiffness(modulus(omega), omega)
-        y = np.asarray(np.linalg.solve(K - value * (1 + _BESIDE) * A.M, A.M @ y), complex)
-        y /= np.sqrt(y @ (A.M @ y))
-        new = complex(y @ (K @ y))
-        if new.real <= 0:
-            # Numbers far off leave no stiffness in some column: a fit comes back from there.
-            return mode
-        settled = abs(new / value - 1) < _CORRECTED
-        value = new
-        if settled:
+def _corrected(A: ModalMatrices, law: CoreLaw, modes: list[ComplexMode]) -> list[ComplexMode]:
+    """On all columns."""
+    if not modes:
+        return modes
+    values, shapes = np.array([m.eigenvalue for m in modes]), np.array([m.shape for m in modes])
+    values, shapes, _ = _by_rayleigh(A, law, values, shapes, _CORRECTIONS, _CORRECTED)
+    # Numbers far off leave no stiffness in some column: a fit comes back from there.
+    return [
+        m if np.isnan(value) else ComplexMode(complex(value), y)
+        for m, value, y in zip(modes, values, shapes, strict=True)
+    ]
+
+
+def _by_rayleigh(
+    A: ModalMatrices, law: CoreLaw, values: Complex, shapes: Complex, most: int, enough: float
+) -> tuple[Complex, Complex, Mask]:
+    """Rayleigh quotient iteration of several modes side by side, and whether each has settled.
+
+    NaN of a mode that has come to no stiffness. Shapes (modes,), (modes, k) and (modes,).
+    """
+    settled = np.zeros(len(values), bool)
+    for _ in range(most):
+        omega = np.sqrt(values.real)
+        K = A.stiffness(law.modulus(omega)[:, None, None], omega[:, None, None])
+        shift = (values * (1 + _BESIDE))[:, None, None]
+        shapes = np.asarray(np.linalg.solve(K - shift * A.M, (shapes @ A.M)[..., None])[..., 0], complex)
+        shapes = shapes / np.sqrt(np.sum(shapes * (shapes @ A.M), axis=1))[:, None]
+        new = _own_values(A, law, omega, shapes)
+        settled = np.abs(new - values) < enough * np.abs(values)
+        values = new
+        if np.all(settled | np.isnan(values)):
             break
-    return ComplexMode(value, y)
+    return values, shapes, settled
+
+
+def _own_values(A: ModalMatrices, law: CoreLaw, omega: Array, shapes: Complex) -> Complex:
+    """Rayleigh's quotient at its own frequency, of shapes that stay: a root of one number, by Newton's steps.
+
+    NaN where there is none. Shapes (modes,) and (modes, k).
+    """
+    a, b, c = (np.sum(shapes * (shapes @ K), axis=1) for K in (A.K_0, A.K_1, 1j * A.C_1))
+    values = np.full(len(omega), np.nan + 0j)
+    for _ in range(_STEPS):
+        G, nearby = law.modulus(omega * np.array([[1.0], [1 + _NEARBY]]))
+        slope = (nearby - G) / (_NEARBY * omega) * b + c
+        step = ((a + G * b + omega * c).real - omega**2) / (2 * omega - slope.real)
+        values = a + G * b + omega * c + slope * step
+        omega = np.where(values.real > 0, omega + step, np.nan)
+        if not np.any(np.abs(step) > _SETTLED * omega):
+            break
+    return np.where((omega > 0) & (values.real > 0), values, np.nan)
