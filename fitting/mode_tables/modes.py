@@ -59,6 +59,12 @@ class ModalMatrices:
 
 def modes_of(A: ModalMatrices, law: CoreLaw, count: int, near_hz: float) -> list[ComplexMode]:
     """The first `count` elastic modes, fewer where there are fewer; `near_hz` is a guess of the first."""
+    # What leads nowhere is not a number, and then told apart.
+    with np.errstate(all="ignore"):
+        return _modes_of(A, law, count, near_hz)
+
+
+def _modes_of(A: ModalMatrices, law: CoreLaw, count: int, near_hz: float) -> list[ComplexMode]:
     if len(A.M) <= count + 2 * _SPARE:
         return _sought(A, law, count, near_hz)
     G = abs(_modulus(law, 2 * np.pi * near_hz))
@@ -114,6 +120,8 @@ def _followed(
     None where one does not stay what it was, or they change places: then each is sought in its order.
     Shapes (modes,), (modes, k).
     """
+    if not len(values):
+        return None
     begun = begun / np.sqrt(np.sum(begun**2, axis=1))[:, None]
     at = _own_values(turned, law, np.sqrt(np.maximum(values.real, 0)), begun)
     found, y, settled = _by_rayleigh(turned, law, at, begun, _FOLLOWED, _SETTLED)

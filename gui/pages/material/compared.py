@@ -11,7 +11,7 @@ from instrument.files.sweep_file import read_sweep
 from instrument.paper_case import TABLE_4, case_file
 from instrument.results.diagnosis_words import UNKNOWN
 from instrument.results.session_result import BEFORE_DIAGNOSIS
-from instrument.results.standing import law_words, stage_before
+from instrument.results.standing import law_words, one_fit_words, stage_before
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
@@ -51,6 +51,9 @@ def recorded_laws(path: Path) -> list[ComparedLaw]:
             ComparedLaw(path.stem, after, f"{path}: its diagnosis, with {law_words(diagnosis)}"),
             ComparedLaw(f"{path.stem}, before", before, f"{path}: {BEFORE_DIAGNOSIS}, without {effects}"),
         ]
-    doubt = f", {UNKNOWN}" if diagnosis is not None and diagnosis.verdict == "unknown" else ""
-    note = f"{path}: its own fit, {len(fit.points)} points{doubt}"
-    return [ComparedLaw(f"{path.stem}{doubt}", LawCurve.of(fit.law), note)]
+    if diagnosis is None:
+        note = f"{path}: its own fit, {len(fit.points)} points"
+        return [ComparedLaw(path.stem, LawCurve.of(fit.law), note)]
+    doubt = f", {UNKNOWN}" if diagnosis.verdict == "unknown" else ""
+    note = f"{path}: its diagnosis, {one_fit_words(diagnosis)}{doubt}"
+    return [ComparedLaw(f"{path.stem}{doubt}", LawCurve.of(diagnosis.after.law), note)]

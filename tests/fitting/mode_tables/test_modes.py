@@ -52,6 +52,21 @@ def test_a_rigid_mode_is_not_counted():
     assert first.eigenvalue == pytest.approx(4 * np.sin(np.pi / 12) ** 2 * G, rel=1e-9)
 
 
+def test_what_has_no_stiffness_has_no_modes_and_says_so_without_a_warning(recwarn):
+    A = matrices(6)
+    nothing = ModalMatrices(-A.K_0, 0 * A.K_1, A.M, A.C_1)
+    assert modes_of(nothing, CONSTANT, 3, 5.0) == []
+    assert not recwarn.list
+
+
+def test_modes_that_change_places_with_frequency_are_in_the_order_of_their_own():
+    # One mass on the core alone, the other on a spring: the law's slope takes the first past the second.
+    A = ModalMatrices(np.diag([0.0, 4e5]) + 0j, np.diag([1.0, 0.0]), np.eye(2), np.zeros((2, 2)))
+    first, second = modes_of(A, FractionalZener(g0_pa=1e5, ginf_pa=1e7, tau_s=1e-3, alpha=0.9), 2, 5.0)
+    assert first.eigenvalue == pytest.approx(4e5)
+    assert second.eigenvalue.real > 4e5
+
+
 def test_a_change_is_added_and_damping_multiplied():
     one = np.eye(2)
     system = SimpleNamespace(K_0=one, K_1=one, M=one, U=one[:, :1], d=np.array([3.0]))
