@@ -21,10 +21,12 @@ _SPARE = 14
 """Real modes beyond those asked for, among which complex ones are sought."""
 _STEPS, _SETTLED = 60, 1e-9
 """A bound for the law followed along; the relative change of a frequency at which that has settled."""
-_CORRECTIONS, _CORRECTED = 4, 1e-8
-"""A bound for Rayleigh's quotient, and its relative change at the end: stiff springs leave no more digits."""
-_FOLLOWED, _ALIKE = 12, 0.8
-"""A bound for Rayleigh's quotient from another modulus on; how much of its shape a mode keeps on the way."""
+_CORRECTIONS, _FOLLOWED = 4, 12
+"""Bounds for Rayleigh's quotient, from few columns to all and from another modulus on."""
+_CHANGED = 1e-5
+"""Relative: where the quotient last changed by less, the next change is of its square."""
+_ALIKE = 0.8
+"""How much of its shape a mode keeps on the way."""
 _NEARBY = 1e-6
 """Relative step of a frequency, for the law's slope."""
 _BESIDE = 1e-8
@@ -124,7 +126,7 @@ def _followed(
         return None
     begun = begun / np.sqrt(np.sum(begun**2, axis=1))[:, None]
     at = _own_values(turned, law, np.sqrt(np.maximum(values.real, 0)), begun)
-    found, y, settled = _by_rayleigh(turned, law, at, begun, _FOLLOWED, _SETTLED)
+    found, y, settled = _by_rayleigh(turned, law, at, begun, _FOLLOWED)
     if not settled.all() or np.any(np.diff(found.real) <= 0):
         return None
     size = np.linalg.norm(y, axis=1) * np.linalg.norm(begun, axis=1)
@@ -137,7 +139,7 @@ def _corrected(A: ModalMatrices, law: CoreLaw, modes: list[ComplexMode]) -> list
     if not modes:
         return modes
     values, shapes = np.array([m.eigenvalue for m in modes]), np.array([m.shape for m in modes])
-    values, shapes, _ = _by_rayleigh(A, law, values, shapes, _CORRECTIONS, _CORRECTED)
+    values, shapes, _ = _by_rayleigh(A, law, values, shapes, _CORRECTIONS)
     # Numbers far off leave no stiffness in some column: a fit comes back from there.
     return [
         m if np.isnan(value) else ComplexMode(complex(value), y)
@@ -146,7 +148,7 @@ def _corrected(A: ModalMatrices, law: CoreLaw, modes: list[ComplexMode]) -> list
 
 
 def _by_rayleigh(
-    A: ModalMatrices, law: CoreLaw, values: Complex, shapes: Complex, most: int, enough: float
+    A: ModalMatrices, law: CoreLaw, values: Complex, shapes: Complex, most: int
 ) -> tuple[Complex, Complex, Mask]:
     """Rayleigh quotient iteration of several modes side by side, and whether each has settled.
 
@@ -160,7 +162,7 @@ def _by_rayleigh(
         shapes = np.asarray(np.linalg.solve(K - shift * A.M, (shapes @ A.M)[..., None])[..., 0], complex)
         shapes = shapes / np.sqrt(np.sum(shapes * (shapes @ A.M), axis=1))[:, None]
         new = _own_values(A, law, omega, shapes)
-        settled = np.abs(new - values) < enough * np.abs(values)
+        settled = np.abs(new - values) < _CHANGED * np.abs(values)
         values = new
         if np.all(settled | np.isnan(values)):
             break
