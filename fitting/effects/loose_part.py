@@ -14,7 +14,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.added_mass import PLACE, PointMass, near
+from fitting.effects.added_mass import PLACE, AddedMassEffect, MassOnBeamEffect, PointMass, near
 from fitting.effects.base import ONE_PIECE, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -70,6 +70,10 @@ class LoosePartEffect(Effect):
         places = [(x * plate.length_m, y * plate.width_m) for x in _ALONG for y in _ACROSS]
         return [np.array([*u[:3], *place]) for place in places]
 
+    def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
+        # Far below its own frequency it moves with its place.
+        return ((AddedMassEffect(), u[[0, 3, 4]]),)
+
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         lower, upper = super().limits(plate)
         lower[0] = _LEAST_KG
@@ -124,6 +128,9 @@ class LoosePartOnBeamEffect(LoosePartEffect):
 
     def elsewhere(self, plate: EnrichedReducedPlate, u: Array) -> list[Array]:
         return [np.array([*u[:3], x * plate.length_m]) for x in _ALONG_A_BEAM]
+
+    def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
+        return ((MassOnBeamEffect(), u[[0, 3]]),)
 
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         lower, upper = Effect.limits(self, plate)

@@ -69,6 +69,12 @@ def test_far_below_its_frequency_it_is_a_mass(full):
     np.testing.assert_allclose(found, full.reduced(CATALOGUE["added_mass"], (3e-3, *PLACE)), rtol=3e-3)
 
 
+def test_what_it_contains_is_the_mass_that_it_is_far_below_its_frequency(full):
+    stiff = np.array([3e-3, 4e3, 0.01, *PLACE])
+    ((mass, u),) = PART.within(stiff)
+    np.testing.assert_allclose(full.reduced(PART, stiff), full.reduced(mass, u), rtol=3e-3)
+
+
 def test_a_plate_with_a_part_that_nothing_couples_is_the_same(full):
     plate = full.spanned.take(PART.spans)
     more = plate.with_part
