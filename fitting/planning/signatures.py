@@ -9,8 +9,9 @@ from fitting.arrays import Array, Complex
 from fitting.diagnosis.looks import has_place, slopes
 from fitting.diagnosis.marginal import expected_size
 from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.responses import response_of
-from fitting.effects.base import Effect, EffectParameter
+from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.laws import CoreLaw
 
 _FEW = 12
@@ -100,14 +101,38 @@ def signatures_of(
 
     `known` are the stated numbers and the unknowns of these. Shape (unknowns,).
     """
-    plain = response_of(problem, beside, problem.coarse).velocity(law, known)
+    able = [e for e in effects if e.objection(problem.points, problem.plate) is None]
+    return signatures_in(
+        lambda some: response_of(problem, some, problem.coarse),
+        problem.points,
+        *(law, known, able),
+        report=report,
+        beside=beside,
+    )
+
+
+def signatures_in(
+    responses: Callable[[Sequence[Effect]], SweepResponse],
+    points: Points,
+    law: CoreLaw,
+    known: Array,
+    effects: Sequence[Effect],
+    *,
+    report: Callable[[float], None] = lambda share: None,
+    beside: Sequence[Effect] = (),
+) -> list[Signature]:
+    """The same, where `responses` gives what is read under some effects; `points` may be asked of all.
+
+    Shape of `known` (unknowns,).
+    """
+    plain = responses(beside).velocity(law, known)
     found = []
     for done, effect in enumerate(effects):
         report(done / len(effects))
-        if judged_elsewhere(effect) or effect.objection(problem.points, problem.plate) is not None:
+        if judged_elsewhere(effect):
             continue
-        response = response_of(problem, [*beside, effect], problem.coarse)
-        starts = effect.starts(response.plate, problem.points)
+        response = responses([*beside, effect])
+        starts = effect.starts(response.plate, points)
         starts = [starts[k] for k in np.unique(np.linspace(0, len(starts) - 1, _FEW).astype(int))]
         moved = slopes(response, law, known, starts, plain)
         kept = [

@@ -52,13 +52,23 @@ class Unseen:
 def unseen(rivals: Rivals, effects: Sequence[Effect]) -> list[Unseen]:
     """Beside the likeliest explanation: what shifts the law by more than its 95 % band, worst first."""
     fitted, _ = rivals.each[0]
-    # One that contains an effect which was found, or is contained in it, is no other one.
-    there = {e.name for e in fitted.effects} | {e.extends for e in fitted.effects} - {None}
-    asked = [e for e in effects if e.name not in there and e.extends not in there]
-    f = rivals.problem.sweep.frequency_hz
-    aims = Aims.over(fitted.law, float(f.min()), float(f.max()))
+    asked = others(fitted, effects)
     signatures = signatures_of(rivals.problem, fitted.law, fitted.u, asked, beside=fitted.effects)
-    found = [one for s in signatures if (one := _of(s, rivals.evidence, fitted, aims)) is not None]
+    return worst_first(signatures, rivals.evidence, fitted, rivals.problem.sweep.frequency_hz)
+
+
+def others(fitted: Refitted, effects: Sequence[Effect]) -> list[Effect]:
+    """Those that are in a fit in no form: what contains an effect of it, or is contained in it, is one."""
+    there = {e.name for e in fitted.effects} | {e.extends for e in fitted.effects} - {None}
+    return [e for e in effects if e.name not in there and e.extends not in there]
+
+
+def worst_first(
+    signatures: Sequence[Signature], evidence: Evidence, fitted: Refitted, frequency_hz: Array
+) -> list[Unseen]:
+    """What shifts the law by more than its 95 % band over the frequencies. Shape (any,)."""
+    aims = Aims.over(fitted.law, float(frequency_hz.min()), float(frequency_hz.max()))
+    found = [one for s in signatures if (one := _of(s, evidence, fitted, aims)) is not None]
     return sorted(found, key=lambda one: -one.errors)
 
 

@@ -9,6 +9,7 @@ from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.cli.reading import read_tables
 from instrument.interchange.questions import question_modes
 from instrument.models.modal import diagnose_tables
+from instrument.planning.unseen import with_unseen_in_tables
 from instrument.progress import bar
 from instrument.results.modal_diagnosis_from import modal_diagnosis_from
 
@@ -24,6 +25,6 @@ def diagnose_modes(
     found = diagnose_tables(tables, read, without, bar)
     if not insist:
         question_modes(tables, modal_fit_of(found.found.begun), data, read, bar)
-    result = modal_diagnosis_from(found, tables, [path.name for path in data])
+    result = with_unseen_in_tables(modal_diagnosis_from(found, tables, [path.name for path in data]), found)
     print_diagnosis(out, result)
     out.result(result)

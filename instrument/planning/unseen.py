@@ -1,8 +1,10 @@
-"""What a sweep that was diagnosed could not have seen, as its result has it."""
+"""What a sweep or tables that were diagnosed could not have seen, as their result has it."""
 
 from fitting.planning.unseen import Unseen, unseen
+from fitting.planning.unseen_in_tables import unseen_in_tables
 from instrument.facts.diagnosis import DiagnosisResult, UnseenEffect
 from instrument.models.diagnosis import Diagnosed
+from instrument.models.modal import TablesDiagnosed
 
 
 def with_unseen(result: DiagnosisResult, diagnosed: Diagnosed) -> DiagnosisResult:
@@ -11,6 +13,12 @@ def with_unseen(result: DiagnosisResult, diagnosed: Diagnosed) -> DiagnosisResul
     if rivals is None or not diagnosed.effects or not rivals.evidence.scale_known:
         return result
     return result.but(unseen=tuple(_fact(one) for one in unseen(rivals, diagnosed.effects)))
+
+
+def with_unseen_in_tables(result: DiagnosisResult, diagnosed: TablesDiagnosed) -> DiagnosisResult:
+    """The same of tables of modes."""
+    unseen_there = unseen_in_tables(diagnosed.found, diagnosed.effects)
+    return result.but(unseen=tuple(_fact(one) for one in unseen_there))
 
 
 def _fact(one: Unseen) -> UnseenEffect:
