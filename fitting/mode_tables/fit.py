@@ -161,9 +161,9 @@ def modal_fit_of(
     problem = begun.problem
     fitted = fitted or begun.none
     response = problem.response(fitted.effects)
-    C, law = scale * posterior(response, begun.evidence, fitted), fitted.law
-    if kin is not None:
-        C, law = C + kin.wider, kin.law(fitted)
+    C = scale * posterior(response, begun.evidence, fitted)
+    law, uncertainty = law_with(fitted, C, kin)
+    C = C if kin is None else C + kin.wider
     n = len(law.names)
     errors = np.sqrt(np.maximum(np.diag(C)[n : n + fitted.stated], 0))
     logs = fitted.velocity_m_s
@@ -172,7 +172,7 @@ def modal_fit_of(
     as_stated = problem.response().velocity(fitted.law, np.zeros(fitted.stated))
     return ModalFit(
         law,
-        Uncertainty(C[:n, :n], limits_reached(law), fitted.chi2_per_dof),
+        uncertainty,
         C,
         tuple(f[part] for part in problem.parts),
         tuple(eta[part] for part in problem.parts),
@@ -182,3 +182,10 @@ def modal_fit_of(
         fitted.evaluations,
         fitted.converged,
     )
+
+
+def law_with(fitted: Refitted, covariance: Array, kin: Kin | None = None) -> tuple[CoreLaw, Uncertainty]:
+    """The law of a fit or of its kin, and how well it is known. `covariance` of shape (columns, columns)."""
+    law = fitted.law if kin is None else kin.law(fitted)
+    C, n = covariance if kin is None else covariance + kin.wider, len(law.names)
+    return law, Uncertainty(C[:n, :n], limits_reached(law), fitted.chi2_per_dof)

@@ -12,13 +12,13 @@ from fitting.diagnosis.stage import FEW, each_of, found_effects, mixture_of
 from fitting.digits import two_digits
 from fitting.identification.result import LawBand
 from fitting.mode_tables.diagnose import DiagnosedModes
-from fitting.mode_tables.fit import ModalFit, modal_fit_of
+from fitting.mode_tables.fit import ModalFit, law_with, modal_fit_of
 from fitting.mode_tables.table import ModalTable
 from instrument.facts.diagnosis import DiagnosisResult, EffectFound, ModeLeft, StageFitted
 from instrument.models.modal import TablesDiagnosed
 from instrument.results.diagnosis_from import candidate_from, parameters_from
 from instrument.results.diagnosis_words import NOT_NAMED
-from instrument.results.modal_from import BAND_POINTS, modal_band, percent_off
+from instrument.results.modal_from import band_of, listed_hz, modal_band, percent_off
 from instrument.results.rows_from import adjusted_from, law_known_from, law_rows_from
 
 _READ_AGAIN = "That mode's peak once more, in the record that it was read from; or diagnose without its row."
@@ -68,19 +68,24 @@ def modal_diagnosis_from(
 
 
 def _band_over(
-    found: DiagnosedModes,
-    weighing: Sequence[tuple[ScoredFit, float]],
-    tables: Sequence[ModalTable],
-    points: int = BAND_POINTS,
+    found: DiagnosedModes, weighing: Sequence[tuple[ScoredFit, float]], tables: Sequence[ModalTable]
 ) -> LawBand:
     """The law over explanations and their kin, by their shares."""
     each = [
-        (modal_fit_of(found.begun, scored.fitted, found.temper, kin), share)
+        (modal_band(modal_fit_of(found.begun, scored.fitted, found.temper, kin), tables), share)
         for scored, kin, share in each_of(weighing)
     ]
-    return mixture_of(
-        [modal_band(fit, tables, points) for fit, _ in each], np.array([share for _, share in each])
-    )
+    return mixture_of([band for band, _ in each], np.array([share for _, share in each]))
+
+
+def _few_of_law(found: DiagnosedModes, scored: ScoredFit, tables: Sequence[ModalTable]) -> LawBand:
+    """The law of an explanation at a few frequencies."""
+    f = listed_hz(tables, FEW)
+    each = [
+        (band_of(*law_with(one.fitted, found.temper * one.fitted.covariance, kin), f), share)
+        for one, kin, share in each_of(((scored, 1.0),))
+    ]
+    return mixture_of([band for band, _ in each], np.array([share for _, share in each]))
 
 
 def _effects(found: DiagnosedModes, scored: ScoredFit) -> tuple[FoundEffect, ...]:
@@ -100,7 +105,7 @@ def _candidate(found: DiagnosedModes, scored: ScoredFit, tables: Sequence[ModalT
         scored.cost - found.scored[0].cost,
         chi2 if known else float("nan"),
         found.judgement.probability.get(scored.names, 0.0),
-        _band_over(found, ((sized, 1.0),), tables, FEW),
+        _few_of_law(found, sized, tables),
         dict(scored.checks),
     )
 

@@ -1,22 +1,23 @@
 """The result of a law from tables of modes, read off its fit."""
 
 from collections.abc import Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 import numpy as np
 
 from fitting.arrays import Array
 from fitting.identification.known_curve import known_curve
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ, LawBand
+from fitting.identification.uncertainty import Uncertainty
 from fitting.identification.validation import rms
+from fitting.laws import CoreLaw
 from fitting.mode_tables.fit import ModalFit
 from fitting.mode_tables.table import ModalTable
 from instrument.facts.modal import FormulaRow, ModalResult, ModeFitted
 from instrument.models.modal import TablesIdentified
 from instrument.results.rows_from import adjusted_from, law_known_from, law_rows_from
 
-BAND_POINTS = 41
-"""Of a law that is listed."""
+_BAND_POINTS = 41
 
 
 def modal_from(
@@ -91,12 +92,22 @@ def mean_temperature(tables: Sequence[ModalTable]) -> float | None:
     return float(np.mean(np.concatenate(stated))) if stated else None
 
 
-def modal_band(found: ModalFit, tables: Sequence[ModalTable], points: int = BAND_POINTS) -> LawBand:
+def modal_band(found: ModalFit, tables: Sequence[ModalTable]) -> LawBand:
     """The law over the tables' range with its standard errors."""
+    f = listed_hz(tables, _BAND_POINTS)
+    known = known_curve(found.law, found.posterior, [one.name for one in found.adjusted], f[0], f[-1])
+    return replace(band_of(found.law, found.uncertainty, f), known=known)
+
+
+def band_of(law: CoreLaw, known: Uncertainty, frequency_hz: Array) -> LawBand:
+    """A law with its standard errors at some frequencies. Shape (any,)."""
+    omega = 2 * np.pi * frequency_hz
+    return LawBand(frequency_hz, *law.storage_and_loss(omega), *known.law_band(law, omega))
+
+
+def listed_hz(tables: Sequence[ModalTable], count: int) -> Array:
+    """So many frequencies over the tables' range, and the reference ones in it. Shape (frequencies,)."""
     every = np.concatenate([t.frequency_hz for t in tables])
     low, high = float(every.min()), float(every.max())
     inside = [f for f in REFERENCE_FREQUENCIES_HZ if low <= f <= high]
-    f = np.unique(np.concatenate([np.geomspace(low, high, points), inside]))
-    G, eta = found.law.storage_and_loss(2 * np.pi * f)
-    known = known_curve(found.law, found.posterior, [one.name for one in found.adjusted], low, high)
-    return LawBand(f, G, eta, *found.uncertainty.law_band(found.law, 2 * np.pi * f), known)
+    return np.unique(np.concatenate([np.geomspace(low, high, count), inside]))
