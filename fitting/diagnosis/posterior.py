@@ -7,6 +7,7 @@ from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.joint_problem import JointProblem
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.response import SweepResponse
+from fitting.errors import OutsideModel
 
 _WIDEST = 3.0
 """Times a standard error, that a flat chi-square may widen it."""
@@ -27,10 +28,16 @@ def posterior(response: SweepResponse, evidence: Evidence, fitted: Refitted) -> 
     n = len(fitted.law.names)
     for k in n + moved:
         step = C[:, k] / np.sqrt(C[k, k])
-        rises = [
-            np.sum(problem.residuals(np.clip(x + s * step, lower, upper)) ** 2) - fitted.chi2 for s in (1, -1)
-        ]
+        rises = [_chi2(problem, np.clip(x + s * step, lower, upper)) - fitted.chi2 for s in (1, -1)]
         rise = float(np.clip(np.mean(rises), 1 / _WIDEST**2, None))
         if rise < 1:
             C = C + (1 / rise - 1) * np.outer(step, step)
     return C
+
+
+def _chi2(problem: JointProblem, x: Array) -> float:
+    """At a place; infinite where the structure has no such modes, or less than no mass."""
+    try:
+        return float(np.sum(problem.residuals(x) ** 2))
+    except (OutsideModel, np.linalg.LinAlgError):
+        return np.inf
