@@ -1,6 +1,7 @@
 """A point mass on the plate: a sensor, a reflector, a forgotten magnet."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -89,6 +90,9 @@ class MassOnBeamEffect(AddedMassEffect):
     needs = ONE_PIECE
     discriminating_test = "a look at the beam and a balance; a second spot"
 
+    def variants(self) -> tuple[Effect, ...]:
+        return (self, MassAtAnEndEffect())
+
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.array([3e-3, x * plate.length_m]) for x in (np.arange(_ALONG_A_BEAM) + 1) / _ALONG_A_BEAM]
 
@@ -101,6 +105,20 @@ class MassOnBeamEffect(AddedMassEffect):
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"a mass of {1e3 * u['mass']:.2g} g sits at {1e3 * u['x']:.0f} mm"
+
+
+class MassAtAnEndEffect(MassOnBeamEffect):
+    """At one of its ends, where sensors and magnets sit: no place is as likely as that."""
+
+    parameters = (MassOnBeamEffect.parameters[0], replace(MassOnBeamEffect.parameters[1], fixed=True))
+    chance = 0.01
+
+    def variants(self) -> tuple[Effect, ...]:
+        return (self,)
+
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
+        # At a clamped one it does nothing.
+        return [np.array([3e-3, x]) for x in (plate.length_m, 0.0)]
 
 
 class MassOfPairEffect(AddedMassEffect):

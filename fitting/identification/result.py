@@ -1,6 +1,6 @@
 """The one result of an identification, whichever method found it."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from fitting.arrays import Array
 from fitting.bent_law import BentLaw
 from fitting.digits import written_out
+from fitting.identification.adjusted import Adjusted
 from fitting.identification.as_stated import is_unlikely, pulled_together
 from fitting.identification.fit import Fit
 from fitting.identification.known_curve import KnownCurve, known_curve
@@ -189,16 +190,10 @@ def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: 
     off = rms(differences_percent(sweep, fit.velocity_m_s))
     if off > LOST_PERCENT:
         said.append(f"{ASTRAY} data (rms {written_out(off, 3)} %): check units, level and pickup")
-    pulled = sorted((one for one in fit.adjusted if abs(one.pull) > _PULLED), key=lambda one: -abs(one.pull))
-    if pulled:
-        named = ", ".join(f"{one.name} by {one.pull:+.1f}" for one in pulled)
-        said.append(
-            f"stated numbers had to be moved further than their tolerances say ({named} standard deviations, "
-            f"limit {_PULLED:g}): they are stated wrongly or the model lacks something, and {BIASED}; "
-            "see 'viscorig diagnose'"
-        )
-    else:
-        said.extend(_together(fit))
+    count = len(fit.adjusted)
+    said.extend(
+        moved_too_far(fit.adjusted, fit.posterior[-count:, -count:] if fit.posterior is not None else None)
+    )
     if noise_is_known and uncertainty.chi2_per_dof > _MISFIT:
         said.append(
             f"the residual is {written_out(uncertainty.chi2_per_dof, 3)} times what the noise explains "
@@ -208,15 +203,26 @@ def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: 
     return [*said, *_law_warnings(fit.law, uncertainty)]
 
 
-def _together(fit: Fit) -> list[str]:
-    """Of numbers each within its tolerance that hardly belong together."""
-    if fit.posterior is None or not fit.adjusted:
+def moved_too_far(numbers: Sequence[Adjusted], covariance: Array | None) -> list[str]:
+    """That stated numbers were moved further than they may be, one by one or together; seldom anything.
+
+    `covariance` of them in tolerances, shape (numbers, numbers); None where it is not known.
+    """
+    pulled = sorted((one for one in numbers if abs(one.pull) > _PULLED), key=lambda one: -abs(one.pull))
+    if pulled:
+        named = ", ".join(f"{one.name} by {one.pull:+.1f}" for one in pulled)
+        return [
+            f"stated numbers had to be moved further than their tolerances say ({named} standard deviations, "
+            f"limit {_PULLED:g}): they are stated wrongly or the model lacks something, and {BIASED}; "
+            "see 'viscorig diagnose'"
+        ]
+    if covariance is None or not numbers:
         return []
-    z = np.array([one.pull for one in fit.adjusted])
-    chi_square, directions = pulled_together(z, fit.posterior[-len(z) :, -len(z) :])
+    z = np.array([one.pull for one in numbers])
+    chi_square, directions = pulled_together(z, covariance)
     if not is_unlikely(chi_square, directions):
         return []
-    most = sorted(fit.adjusted, key=lambda one: -abs(one.pull))[:_NAMED]
+    most = sorted(numbers, key=lambda one: -abs(one.pull))[:_NAMED]
     named = ", ".join(f"{one.name} by {one.pull:+.1f}" for one in most)
     return [
         "stated numbers had to be moved together further than data as these move them (chi-square "

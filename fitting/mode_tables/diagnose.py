@@ -13,6 +13,7 @@ from fitting.diagnosis.confounded import hides
 from fitting.diagnosis.predictive import temper
 from fitting.diagnosis.refit import kept
 from fitting.diagnosis.search import ScoredFit
+from fitting.diagnosis.thresholds import SEARCH
 from fitting.diagnosis.verdict import NONE, Judgement, judge
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
@@ -76,6 +77,8 @@ def diagnose_modes(
         kin=lambda scored: kin_of_modes(begun, scored.fitted, t),
     )
     report(1.0)
+    if _too_few(work, judgement):
+        judgement = replace(judgement, verdict="ambiguous")
     every = sorted([none, *found], key=_cost)
     odd = misread(begun)
     if odd is not None and odd.says_more_than(every[0], begun.problem.response().plate):
@@ -96,6 +99,14 @@ def _best_of_each(scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
     for scored in sorted(scored_fits, key=_cost):
         found.setdefault(frozenset(scored.names), scored)
     return list(found.values())
+
+
+def _too_few(work: Explaining, judgement: Judgement) -> bool:
+    """Whether two effects are named for certain by fewer numbers than a sweep would look for them with."""
+    if judgement.verdict != "effect" or judgement.accepted is None or len(judgement.accepted.names) < 2:
+        return False
+    needed = SEARCH.numbers_a_parameter * judgement.accepted.fitted.parameter_count
+    return work.begun.evidence.count < needed
 
 
 def visible(problem: ModalProblem, effect: Effect) -> bool:

@@ -7,6 +7,7 @@ from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from instrument.cli.output import Output
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import (
+    NOT_NAMED,
     candidate_words,
     law_at,
     percent_of,
@@ -109,7 +110,7 @@ def print_before_after(out: Output, found: DiagnosisResult) -> None:
 def _print_candidates(out: Output, found: DiagnosisResult) -> None:
     candidates = found.candidates
     shown = candidates[:_MOST_CANDIDATES]
-    shown += tuple(c for c in candidates[_MOST_CANDIDATES:] if c.name == "none")
+    shown += tuple(c for c in candidates[_MOST_CANDIDATES:] if c.name in NOT_NAMED)
     rows = [
         [
             candidate_words(c.name),

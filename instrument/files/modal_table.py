@@ -19,6 +19,7 @@ from instrument.files.text import read_text
 _SAID = re.compile(r"^\s*#\s*read\s*:\s*(.*?)\s*$", re.MULTILINE | re.IGNORECASE)
 _MUST = ("mode", "frequency_hz", "loss_factor")
 _MAY = ("frequency_std_hz", "loss_factor_std", "temperature_c")
+_ABSOLUTE_ZERO_C = -273.15
 _OF_OTHERS = ("veloc", "accel", "displac", "recept", "mobil", "force", "storage", "time", "coheren")
 """How columns of sweeps, FRFs, records and laws begin."""
 _MEANT = 0.8
@@ -144,6 +145,9 @@ def _columns(path: Path) -> dict[str, Array]:
             whole = name != "mode" or (value == int(value) and value <= _MOST)
             if (value <= 0 and name != "temperature_c") or not whole:
                 expected = f"a whole number from 1 to {_MOST}" if name == "mode" else "more than 0"
+                raise BadInput(f"{path}: line {line}: {name} = {row[k]}, expected {expected}")
+            if name == "temperature_c" and value <= _ABSOLUTE_ZERO_C:
+                expected = f"degrees Celsius above {_ABSOLUTE_ZERO_C}"
                 raise BadInput(f"{path}: line {line}: {name} = {row[k]}, expected {expected}")
             if name == "frequency_hz":
                 check_frequency(f"{path}: line {line}", name, value, row[k])

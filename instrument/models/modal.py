@@ -17,7 +17,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.enriching import enriched, reach_over
 from fitting.effects.full_plate import FullPlate
 from fitting.errors import OutsideModel
-from fitting.identification.result import ASTRAY, BIASED
+from fitting.identification.result import ASTRAY, BIASED, moved_too_far
 from fitting.laws import CoreLaw
 from fitting.laws.constant import ConstantModulus
 from fitting.mode_tables.build import member_of, own_motions
@@ -84,7 +84,9 @@ def identify_tables(
     )
     seconds = perf_counter() - ready
     reads = remark_on_reading(problem.members, found.law)
-    left = (remark_on_misread(odd, tables),) if odd is not None else remark_on_fit(found, tables)
+    left = (*remark_on_fit(found, tables), *remarks_on_pulls(found))
+    if odd is not None:
+        left = (remark_on_misread(odd, tables),)
     said = (*left, *theory, *reads, *remarks_on_tables(tables, specimens))
     return TablesIdentified(found, seconds, said, formulas, ready - began)
 
@@ -157,6 +159,13 @@ def check_theories(
 ) -> tuple[str, ...]:
     """As `check_each_theory`, for the law found."""
     return check_each_theory(specimens, law, [t.frequency_hz for t in tables])
+
+
+def remarks_on_pulls(fit: ModalFit) -> tuple[str, ...]:
+    """That stated numbers had to be moved further than they may be; nothing where they were not."""
+    n = len(fit.law.names)
+    stated = slice(n, n + len(fit.adjusted))
+    return tuple(moved_too_far(fit.adjusted, fit.posterior[stated, stated]))
 
 
 def remark_on_fit(fit: ModalFit, tables: Sequence[ModalTable]) -> tuple[str, ...]:

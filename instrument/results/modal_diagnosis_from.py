@@ -37,7 +37,9 @@ def modal_diagnosis_from(
         band = _band_over(found, judgement.weighing(found.none), tables)
     effects = _effects(found, accepted) if accepted is not None else ()
     catalogue = {e.name: e for e in diagnosed.effects}
-    first, last = _stage(before, tables, modal_band(before, tables)), _stage(after, tables, band)
+    known = found.begun.evidence.scale_known
+    first = _stage(before, tables, modal_band(before, tables), known=known)
+    last = _stage(after, tables, band, known=known)
     return DiagnosisResult(
         verdict=judgement.verdict,
         effects=tuple(
@@ -57,6 +59,8 @@ def modal_diagnosis_from(
             judgement, catalogue, with_hammer=False, unknown=text.WHERE_NOTHING_EXPLAINS_MODES
         ),
         unseen=(),
+        next_measurements=(),
+        by_hand=False,
         explanation=_explanation(diagnosed, effects, first, last),
         warnings=diagnosed.remarks,
         points=(),
@@ -110,14 +114,15 @@ def _candidate(found: DiagnosedModes, scored: ScoredFit, tables: Sequence[ModalT
     )
 
 
-def _stage(fit: ModalFit, tables: Sequence[ModalTable], band: LawBand) -> StageFitted:
+def _stage(fit: ModalFit, tables: Sequence[ModalTable], band: LawBand, *, known: bool) -> StageFitted:
+    """`known`: whether the modes' errors are."""
     off = percent_off(fit, tables)
     plain = fit.law.plain
     errors = fit.uncertainty.of_first(len(plain.names)).standard_errors * plain.values
     return StageFitted(
         rms_percent=float(np.sqrt(np.mean(off**2))),
         max_percent=float(np.abs(off).max()),
-        chi2_per_dof=fit.uncertainty.chi2_per_dof,
+        chi2_per_dof=fit.uncertainty.chi2_per_dof if known else None,
         held_out=(),
         held_out_rms_percent=None,
         leave_one_out_rms_percent=None,
@@ -177,4 +182,9 @@ def _explanation(
     said.append(f"With {them} {two_digits(after.rms_percent)} % is left.")
     if not judgement.confirmed:
         said.append("Modes that were left out are predicted no better by two effects than by none.")
+    elif judgement.verdict == "ambiguous" and len(effects) > 1:
+        said.append(
+            "Two effects beside a law have so many numbers that a table's few come near to anything: look for"
+            " both before either is believed."
+        )
     return tuple(said)

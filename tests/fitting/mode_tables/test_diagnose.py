@@ -37,6 +37,31 @@ def test_a_stiffer_face_is_named_and_its_factor_found():
     assert found.temper >= 1.0
 
 
+def test_two_effects_are_never_certain_in_a_table_however_well_they_fit():
+    both = replace(
+        BEAM, substrate=replace(FACE, young_pa=1.35 * 70e9), constraining=replace(FACE, thickness_m=1.5e-3)
+    )
+    found = diagnosed(read(both), STIFFER, FORMS["constraining_thickness"]).judgement
+    assert set(found.accepted.names) == {"substrate_stiffness", "constraining_thickness"}
+    assert found.verdict == "ambiguous"
+
+
+def test_a_mass_at_the_free_end_is_found_there_without_its_place_being_paid_for():
+    mass = FORMS["added_mass"]
+    clean = read(BEAM)
+    problem = ModalProblem.of([member_of(clean, BEAM)])
+    known = [*np.zeros(len(problem.each)), 2e-3, BEAM.length_m]
+    logs = problem.response([mass]).velocity(LAW, np.array(known))
+    f, eta = np.exp(logs.real), np.exp(logs.imag / problem.members[0].kappa)
+    with_mass = replace(clean, frequency_hz=f, loss_factor=eta)
+    found = diagnosed(with_mass, mass).judgement
+    assert found.verdict == "effect"
+    m, x = found.accepted.fitted.of(found.accepted.fitted.effects[0])
+    assert m == pytest.approx(2e-3, rel=0.02)
+    assert x == BEAM.length_m
+    assert not found.accepted.fitted.free[-1]
+
+
 def test_of_a_beam_as_stated_nothing_is_named():
     found = diagnosed(read(BEAM), STIFFER)
     assert found.judgement.verdict == "none"

@@ -107,6 +107,10 @@ FAULTS = {
     "no mode": ("frequency_hz,loss_factor\n70.0,0.1\n", "no mode; expected mode"),
     "too high": (TABLE.replace("4,1449", "1000000000,1449"), "line 5: mode = 1000000000"),
     "twice": (TABLE.replace("2,311", "1,311"), "twice"),
+    "too cold": (
+        "mode,frequency_hz,loss_factor,temperature_c\n1,70.0,0.15,-400\n",
+        "line 2: temperature_c = -400, expected degrees Celsius above -273.15",
+    ),
 }
 
 

@@ -1,16 +1,19 @@
 """Tables of modes of plates that are 3D solids: neither matrices nor formulas of the fit's."""
 
 import json
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from beam_tables import BEAM, FACE, read
 from mode_cases import TRUTH, read_off, solid_modes, stated
 from plate_files import plate_text
 
+from fitting.identification.result import doubts_itself
 from fitting.mode_tables.fit import fit_modes
 from instrument.cli.main import run
-from instrument.models.modal import remark_on_fit, remark_on_misread
+from instrument.models.modal import identify_tables, remark_on_fit, remark_on_misread
 
 
 @pytest.mark.long
@@ -101,6 +104,16 @@ def test_a_fit_that_leaves_the_modes_says_so():
     assert said.startswith("the modes are off by 5.6 times what their errors explain")
     assert "1 % in frequency and 50 % in loss factor" in said
     assert "no damping ratios" in said
+
+
+def test_stated_numbers_that_had_to_be_moved_too_far_are_named():
+    tips = replace(BEAM, substrate=replace(FACE, thickness_m=0.8 * FACE.thickness_m))
+    found = identify_tables([read(tips)], [replace(BEAM, exact=False)])
+    (said,) = [one for one in found.remarks if "had to be moved" in one]
+    assert "constraining_thickness by -" in said
+    assert doubts_itself([said])
+    right = identify_tables([read(BEAM)], [replace(BEAM, exact=False)])
+    assert not any("had to be moved" in one for one in right.remarks)
 
 
 def test_the_row_that_does_not_go_with_the_others_is_named_with_its_file_and_where_they_have_it():
