@@ -7,7 +7,7 @@ import click
 from fitting.specimen import Specimen
 from instrument.cli.diagnose_modes import diagnose_modes
 from instrument.cli.naming import naming_data
-from instrument.cli.options import figures_option, file_arguments, json_option
+from instrument.cli.options import figures_option, file_arguments, json_option, refuse_with_tables
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.cli.print_run import print_result
@@ -67,10 +67,14 @@ def diagnose(
     out = Output(json_path)
     refuse_repeats(data)
     if are_tables(data, specimen):
-        if hammer is not None or accept or resamples is not None or figures is not None:
-            raise click.UsageError(
-                "--hammer, --accept, --resamples, --figures with tables of modes: expected sweeps"
-            )
+        refuse_with_tables(
+            {
+                "--hammer": hammer is not None,
+                "--accept": bool(accept),
+                "--resamples": resamples is not None,
+                "--figures": figures is not None,
+            }
+        )
         diagnose_modes(out, data, specimen, frozenset(without), insist=insist)
         return
     every = read_each(out, data, specimen, hammer, no_hammer=no_hammer, insist=insist, one_plate=True)

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from fitting.temperature.shifts import Kind
+from instrument.cli.options import refuse_with_tables
 from instrument.models.files import File
 from instrument.models.identification import Method
 from instrument.results.uncertainty_facts import Depth
@@ -47,11 +48,16 @@ class Asked:
 
     def check_tables(self, *, hammer: bool) -> None:
         """Of tables of modes; `hammer` says whether a test was given with them."""
-        if self._of_one_sweep or hammer or self._looks_deeper:
-            raise click.UsageError(
-                "--pointwise, --method paper, --hammer, --with, --budget, --uncertainty with modal tables: "
-                "expected sweeps"
-            )
+        refuse_with_tables(
+            {
+                "--pointwise": self.pointwise,
+                "--method paper": self.method == "paper",
+                "--with": self.dma is not None,
+                "--hammer": hammer,
+                "--budget": self.with_budget,
+                "--uncertainty": bool(self.depths),
+            }
+        )
         if self.shift is not None and (self.bare is not None or self.no_viscous_damping):
             raise click.UsageError(
                 "--bare and --no-viscous-damping with --shift: expected tables of treated specimens alone"

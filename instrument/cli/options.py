@@ -3,6 +3,7 @@
 import math
 import os
 import re
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -152,3 +153,10 @@ def _range(text: str) -> NDArray[Any]:
     f = low + step * np.arange(count)
     # B belongs to the range even where no whole number of steps reaches it.
     return f if np.isclose(f[-1], high, rtol=1e-9) else np.append(f, high)
+
+
+def refuse_with_tables(given: Mapping[str, bool]) -> None:
+    """Options that are for sweeps, and whether each was given. Raises `click.UsageError` naming those."""
+    there = [name for name, is_there in given.items() if is_there]
+    if there:
+        raise click.UsageError(f"{' and '.join(there)} with tables of modes: expected sweeps")

@@ -41,14 +41,14 @@ def files(*kinds):
 
 @pytest.mark.parametrize("options", [*ONE_SWEEP, *DEEPER])
 def test_what_looks_at_sweeps_is_refused_with_tables(options):
-    with pytest.raises(click.UsageError, match="with modal tables: expected sweeps"):
+    with pytest.raises(click.UsageError, match="with tables of modes: expected sweeps"):
         asked(**options).check_tables(hammer=False)
 
 
 def test_tables_have_no_hammer_test_and_no_bare_beam_at_several_temperatures():
     PLAIN.check_tables(hammer=False)
     asked(bare=Path("bare.csv")).check_tables(hammer=False)
-    with pytest.raises(click.UsageError, match="with modal tables: expected sweeps"):
+    with pytest.raises(click.UsageError, match="with tables of modes: expected sweeps"):
         PLAIN.check_tables(hammer=True)
     with pytest.raises(click.UsageError, match="expected tables of treated specimens alone"):
         asked(shift="wlf", bare=Path("bare.csv")).check_tables(hammer=False)
@@ -84,3 +84,8 @@ def test_what_the_papers_method_cannot_say_is_said_and_left_out(coarse, table5, 
     found = json.loads((tmp_path / "found.json").read_text())
     assert found["budget"] is None
     assert found["method"] == "paper"
+
+
+def test_only_what_was_given_is_named_where_tables_refuse_it():
+    with pytest.raises(click.UsageError, match=r"^--budget and --uncertainty with tables of modes"):
+        asked(with_budget=True, depths=("profile",)).check_tables(hammer=False)
