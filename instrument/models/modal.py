@@ -45,6 +45,8 @@ _LOST = 0.1
 """Relative: stated numbers within their tolerances move frequencies by a tenth of that."""
 _MISFIT = 3.0
 """Chi-square per degree from which errors of modes do not explain what is left."""
+_NOTHING_BENDS = 1e-6
+"""A loss factor that only motion along a beam has."""
 _WARMER = 2.0
 """K between rows of a table, from which a damping polymer is another one."""
 
@@ -197,10 +199,14 @@ def remark_on_misread(odd: Misread, tables: Sequence[ModalTable]) -> str:
     )
     file = int(np.searchsorted(np.cumsum([len(t.mode) for t in tables]), odd.place, "right")) + 1
     of_file = f" of file {file}" if len(tables) > 1 else ""
+    theirs, asked = f"with a loss factor of {odd.loss_factor:.3g}", "is it misread, or another motion?"
+    if odd.loss_factor < _NOTHING_BENDS:
+        theirs = "where layers stretch along the beam, nothing bends and nothing is lost"
+        asked = f"bending modes are numbered past that one: is this mode {mode + 1:g}?"
     return (
         f"mode {mode:g}{of_file} does not go with the others, which one law explains without any effect: "
-        f"they have it at {odd.frequency_hz:.5g} Hz with a loss factor of {odd.loss_factor:.3g}, the table "
-        f"at {f:.5g} Hz with {eta:.3g}: is it misread, or another motion? "
+        f"they have it at {odd.frequency_hz:.5g} Hz {theirs}, the table "
+        f"at {f:.5g} Hz with {eta:.3g}: {asked} "
         "With this row left out there is a law; with it there is none to be trusted"
     )
 

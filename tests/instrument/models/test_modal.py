@@ -127,3 +127,8 @@ def test_the_row_that_does_not_go_with_the_others_is_named_with_its_file_and_whe
     assert said.startswith("mode 2 of file 2 does not go with the others")
     assert "at 4.25 Hz with a loss factor of 0.5, the table at 4 Hz with 0.4" in said
     assert remark_on_misread(odd, [table(1.0, 2.0, 3.0, 4.0)]).startswith("mode 5 does not go")
+    # A beam's motion along itself is among the model's modes, and seldom in a table.
+    along = SimpleNamespace(place=3, frequency_hz=4.25, loss_factor=1e-12)
+    said = remark_on_misread(along, [table(1.0, 2.0, 3.0, 4.0)])
+    assert "at 4.25 Hz where layers stretch along the beam, nothing bends" in said
+    assert "numbered past that one: is this mode 6?" in said
