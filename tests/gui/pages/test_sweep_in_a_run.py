@@ -76,6 +76,8 @@ def test_a_step_is_followed_to_its_rest(qtbot, alone):
     qtbot.waitUntil(lambda: "dwelling" in page.step.words.text())
     assert page.step.facts["Level"].said.startswith("4.91")
     assert page.step.facts["Drive"].said == "0.5 V of 5 V"
+    # Curves follow words: they are drawn when the window has time.
+    qtbot.waitUntil(lambda: len(shown(page.step.settling, "left")[0]) > 0)
     seconds, left = shown(page.step.settling, "left")
     event = index.events[settled]
     assert seconds[-1] == pytest.approx(event.seconds)
