@@ -62,4 +62,4 @@ class AirAddedMassEffect(Effect):
         return Change(M=u[0] * plate.matrix("air.M"), load=u[0] * plate.vector("air.load"))
 
     def story(self, u: Mapping[str, float]) -> str:
-        return f"the plate carries air of {u['density']:.2g} kg/m^3 along"
+        return f"the specimen carries air of {u['density']:.2g} kg/m^3 along"

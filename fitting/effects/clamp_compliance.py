@@ -97,7 +97,7 @@ class ClampComplianceEffect(Effect):
     spans = (YieldingRoot(),)
     unexplained_share = 0.003
     chance = 0.05
-    discriminating_test = "the same plate clamped anew, or its root watched by the laser"
+    discriminating_test = "the same specimen clamped anew, or its root watched by the laser"
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return None if "root" in plate.group else "the plate has no clamp"
@@ -109,7 +109,7 @@ class ClampComplianceEffect(Effect):
         return Change(K=springs(plate, u))
 
     def story(self, u: Mapping[str, float]) -> str:
-        return f"the plate's clamp is elastic ({u['k']:.2g} N/m^3 of clamped face)"
+        return f"the clamp is elastic ({u['k']:.2g} N/m^3 of clamped face)"
 
 
 def springs(plate: EnrichedReducedPlate, u: Array) -> Array:

@@ -48,4 +48,4 @@ class ClampFrictionEffect(Effect):
 
     def story(self, u: Mapping[str, float]) -> str:
         loss, k = u["loss_factor"], u["k"]
-        return f"the plate's clamp is elastic and rubs (loss factor {loss:.2g} in springs of {k:.2g} N/m^3)"
+        return f"the clamp is elastic and rubs (loss factor {loss:.2g} in springs of {k:.2g} N/m^3)"

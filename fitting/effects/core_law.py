@@ -20,7 +20,7 @@ class OtherCoreLawEffect(Effect):
     replaces_law = True
     chance = 0.03
     discriminating_test = (
-        "a second specimen of another thickness: the law is the same, errors of the plate are not"
+        "a second specimen of another thickness: the law is the same, errors of the specimen are not"
     )
 
     def laws(self, stated: CoreLaw, points: Points) -> list[CoreLaw]:

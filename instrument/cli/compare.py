@@ -94,6 +94,8 @@ def compare(
             out.say(f"{name}: verdict unknown: this law may be biased beyond what is known of it{beside}")
         elif law.is_doubted:
             out.say(f"{name}: its fit says that this law may be biased beyond its band{beside}")
+        elif law.verdict == "ambiguous":
+            out.say(f"{name}: verdict ambiguous ({law.found}): its band spans the laws of all of these")
         if doubt := kelvin_doubt(law.temperature_c):
             out.say(f"{name}: {doubt}")
     for (a, b), c in zip(pairs, found, strict=True):

@@ -27,12 +27,12 @@ _WARM_C = 200.0
 _APART_K = 2.0
 """Between files of one law: by more a polymer in its transition is another one by tenths."""
 _DRIFTED_K = 5.0
-"""Within one sweep, from its coldest row to its warmest: no mean is that of all of it."""
+"""Within one sweep or table, from its coldest row to its warmest: no mean is that of all of it."""
 _MANY, _ENOUGH = 20_000, 2_000
 """Lines of a sweep: more take more than a minute, and say hardly more of a law than as many as are enough."""
 _SECONDS_A_LINE = 3e-3
 """Of a plate's fit on one processor."""
-_LOSSY = 3.0
+_LOSSY = 2.0
 """More than a mode of any structure has."""
 
 
@@ -68,6 +68,8 @@ def question_modes(
     Raises `BadInput`.
     """
     question_tables(tables, paths)
+    for table, path in zip(tables, paths, strict=False):
+        _ask(_of_several_temperatures(table), [path])
     question_temperatures(
         [None if t.temperature_c is None else float(t.temperature_c.mean()) for t in tables], paths
     )
@@ -122,6 +124,16 @@ def _drifted(range_c: tuple[float, float] | None) -> str:
     return (
         f"temperature_c from {range_c[0]:g} to {range_c[1]:g} in one sweep: its law is that of no one "
         "temperature, expected a file for each"
+    )
+
+
+def _of_several_temperatures(table: ModalTable) -> str:
+    T = table.temperature_c
+    if T is None or not float(np.ptp(T)) > _DRIFTED_K:
+        return ""
+    return (
+        f"temperature_c from {T.min():g} to {T.max():g} in one table: one law is that of one temperature, "
+        "expected 'identify --shift', or a table for each"
     )
 
 

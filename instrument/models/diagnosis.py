@@ -14,6 +14,7 @@ from fitting.errors import OutsideModel
 from fitting.specimen import Specimen, StatedSpecimen
 from fitting.sweep import Sweep
 from instrument.errors import BadInput
+from instrument.models.effect_names import refuse_unknown_effects
 from instrument.models.remarks import (
     remarks_on_damping,
     remarks_on_law,
@@ -55,9 +56,7 @@ def effects_among(
     goes with the level of a base is of those that one drives, where others are struck. Raises `BadInput` for
     a name that is none of them.
     """
-    unknown = sorted({*without, *(accept or ())} - set(CATALOGUE))
-    if unknown:
-        raise BadInput(f"effect {unknown[0]!r}, expected one of {', '.join(sorted(CATALOGUE))}")
+    refuse_unknown_effects([*without, *(accept or ())])
     first = specimens[0]
     standing = {}
     for name, effect in CATALOGUE.items():

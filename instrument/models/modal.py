@@ -11,7 +11,7 @@ from threadpoolctl import threadpool_limits
 from fitting.arrays import Array
 from fitting.damping import viscous_damping
 from fitting.digits import two_digits, written_out
-from fitting.effects import CATALOGUE, all_spans, span_modules
+from fitting.effects import all_spans, span_modules
 from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.enriching import enriched, reach_over
@@ -32,8 +32,8 @@ from fitting.plate import Plate
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
 from fitting.structures.beam import Beam
-from instrument.errors import BadInput
 from instrument.models.cache import cached
+from instrument.models.effect_names import refuse_unknown_effects
 from instrument.models.file_remarks import remarks_on_held_width
 from instrument.models.modal_reads import remark_on_reading
 from instrument.models.remarks import remarks_on_damping, remarks_on_law, remarks_on_tolerances
@@ -117,9 +117,7 @@ def diagnose_tables(
 
     Raises `BadInput` for an unknown effect, `FittingError` as `identify_tables`.
     """
-    unknown = sorted(set(without) - set(CATALOGUE))
-    if unknown:
-        raise BadInput(f"effect {unknown[0]!r}, expected one of {', '.join(sorted(CATALOGUE))}")
+    refuse_unknown_effects(without)
     kinds = sorted({s.kind for s in specimens})
     if len(kinds) > 1:
         raise OutsideModel(f"{' and '.join(kinds)} together, expected specimens of one kind to diagnose")

@@ -41,6 +41,7 @@ def test_modes_near_the_fit_are_not_asked_about():
     ("stated", "asked"),
     [
         ({"loss_factor": 22.0}, "22: is it in percent"),
+        ({"loss_factor": 3.0}, "3: is it in percent"),
         ({"std": 1.5}, "loss_factor_std up to 3 for loss factors up to 0.2: is it in percent"),
         ({"temperature_c": 293.0}, "293: is it in K"),
     ],
@@ -70,6 +71,14 @@ def test_tables_of_modes_of_unlike_temperatures_are_asked_about():
     tables, fit = tables_and_fit(HZ, temperature_c=20.0)
     tables[1].temperature_c = np.full(2, 35.0)
     with pytest.raises(BadInput, match="one law is that of one temperature"):
+        question_modes(tables, fit, [Path("a.csv"), Path("b.csv")])
+
+
+def test_one_table_of_modes_of_many_temperatures_is_asked_about():
+    tables, fit = tables_and_fit(HZ, temperature_c=20.0)
+    tables[1].temperature_c = np.array([5.0, 53.0])
+    asked = r"^b\.csv: temperature_c from 5 to 53 in one table: .* 'identify --shift', or a table for each"
+    with pytest.raises(BadInput, match=asked):
         question_modes(tables, fit, [Path("a.csv"), Path("b.csv")])
 
 

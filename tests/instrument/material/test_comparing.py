@@ -127,6 +127,22 @@ def test_a_temperature_in_kelvin_and_an_unknown_verdict_are_said(tmp_path, capsy
     assert "b.json: temperature_c = 294.6: is it in K?" in said
 
 
+def test_a_law_that_is_a_mixture_of_several_is_said_to_be(tmp_path, capsys):
+    found = {
+        "verdict": "ambiguous",
+        "after": facts(TABLE_4),
+        "effects": [{"name": "added_mass"}],
+        "equivalent": {"added_mass": ["added_mass", "tip_magnet"]},
+    }
+    (tmp_path / "a.json").write_text(json.dumps(found))
+    (tmp_path / "b.json").write_text(json.dumps(facts(TABLE_4)))
+    assert run(["compare", str(tmp_path / "a.json"), str(tmp_path / "b.json")]) == 0
+    assert (
+        "a.json: verdict ambiguous (added_mass, not told from tip_magnet): its band"
+        in capsys.readouterr().out
+    )
+
+
 _SOFTER = [{**row, "storage_modulus_pa": 0.5 * row["storage_modulus_pa"]} for row in facts(TABLE_4)["law"]]
 _NO_LAW = {"verdict": "effect", "after": facts(TABLE_4) | {"law": []}}
 
