@@ -19,6 +19,7 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.diagnosis.candidates import CandidateFit, Known, is_over_decades
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.freer_law import as_free_as_asked
 from fitting.diagnosis.looks import Start, has_place, look
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.prediction import held_out
@@ -347,6 +348,14 @@ class CandidateFits:
         """Some effects fitted to the end, from a law and unknowns. Shape (unknowns,)."""
         effects, law, u = one
         return polished(self.problem, effects, self.evidence, law, u)
+
+    def as_free_as_asked(self, fitted: Refitted) -> Refitted:
+        """A fit with a law that bends as far as the data ask for."""
+
+        def again(law: CoreLaw, begun: Refitted) -> Refitted:
+            return self.fitted((begun.effects, law, begun.u))
+
+        return as_free_as_asked(fitted, again, lambda one: cost(one, self.problem.plate))
 
     def at_rest(self, fitted: Refitted) -> Refitted:
         """A fit followed to its very end."""

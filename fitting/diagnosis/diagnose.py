@@ -11,6 +11,7 @@ from fitting.diagnosis import text
 from fitting.diagnosis.begin import begin
 from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.executor import ALONE, Executor
+from fitting.diagnosis.freer_law import freedom_of
 from fitting.diagnosis.kin import UNLISTED, Unlisted, kin_of
 from fitting.diagnosis.pairs import Pairs
 from fitting.diagnosis.prediction import over_noise
@@ -188,7 +189,7 @@ def _diagnosis(
             *text.explain(problem, judgement, before, after, found, catalogue),
         ),
         why_aside=reasons(np.zeros(len(problem.sweep), bool), "") if why_aside is None else why_aside,
-        warnings=_warnings(problem, judgement),
+        warnings=_warnings(search, judgement),
         by_hand=judgement.by_hand,
         p_value=decided.resampled.p_value,
         nested_held_out_rms_percent=decided.resampled.nested_rms_percent,
@@ -216,14 +217,22 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
     found = [*singles, *pairs]
     best = min([search.none, *found], key=_cost)
     scored_fits = sorted(search.at_rest(found, best, [search.none]), key=_cost)
+    judgement = _judged(search, scored_fits)
+    if judgement.is_doubted and search.none.cost > search.reach(scored_fits[0]):
+        # A core that is off its formula bends its law far, as a cause in no catalogue does: both are weighed.
+        scored_fits = _bettered(scored_fits, search.freer(scored_fits, scored_fits[0]))
+        judgement = _judged(search, scored_fits)
+    return search, [t for t in scored_fits if t.names in judgement.probability], judgement
+
+
+def _judged(search: Search, scored_fits: Sequence[ScoredFit]) -> Judgement:
     t = search.temper_of(scored_fits)
-    judgement = judge(
+    return judge(
         *search.tempered(scored_fits),
         hidden=frozenset(e.name for e in search.unnamed),
         held_out=lambda scored: over_noise(search.validation(scored)),
         kin=lambda scored: kin_of(search, scored.fitted, t),
     )
-    return search, [t for t in scored_fits if t.names in judgement.probability], judgement
 
 
 def _bettered(known: Sequence[ScoredFit], found: Sequence[ScoredFit]) -> list[ScoredFit]:
@@ -325,8 +334,17 @@ def _candidate(
     )
 
 
-def _warnings(problem: DiagnosisProblem, judgement: Judgement) -> tuple[str, ...]:
-    said = []
+def _warnings(search: Search, judgement: Judgement) -> tuple[str, ...]:
+    said, problem = list[str](), search.problem
+    accepted = judgement.accepted
+    if accepted is not None and accepted.names:
+        times = freedom_of(accepted.fitted.law) / freedom_of(search.stated)
+        if times > 1:
+            said.append(
+                f"beside {' and '.join(accepted.names)} the law may bend {times:g} times as far from its "
+                "formula as materials usually do, as the data ask: the core follows another law, or more is "
+                "amiss"
+            )
     names = {n for group in judgement.equivalent.values() for n in group}
     if "temperature_drift" in names and not problem.points.timed:
         said.append("the points carry no time: the drift assumes an even sweep upwards in frequency")

@@ -8,6 +8,7 @@ the whitened bend that was found, k numbers, and C their covariance, a wider pri
 gamma being how many of them the data determine (MacKay, Neural Computation 4, 1992, p. 415).
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -17,27 +18,48 @@ from fitting.diagnosis.begin import Begun
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.usual_law import polished
+from fitting.laws import CoreLaw
 
 _TIMES = 2.0
 """From one width of the prior to the next: their evidence is flat between. A choice."""
 _STEPS = 3
 """Widths tried at most: eight times the usual one, 20 % in G' and 36 % in eta, is no law of that form."""
-_RARE = 2 * np.log(10.0)
+RARE = 2 * np.log(10.0)
 """Of -2 ln Z, that the first wider one has to gain: one material in ten is expected to need it. A choice."""
 
 
 def loosened(begun: Begun) -> Begun:
     """The same, its fit with the freedom that makes the data most likely: the usual one, or more."""
-    best, least = begun.none, _RARE
+
+    def again(law: CoreLaw, none: Refitted) -> Refitted:
+        return polished(begun.problem, (), begun.evidence, law, none.u)
+
+    none = as_free_as_asked(begun.none, again, lambda fitted: cost(fitted, begun.problem.plate))
+    return begun if none is begun.none else replace(begun, none=none)
+
+
+def as_free_as_asked(
+    fitted: Refitted, again: Callable[[CoreLaw, Refitted], Refitted], worth: Callable[[Refitted], float]
+) -> Refitted:
+    """A fit with the freedom of its law that makes the data most likely; itself where that is what it has.
+
+    `again` fits with another law from where a fit ended; `worth` is its -2 ln Z.
+    """
+    best, least = fitted, RARE
     for _ in range(_STEPS):
         if not _asks_for_more(best):
             break
         assert isinstance(best.law, BentLaw)
-        wider = polished(begun.problem, (), begun.evidence, best.law.freer(_TIMES), best.u)
-        if cost(wider, begun.problem.plate) > cost(best, begun.problem.plate) - least:
+        wider = again(best.law.freer(_TIMES), best)
+        if worth(wider) > worth(best) - least:
             break
         best, least = wider, 0.0
-    return replace(begun, none=best)
+    return best
+
+
+def freedom_of(law: CoreLaw) -> float:
+    """Times the usual one; 1 for a law that may not bend."""
+    return law.freedom if isinstance(law, BentLaw) else 1.0
 
 
 def _asks_for_more(fitted: Refitted) -> bool:

@@ -10,6 +10,7 @@ from fitting.diagnosis.candidate_fits import CandidateFits
 from fitting.diagnosis.candidates import CandidateFit
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.executor import Call, Executor
+from fitting.diagnosis.freer_law import RARE, freedom_of
 from fitting.diagnosis.looks import has_place, look
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.predictive import TOLERANCES, checks, form_error, most_unrefused, passes, temper
@@ -121,13 +122,17 @@ class Search:
             (name,) = (e.name for e in fitted.effects)
             self._alone[name] = min(fitted.chi2, self._alone.get(name, np.inf))
         large = too_large(fitted, self.problem.plate)
-        return ScoredFit(fitted, cost(fitted, self.problem.plate), found, doubt, large, unsized(fitted))
+        return ScoredFit(fitted, self._cost(fitted), found, doubt, large, unsized(fitted))
+
+    def _cost(self, fitted: Refitted, temper: float = 1.0) -> float:
+        """As `marginal.cost`; a law twice as free to bend as all began with is one of few materials."""
+        doublings = np.log2(freedom_of(fitted.law) / freedom_of(self.stated))
+        return cost(fitted, self.problem.plate, temper) + RARE * float(doublings)
 
     def tempered(self, scored_fits: Sequence[ScoredFit]) -> tuple[ScoredFit, list[ScoredFit]]:
         """None and the others with what they are worth where the best explains far more than noise."""
         t = self.temper_of(scored_fits)
-        plate = self.problem.plate
-        none, *others = (replace(one, cost=cost(one.fitted, plate, t)) for one in (self.none, *scored_fits))
+        none, *others = (replace(one, cost=self._cost(one.fitted, t)) for one in (self.none, *scored_fits))
         return none, others
 
     def temper_of(self, scored_fits: Sequence[ScoredFit]) -> float:
@@ -187,13 +192,16 @@ class Search:
         self._learn_validations(new, found[len(moving) :])
         return [self._at_its_end(t) for t in scored_fits]
 
+    def reach(self, best: ScoredFit) -> float:
+        """Cost up to which others may be in one group with it."""
+        return best.cost + SEARCH.reported * self.temper(best)
+
     def moving(self, scored_fits: Sequence[ScoredFit], best: ScoredFit) -> list[Refitted]:
         """What may be in one group with `best`, and nobody has followed to its very end.
 
         Nothing where all of that is past help: where exactly they end is then nobody's concern.
         """
-        within = best.cost + SEARCH.reported * self.temper(best)
-        group = [t for t in scored_fits if t.cost < within]
+        group = [t for t in scored_fits if t.cost < self.reach(best)]
         if all(t.past_help for t in group):
             return []
         return [t.fitted for t in group if t.fitted not in self._ends]
@@ -206,6 +214,16 @@ class Search:
         end = self._ends.get(scored.fitted, scored.fitted)
         # A cost is one at a least chi-square only: what is reached counts, though it were dearer.
         return self.judged(end) if end.chi2 < scored.fitted.chi2 else scored
+
+    def freer(self, scored_fits: Sequence[ScoredFit], best: ScoredFit) -> list[ScoredFit]:
+        """Single effects that may be in one group with `best`, their laws bent as far as the data ask for.
+
+        Only those whose data do. Two effects and a rare material would be too much at once.
+        """
+        near = [t.fitted for t in scored_fits if t.cost < self.reach(best)]
+        begun = [f for f in near if sum(e.causes for e in f.effects) == 1]
+        found = self.executor.each(self.work.as_free_as_asked, begun)
+        return [self.judged(f) for f in found if freedom_of(f.law) > freedom_of(self.stated)]
 
     def simpler(self, scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
         """What effects contain in their places, fitted from where each was found."""

@@ -57,6 +57,11 @@ class Judgement:
         """Probability of what is in no catalogue."""
         return self.probability.get((UNLISTED,), 0.0)
 
+    @property
+    def is_doubted(self) -> bool:
+        """Whether what is in no catalogue may as well be there."""
+        return self.share_of_kin > 1 - VERDICT.credible
+
     def weighing(self, none: ScoredFit) -> list[tuple[ScoredFit, float]]:
         """Whose laws make the band, with their shares.
 

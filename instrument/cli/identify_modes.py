@@ -43,7 +43,8 @@ def identify_modes(
     print_modes(out, result.modes)
     out.say()
     print_modal_law(out, result.law)
-    out.say(f"chi-square per degree of freedom {found.fit.uncertainty.chi2_per_dof:.3g}")
+    by = "" if all(t.states_its_noise for t in tables) else ", by errors of the modes that are assumed"
+    out.say(f"chi-square per degree of freedom {found.fit.uncertainty.chi2_per_dof:.3g}{by}")
     print_formulas(out, result.formulas)
     for text in result.warnings:
         out.say(f"note: {text}")
