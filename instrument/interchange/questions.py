@@ -32,6 +32,8 @@ _MANY, _ENOUGH = 20_000, 2_000
 """Lines of a sweep: more take more than a minute, and say hardly more of a law than as many as are enough."""
 _SECONDS_A_LINE = 3e-3
 """Of a plate's fit on one processor."""
+_BEST_FREQUENCY, _BEST_LOSS = 1e-6, 1e-4
+"""Standard deviations of a mode, relative: a thousandth and a hundredth of what a careful laboratory has."""
 _LOSSY = 2.0
 """More than a mode of any structure has."""
 
@@ -79,9 +81,9 @@ def question_modes(
 
 
 def question_tables(tables: Sequence[ModalTable], paths: Sequence[Path]) -> None:
-    """Ask about tables by themselves: kelvin, percent. Raises `BadInput`."""
+    """Ask about tables by themselves: kelvin, percent, errors too small. Raises `BadInput`."""
     warmest = [float(t.temperature_c.max()) for t in tables if t.temperature_c is not None]
-    _ask(kelvin_doubt(max(warmest, default=None)) or _percent(tables), paths)
+    _ask(kelvin_doubt(max(warmest, default=None)) or _percent(tables) or _too_well_known(tables), paths)
 
 
 def question_modes_at(tables: Sequence[ModalTable], predicted_hz: Array, paths: Sequence[Path]) -> None:
@@ -153,6 +155,21 @@ def _percent(tables: Sequence[ModalTable]) -> str:
         if std is not None and np.median(std / t.loss_factor) > 1:
             most = float(t.loss_factor.max())
             return f"loss_factor_std up to {std.max():g} for loss factors up to {most:g}: is it in percent?"
+    return ""
+
+
+def _too_well_known(tables: Sequence[ModalTable]) -> str:
+    for t in tables:
+        for what, value, std, least in (
+            ("frequency_std_hz", t.frequency_hz, t.frequency_std_hz, _BEST_FREQUENCY),
+            ("loss_factor_std", t.loss_factor, t.loss_factor_std, _BEST_LOSS),
+        ):
+            if std is not None and float(np.median(std / value)) < least:
+                k = int(np.argmin(std / value))
+                return (
+                    f"{what} of {std[k]:.2g} for {value[k]:.5g}: no measurement knows a mode so well, "
+                    "expected standard deviations, in the same unit"
+                )
     return ""
 
 

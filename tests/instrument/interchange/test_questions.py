@@ -17,12 +17,19 @@ from instrument.paper_case import case_file
 HZ = np.array([74.3, 365.6, 922.2, 1670.0])
 
 
-def tables_and_fit(measured_hz, loss_factor=0.2, std=None, temperature_c=None):
+def tables_and_fit(measured_hz, loss_factor=0.2, std=None, temperature_c=None, frequency_std_hz=None):
     """Two tables of two modes, and a fit that knows them in Hz."""
     eta, warm = np.full(2, loss_factor), None if temperature_c is None else np.full(2, temperature_c)
     spread = None if std is None else np.array([1.0, 2.0]) * std
+    known = None if frequency_std_hz is None else np.full(2, frequency_std_hz)
     tables = [
-        SimpleNamespace(frequency_hz=part, loss_factor=eta, loss_factor_std=spread, temperature_c=warm)
+        SimpleNamespace(
+            frequency_hz=part,
+            loss_factor=eta,
+            frequency_std_hz=known,
+            loss_factor_std=spread,
+            temperature_c=warm,
+        )
         for part in np.split(measured_hz, 2)
     ]
     return tables, SimpleNamespace(as_stated_hz=tuple(np.split(HZ, 2)))
@@ -43,6 +50,8 @@ def test_modes_near_the_fit_are_not_asked_about():
         ({"loss_factor": 22.0}, "22: is it in percent"),
         ({"loss_factor": 3.0}, "3: is it in percent"),
         ({"std": 1.5}, "loss_factor_std up to 3 for loss factors up to 0.2: is it in percent"),
+        ({"std": 1e-9}, "loss_factor_std of 1e-09 for 0.2: no measurement knows a mode so well"),
+        ({"frequency_std_hz": 1e-6}, "frequency_std_hz of 1e-06 for 365.6: no measurement"),
         ({"temperature_c": 293.0}, "293: is it in K"),
     ],
 )
