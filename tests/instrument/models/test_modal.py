@@ -12,6 +12,7 @@ from plate_files import plate_text
 
 from fitting.identification.result import doubts_itself
 from fitting.mode_tables.fit import fit_modes
+from fitting.mode_tables.table import ModalTable
 from instrument.cli.main import run
 from instrument.models.modal import identify_tables, remark_on_fit, remark_on_misread
 
@@ -88,7 +89,9 @@ def test_a_table_beside_a_sweep_is_refused(table, capsys):
 
 
 def test_a_fit_that_leaves_the_modes_says_so():
-    tables = [SimpleNamespace(frequency_hz=np.array([100.0, 200.0]), loss_factor=np.array([0.2, 0.2]))]
+    assumed = ModalTable(np.array([1, 2]), np.array([100.0, 200.0]), np.array([0.2, 0.2]))
+    stated = replace(assumed, frequency_std_hz=np.full(2, 0.1), loss_factor_std=np.full(2, 0.01))
+    tables = [stated]
 
     def fit(second_hz, loss, chi2):
         return SimpleNamespace(
@@ -104,6 +107,8 @@ def test_a_fit_that_leaves_the_modes_says_so():
     assert said.startswith("the modes are off by 5.6 times what their errors explain")
     assert "1 % in frequency and 50 % in loss factor" in said
     assert "no damping ratios" in said
+    (said,) = remark_on_fit(fit(202.0, 0.1, 5.6), [assumed])
+    assert said.startswith("the modes are off by 5.6 times what the assumed errors explain")
 
 
 def test_stated_numbers_that_had_to_be_moved_too_far_are_named():
