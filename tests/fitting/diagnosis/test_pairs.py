@@ -313,7 +313,7 @@ def test_nobody_follows_to_its_very_end_what_is_past_help_however_it_ends(refuse
         ScoredFit(fits["b"], 203.0, {"memory": refused}),
         ScoredFit(fits["c"], 300.0, {"memory": 0.5}),
     ]
-    search = SimpleNamespace(temper=lambda best: 1.0, _ends=[])
+    search = SimpleNamespace(reach=lambda best: best.cost + 12.0, _ends=[])
     moving = Search.moving(search, scored, scored[0])
     assert moving == [fits[name] for name in followed]
 
