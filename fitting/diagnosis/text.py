@@ -3,7 +3,7 @@
 import numpy as np
 
 from fitting.arrays import Complex
-from fitting.diagnosis.kin import UNLISTED
+from fitting.diagnosis.kin import CHANCE, UNLISTED
 from fitting.diagnosis.parts_with import part_with
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refitted import Refitted
@@ -104,10 +104,10 @@ def beside_kin(judgement: Judgement) -> list[str]:
     if not any(UNLISTED in group for group in judgement.equivalent.values()):
         return []
     share = _percent(judgement.share_of_kin)
-    return [
-        f"That it is something of its kind, in no catalogue, has {share}: what is left of the readings is "
-        "more like that than what its own formula leaves."
-    ]
+    why = "the readings show too little of it to test its own formula"
+    if judgement.share_of_kin > CHANCE:
+        why = "what is left of the readings is more like that than what its own formula leaves"
+    return [f"That it is something of its kind, in no catalogue, has {share}: {why}."]
 
 
 def _beside_none(judgement: Judgement) -> list[str]:

@@ -4,10 +4,17 @@ import numpy as np
 import pytest
 from shear_pair_cases import pair, sweep
 
+from fitting.diagnosis.kin import UNLISTED
 from fitting.diagnosis.of_files import Place
 from fitting.diagnosis.several import SeveralProblem
 from fitting.diagnosis.small_problem import SmallProblem
-from fitting.diagnosis.text import how_likely, moved_words, next_measurement, where_nothing_explains
+from fitting.diagnosis.text import (
+    beside_kin,
+    how_likely,
+    moved_words,
+    next_measurement,
+    where_nothing_explains,
+)
 from fitting.diagnosis.verdict import Judgement
 
 
@@ -16,6 +23,18 @@ def test_what_is_named_beside_a_likelier_none_is_not_called_most_likely(none, wo
     names = ("gain_error",)
     said = Judgement("ambiguous", None, {}, probability={(): none, names: 0.35})
     assert how_likely(said, names) == words
+
+
+@pytest.mark.parametrize(
+    ("share", "words"),
+    [(0.08, "has 8 %: the readings show too little of it"), (0.3, "has 30 %: what is left of the readings")],
+)
+def test_why_something_in_no_catalogue_may_be_there_depends_on_what_the_readings_say_of_it(share, words):
+    names = {"gain_error": ("gain_error", UNLISTED)}
+    said = Judgement("ambiguous", None, names, probability={("gain_error",): 1 - share, (UNLISTED,): share})
+    (line,) = beside_kin(said)
+    assert words in line
+    assert beside_kin(Judgement("effect", None, {"gain_error": ("gain_error",)})) == []
 
 
 @pytest.mark.parametrize(
