@@ -65,12 +65,21 @@ def verdict_line(found: DiagnosisResult) -> str:
         said += _weighed(found)
     parts = [f"verdict: {'by your word' if found.by_hand else found.verdict}: {said}"]
     for name, group in groups.items():
-        others = [NOT_NAMED.get(n, n) for n in group if n != name]
+        others = [_other(n, found) for n in group if n != name]
         if others:
             parts.append(f"these data cannot tell {name} from {', '.join(others)}")
     if channels:
         parts.append(f"the channels by themselves show {' and '.join(_sized(e) for e in channels)}")
     return "; ".join(parts)
+
+
+def _other(name: str, found: DiagnosisResult) -> str:
+    """What stands beside an effect in its group; how likely, of what is in no catalogue."""
+    said, p = (
+        NOT_NAMED.get(name, name),
+        next((c.probability for c in found.candidates if c.name == name), nan),
+    )
+    return f"{said} ({100 * p:.0f} %)" if name == UNLISTED and not isnan(p) else said
 
 
 def set_aside_words(found: DiagnosisResult) -> str:

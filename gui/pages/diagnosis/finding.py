@@ -18,7 +18,7 @@ _GAP_PX = 12
 _MEANINGS: dict[str, tuple[Role, str]] = {
     "none": ("good", "No structure beyond noise and the model's own error."),
     "effect": ("data", "One explanation, nothing else near it."),
-    "ambiguous": ("fair", "Several explanations fit as well."),
+    "ambiguous": ("fair", "More than one explanation is left."),
     "unknown": ("bad", "Structure that nothing in the catalogue explains."),
 }
 _BY_HAND: tuple[Role, str] = ("fair", "Your word: the data were not asked.")

@@ -100,7 +100,7 @@ def test_what_is_in_no_catalogue_is_not_told_from_what_is_named_and_takes_no_one
     found = doubted()
     said = stand(found)
     assert (said["added_mass"], said[UNLISTED], said["spot_offset"]) == ("found", "equal", "other")
-    assert "cannot tell added_mass from something of its kind in no catalogue" in verdict_line(found)
+    assert "cannot tell added_mass from something of its kind in no catalogue (40 %)" in verdict_line(found)
 
 
 def test_where_nothing_explains_what_is_in_no_catalogue_is_not_what_is_refused():
