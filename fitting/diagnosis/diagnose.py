@@ -101,6 +101,10 @@ def diagnose_task(
     return _diagnosis(decided, reduced, catalogue, bare, channels, why_aside, report)
 
 
+NO_DRIFT = "the points carry no time: that the specimen warmed or cooled during the sweep was not considered"
+"""Of sweeps too long for an even pace to be supposed."""
+
+
 @dataclass(frozen=True)
 class _Decided:
     """The search at its end, one fit of every explanation, and what is made of them."""
@@ -346,8 +350,11 @@ def _warnings(search: Search, judgement: Judgement) -> tuple[str, ...]:
                 "amiss"
             )
     names = {n for group in judgement.equivalent.values() for n in group}
-    if "temperature_drift" in names and not problem.points.timed:
-        said.append("the points carry no time: the drift assumes an even sweep upwards in frequency")
+    if not problem.points.timed:
+        if "temperature_drift" in names:
+            said.append("the points carry no time: the drift assumes an even sweep upwards in frequency")
+        elif not judgement.by_hand and search.objects_to("temperature_drift"):
+            said.append(f"{NO_DRIFT}, expected a column time_s")
     by_hand = judgement.group[0][0] if judgement.by_hand else None
     if by_hand is not None and (why := against_by_checks(by_hand)):
         what = f"{' and '.join(by_hand.names)}, your word," if by_hand.names else "no effect"

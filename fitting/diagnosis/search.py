@@ -96,6 +96,7 @@ class Search:
             [e for e in some if e.objection(problem.points, problem.plate) is None]
             for some in (effects, unnamed)
         )
+        self._objected = {e.name for e in effects} - {e.name for e in self.effects}
         fitted = [e for e in (*self.effects, *self.unnamed) if not e.laws(stated, problem.points)]
         # Those that take longest come first: hands then end at the same time.
         self.beside_the_law = sorted(fitted, key=has_place, reverse=True)
@@ -107,11 +108,17 @@ class Search:
         """Least chi-square of each effect by itself."""
         self.none = self.judged(none)
 
+    def objects_to(self, name: str) -> bool:
+        """Whether an effect was asked for, and these data cannot carry it."""
+        return name in self._objected
+
     def with_evidence(self, evidence: Evidence) -> "Search":
         """The same search of data that are worth something else."""
         none = self.none.fitted
         again = refit(response_of(self.problem, ()), evidence, none.law, none.u)
-        return Search(self.problem, evidence, again, self.effects, self.executor, self.unnamed)
+        search = Search(self.problem, evidence, again, self.effects, self.executor, self.unnamed)
+        search._objected = self._objected
+        return search
 
     def judged(self, fitted: Refitted) -> ScoredFit:
         """A fit with what it is worth."""

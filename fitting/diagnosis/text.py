@@ -191,9 +191,9 @@ def moved_words(problem: DiagnosisProblem, plain: Complex, velocity_m_s: Complex
     parts = []
     for number in np.unique(problem.sweep.segment):
         inside = problem.sweep.segment == number
-        peak = np.flatnonzero(inside)[np.argmax(np.abs(plain[inside]))]
-        most = f"{two_digits(changed[inside].max())} % near {problem.sweep.frequency_hz[peak]:.0f} Hz"
-        parts.append((float(changed[inside].max()), f"{most}{_whose(problem, int(peak))}"))
+        at = int(np.flatnonzero(inside)[np.argmax(changed[inside])])
+        most = f"{two_digits(changed[at])} % near {problem.sweep.frequency_hz[at]:.0f} Hz"
+        parts.append((float(changed[at]), f"{most}{_whose(problem, at)}"))
     if isinstance(problem, SeveralProblem) and len(problem.members) > 1:
         parts = [max(parts)]
     # Beside what it changes elsewhere nobody wants the rest.

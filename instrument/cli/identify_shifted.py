@@ -15,7 +15,12 @@ from instrument.cli.reading import read_tables_at, sweeps_at
 from instrument.errors import BadInput
 from instrument.files.hammer_file import HammerModes
 from instrument.interchange.given import Given
-from instrument.interchange.questions import question_modes_at, question_shift, question_tables
+from instrument.interchange.questions import (
+    question_modes_at,
+    question_reference,
+    question_shift,
+    question_tables,
+)
 from instrument.models.members import AtTemperature
 from instrument.models.temperatures import Shifted
 from instrument.models.temperatures import identify_shifted as identify_at_temperatures
@@ -49,6 +54,8 @@ def identify_shifted(
     if tested is not None and any(one.session for one in given):
         out.say(f"the hammer test is that of {tested[1]}\n")
     modes = tested[0] if tested is not None else None
+    if not insist:
+        question_reference(reference_c, [one.temperature_c for one in sweeps], data)
     found = _fitted(out, sweeps, stated, kind, reference_c, figures, vertical, temperature_k, modes)
     if not insist:
         question_shift(found, data)
@@ -72,6 +79,7 @@ def identify_tables_shifted(
     tables = [one.data for one in every if isinstance(one.data, ModalTable)]
     if not insist:
         question_tables(tables, data)
+        question_reference(reference_c, [one.temperature_c for one in every], data)
     found = _fitted(out, every, stated, kind, reference_c, figures, vertical, temperature_k)
     if not insist:
         question_modes_at(tables, np.exp(found.fit.one.velocity_m_s.real), data)

@@ -102,6 +102,18 @@ def question_temperatures(temperatures_c: Sequence[float | None], paths: Sequenc
         )
 
 
+def question_reference(
+    reference_c: float | None, temperatures_c: Sequence[float], paths: Sequence[Path]
+) -> None:
+    """Ask about a reference temperature far from all that was measured. Raises `BadInput`."""
+    if reference_c is None or not temperatures_c:
+        return
+    cold, warm = min(temperatures_c), max(temperatures_c)
+    if not cold - (warm - cold) <= reference_c <= warm + (warm - cold):
+        hint = ": is it in K?" if kelvin_doubt(reference_c) else ", expected one of these, or one between"
+        _ask(f"--reference-c {reference_c:g}, measured at {cold:g} to {warm:g} degC{hint}", paths)
+
+
 def question_shift(found: Shifted, paths: Sequence[Path]) -> None:
     """Ask about temperatures that would have the core stiffen as it warms. Raises `BadInput`."""
     if found.plainly_stiffens:

@@ -192,7 +192,10 @@ def _turned(mistake: Mistake, factor: complex) -> list[str]:
     if abs(turn) < _SAME_TURN:
         return conjugated
     if abs(abs(turn) - np.pi) < _SAME_TURN:
-        return [*conjugated, "the sign is turned, expected the pickup's and the drive's in one direction"]
+        if mistake.conjugated:
+            # An acceleration or a displacement that is conjugated is a velocity conjugated and turned.
+            return [f"{conjugated[0]} (if it is a velocity, its sign is turned too)"]
+        return ["the sign is turned, expected the pickup's and the drive's in one direction"]
     if abs(abs(turn) - np.pi / 2) < _SAME_TURN:
         if mistake.conjugated:
             return ["real and imaginary part of one channel are exchanged"]

@@ -68,3 +68,12 @@ def test_of_several_files_and_spots_the_most_moved_is_said_with_its_place():
     assert moved(Place(1, 0), Place(1, 1)).endswith(" Hz at pickup 1.")
     assert moved(Place(1, 0), Place(2, 1)).endswith(" Hz in file 2 at pickup 1.")
     assert moved(Place(1)).endswith(" Hz.")
+
+
+def test_the_frequency_that_is_said_is_where_the_response_changes_most():
+    member = SmallProblem.of_small(sweep(pair(0.3), points=20), pair(0.3))
+    plain = member.sweep.response_m_s
+    factor = np.ones(len(plain), complex)
+    factor[13] = 1.5
+    said = moved_words(member, plain, factor * plain)
+    assert f"50 % near {member.sweep.frequency_hz[13]:.0f} Hz" in said

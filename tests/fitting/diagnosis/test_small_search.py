@@ -4,13 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from shear_pair_task import GAIN, HIGH, LAW, MASS, Task
+from shear_pair_task import GAIN, HIGH, LAW, MASS, PAIR, Task
 
 from fitting.diagnosis.candidate_fits import CandidateFits
 from fitting.diagnosis.candidates import Known
-from fitting.diagnosis.diagnose import seen_in_channels
+from fitting.diagnosis.diagnose import NO_DRIFT, seen_in_channels
 from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.singles import Singles
+from fitting.effects import CATALOGUE
 from fitting.effects.base import ChannelFinding, Effect
 from fitting.errors import OutsideModel
 
@@ -257,3 +258,9 @@ def test_what_a_channel_shows_by_itself_is_said_and_its_points_set_aside(clean):
     assert np.all(why == "")
     assert found == ()
     assert len(noise.std_m_s) == len(clean.sweep)
+
+
+def test_that_a_drift_could_not_be_considered_without_times_is_said(clean):
+    drift = CATALOGUE["temperature_drift"].standing_on(PAIR)
+    assert clean.diagnosed(GAIN, drift).warnings == (f"{NO_DRIFT}, expected a column time_s",)
+    assert clean.diagnosed(GAIN).warnings == ()

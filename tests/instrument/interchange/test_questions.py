@@ -11,7 +11,12 @@ from conftest import DATA
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult
 from instrument.interchange.given import read_given
-from instrument.interchange.questions import question_data, question_modes, question_temperatures
+from instrument.interchange.questions import (
+    question_data,
+    question_modes,
+    question_reference,
+    question_temperatures,
+)
 from instrument.paper_case import case_file
 
 HZ = np.array([74.3, 365.6, 922.2, 1670.0])
@@ -89,6 +94,21 @@ def test_one_table_of_modes_of_many_temperatures_is_asked_about():
     asked = r"^b\.csv: temperature_c from 5 to 53 in one table: .* 'identify --shift', or a table for each"
     with pytest.raises(BadInput, match=asked):
         question_modes(tables, fit, [Path("a.csv"), Path("b.csv")])
+
+
+@pytest.mark.parametrize(
+    ("reference_c", "asked"),
+    [
+        (293.15, "measured at 10 to 30 degC: is it in K"),
+        (-20.0, "measured at 10 to 30 degC, expected one of"),
+    ],
+)
+def test_a_reference_temperature_far_from_what_was_measured_is_asked_about(reference_c, asked):
+    paths = [Path("a.csv"), Path("b.csv")]
+    with pytest.raises(BadInput, match=asked):
+        question_reference(reference_c, [30.0, 10.0], paths)
+    for near in (None, 20.0, 45.0):
+        question_reference(near, [30.0, 10.0], paths)
 
 
 def test_a_sweep_through_many_temperatures_is_asked_about():
