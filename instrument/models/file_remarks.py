@@ -5,7 +5,9 @@ from collections.abc import Collection, Sequence
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.digits import two_digits
 from fitting.identification.result import CORE_PA
+from fitting.identification.validation import HeldOutSegment, rms
 from fitting.laws import CoreLaw
 from fitting.strays import strays
 from fitting.structures import AnySpecimen, Beam, ShearPair
@@ -21,6 +23,8 @@ _FAR = 10.0
 """Times the modulus of the law in a file: more is asked about."""
 _OFF_PERCENT = 10.0
 """Of a reading, rms: more than any rig is off."""
+_TIMES_NOISE = 4.0
+"""What a fit leaves over its noise, rms: clean files leave hardly more than their noise. A choice."""
 _WORTH_SAYING_OF_A_BEAM = 1e-3
 """Of a resonance."""
 
@@ -44,6 +48,19 @@ def remarks_on_files(files: Sequence[File]) -> tuple[str, ...]:
             named.setdefault(text, {})
     everyone = {file.name for file in files}
     return tuple(_of(names, everyone) + text for text, names in named.items())
+
+
+def remarks_on_rest(rms_percent: float, held_out: Sequence[HeldOutSegment]) -> tuple[str, ...]:
+    """That a fit leaves far more of the readings than noise, though what may be off explains it."""
+    noise = rms(np.array([h.noise_percent for h in held_out])) if held_out else np.nan
+    if not rms_percent > _TIMES_NOISE * noise:
+        return ()
+    left, times = two_digits(rms_percent), two_digits(rms_percent / noise)
+    return (
+        f"the fit leaves {left} % of the readings (rms), {times} times their noise: counted as what "
+        "channels and theory may be off by, slowly with frequency; an "
+        "effect may look like that, see 'viscorig diagnose'",
+    )
 
 
 def _of(names: Collection[str], everyone: Collection[str]) -> str:

@@ -24,7 +24,12 @@ from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.models.diagnosis import Diagnosed, effects_among
 from instrument.models.exchanged import exchanged, leaves_much
-from instrument.models.file_remarks import remarks_on_files, remarks_on_one_specimen, remarks_on_scale
+from instrument.models.file_remarks import (
+    remarks_on_files,
+    remarks_on_one_specimen,
+    remarks_on_rest,
+    remarks_on_scale,
+)
 from instrument.models.files import File, mounted, numbers_of, one_plate
 from instrument.models.files_at_work import FilesAtWork, SetAside
 from instrument.models.identification import Identified, Joint
@@ -105,7 +110,8 @@ def identify_together(
     bend = remarks_on_bend(fit.law, begun.problem.freedom)
     further = (*scale, *bend, *remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
     result = summarise("direct", sweep, noise, fit, validation, further)
-    result = replace(result, warnings=(*misfit, *result.warnings))
+    rest = remarks_on_rest(result.rms_percent, validation.held_out) if not misfit else ()
+    result = replace(result, warnings=(*misfit, *result.warnings, *rest))
     validated = perf_counter() - checked
     found = Identified(
         result,

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from shear_pair_cases import sweep
 
+from fitting.identification.validation import HeldOutSegment
 from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Core
 from fitting.structures import ShearPair
@@ -14,6 +15,7 @@ from instrument.models.file_remarks import (
     remarks_on_edges,
     remarks_on_files,
     remarks_on_one_specimen,
+    remarks_on_rest,
     remarks_on_scale,
 )
 from instrument.models.files import File
@@ -90,3 +92,12 @@ def test_files_far_off_one_law_that_share_one_pair_are_asked_whether_they_do():
     assert remarks_on_one_specimen(files, 4.0) == remarks_on_one_specimen(files[:1], 41.0) == ()
     other = replace(files[1], specimen=replace(PAIR, mass_kg=1.0))
     assert remarks_on_one_specimen([files[0], other], 41.0) == ()
+
+
+def test_a_fit_that_leaves_far_more_than_noise_says_so_though_tolerances_explain_it():
+    held_out = [HeldOutSegment(1, 3.1, 0.2), HeldOutSegment(2, 3.2, 0.2)]
+    (said,) = remarks_on_rest(1.6, held_out)
+    assert said.startswith("the fit leaves 1.6 % of the readings (rms), 8 times their noise")
+    assert remarks_on_rest(0.7, held_out) == ()
+    assert remarks_on_rest(1.6, ()) == ()
+    assert remarks_on_rest(1.6, [HeldOutSegment(1, 3.1, float("nan"))]) == ()
