@@ -72,21 +72,26 @@ def signals_of(source: str, table: Named, others: Collection[str]) -> list[Signa
 
 
 def _lend_phase(table: Named, parts: dict[tuple[str, ...], dict[Part, str]]) -> None:
-    """A phase that says no more than the only size does is that one's, beside which there may be a base's."""
+    """A phase that says no more than the only size does is that one's, beside which there may be a base's.
+
+    Several are of the sizes whose words they share, each of one.
+    """
     alone = [stem for stem, names in parts.items() if set(names) == {"phase"}]
-    if len(alone) != 1:
-        return
-    (of,) = alone
     sizes = [
-        (stem, names)
+        stem
         for stem, names in parts.items()
-        if not BASE & set(stem)
-        and set(names) in ({"whole"}, {"magnitude"})
+        if set(names) in ({"whole"}, {"magnitude"})
         and not any(np.iscomplexobj(table[name]) for name in names.values())
     ]
-    readings = [stem for stem in parts if stem != of and not BASE & set(stem)]
-    if len(sizes) == len(readings) == 1 and set(of) <= set(sizes[0][0]):
-        sizes[0][1]["phase"] = parts.pop(of)["phase"]
+    owners = {of: [stem for stem in sizes if set(of) <= set(stem)] for of in alone}
+    if len(alone) == 1:
+        (of,) = alone
+        readings = [stem for stem in parts if stem != of and not BASE & set(stem)]
+        owners[of] = [stem for stem in owners[of] if [stem] == readings]
+    found = [stem for (stem, *more) in owners.values() if not more] if all(owners.values()) else []
+    if len(set(found)) == len(alone):
+        for of, stem in zip(alone, found, strict=True):
+            parts[stem]["phase"] = parts.pop(of)["phase"]
 
 
 def _signal(source: str, table: Named, stem: tuple[str, ...], names: dict[Part, str]) -> Signal | None:

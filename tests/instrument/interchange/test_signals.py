@@ -39,3 +39,21 @@ def test_a_phase_that_says_less_than_the_only_size_is_that_ones():
 def test_a_phase_of_something_else_is_nobodys():
     (velocity,) = signals_of("table", {"Velocity [m/s]": SIZE, "Force phase [deg]": TURN}, [])
     assert not np.iscomplexobj(velocity.values)
+
+
+def test_several_phases_are_each_of_the_size_whose_words_they_share():
+    table = {
+        "Acceleration mass (g)": SIZE,
+        "Phase mass (deg)": TURN,
+        "Base accel (g)": 2 * SIZE,
+        "Phase base (deg)": -TURN,
+    }
+    mass, base = signals_of("table", table, [])
+    turn = np.exp(1j * np.radians(TURN))
+    np.testing.assert_allclose(mass.values / mass.values[0], SIZE / SIZE[0] * turn / turn[0])
+    np.testing.assert_allclose(base.values * mass.values, 2 * np.abs(mass.values) ** 2)
+
+
+def test_where_one_of_several_phases_is_of_two_sizes_none_is_lent():
+    table = {"Velocity tip (m/s)": SIZE, "Phase (deg)": TURN, "Base (m/s2)": SIZE, "Phase base (deg)": TURN}
+    assert not any(np.iscomplexobj(s.values) for s in signals_of("table", table, []))
