@@ -55,5 +55,6 @@ def test_several_phases_are_each_of_the_size_whose_words_they_share():
 
 
 def test_where_one_of_several_phases_is_of_two_sizes_none_is_lent():
-    table = {"Velocity tip (m/s)": SIZE, "Phase (deg)": TURN, "Base (m/s2)": SIZE, "Phase base (deg)": TURN}
+    table = {"Velocity tip (m/s)": SIZE, "Velocity root (m/s)": SIZE}
+    table |= {"Phase velocity (deg)": TURN, "Phase tip (deg)": TURN}
     assert not any(np.iscomplexobj(s.values) for s in signals_of("table", table, []))
