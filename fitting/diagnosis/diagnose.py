@@ -9,9 +9,9 @@ from fitting.arrays import Array
 from fitting.aside import Reasons, reasons
 from fitting.diagnosis import text
 from fitting.diagnosis.begin import begin
+from fitting.diagnosis.cautions import warnings_of
 from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.executor import ALONE, Executor
-from fitting.diagnosis.freer_law import freedom_of
 from fitting.diagnosis.kin import UNLISTED, Unlisted, kin_of
 from fitting.diagnosis.pairs import Pairs
 from fitting.diagnosis.prediction import over_noise
@@ -24,10 +24,9 @@ from fitting.diagnosis.singles import Singles
 from fitting.diagnosis.stage import few_of_law, found_effects, mixed_band, stage_of
 from fitting.diagnosis.structure import roughness
 from fitting.diagnosis.thresholds import SEARCH, VERDICT
-from fitting.diagnosis.verdict import Judgement, against_by_checks, in_light_of, judge, told
+from fitting.diagnosis.verdict import Judgement, in_light_of, judge, told
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
-from fitting.identification.result import BIASED
 from fitting.laws import CoreLaw
 from fitting.noise import Noise, noise_of, scatter_of_left
 from fitting.reduced import ReducedPlate
@@ -99,10 +98,6 @@ def diagnose_task(
     else:
         decided = _taken_on_trust(search, [catalogue[name] for name in accepted_by_hand])
     return _diagnosis(decided, reduced, catalogue, bare, channels, why_aside, report)
-
-
-NO_DRIFT = "the points carry no time: that the specimen warmed or cooled during the sweep was not considered"
-"""Of sweeps too long for an even pace to be supposed."""
 
 
 @dataclass(frozen=True)
@@ -193,7 +188,7 @@ def _diagnosis(
             *text.explain(problem, judgement, before, after, found, catalogue),
         ),
         why_aside=reasons(np.zeros(len(problem.sweep), bool), "") if why_aside is None else why_aside,
-        warnings=_warnings(search, judgement),
+        warnings=warnings_of(search, judgement),
         by_hand=judgement.by_hand,
         p_value=decided.resampled.p_value,
         nested_held_out_rms_percent=decided.resampled.nested_rms_percent,
@@ -336,27 +331,3 @@ def _candidate(
         few_of_law(problem, sized, scale),
         dict(scored.checks),
     )
-
-
-def _warnings(search: Search, judgement: Judgement) -> tuple[str, ...]:
-    said, problem = list[str](), search.problem
-    accepted = judgement.accepted
-    if accepted is not None and accepted.names:
-        times = freedom_of(accepted.fitted.law) / freedom_of(search.stated)
-        if times > 1:
-            said.append(
-                f"beside {' and '.join(accepted.names)} the law may bend {times:g} times as far from its "
-                "formula as materials usually do, as the data ask: the core follows another law, or more is "
-                "amiss"
-            )
-    names = {n for group in judgement.equivalent.values() for n in group}
-    if not problem.points.timed:
-        if "temperature_drift" in names:
-            said.append("the points carry no time: the drift assumes an even sweep upwards in frequency")
-        elif not judgement.by_hand and search.objects_to("temperature_drift"):
-            said.append(f"{NO_DRIFT}, expected a column time_s")
-    by_hand = judgement.group[0][0] if judgement.by_hand else None
-    if by_hand is not None and (why := against_by_checks(by_hand)):
-        what = f"{' and '.join(by_hand.names)}, your word," if by_hand.names else "no effect"
-        said.append(f"{what} {why}: something else is missing, and {BIASED}")
-    return tuple(said)

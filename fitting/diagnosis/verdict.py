@@ -60,7 +60,7 @@ class Judgement:
     @property
     def is_doubted(self) -> bool:
         """Whether what is in no catalogue may as well be there."""
-        return self.share_of_kin > 1 - VERDICT.credible
+        return _is_doubted(self.share_of_kin)
 
     def weighing(self, none: ScoredFit) -> list[tuple[ScoredFit, float]]:
         """Whose laws make the band, with their shares.
@@ -78,6 +78,10 @@ class Judgement:
     def of_effect(self, name: str) -> float:
         """Probability that an effect is there, alone or beside another."""
         return float(sum(p for names, p in self.probability.items() if name in names))
+
+
+def _is_doubted(share_of_kin: float) -> bool:
+    return share_of_kin > 1 - VERDICT.credible
 
 
 def told(scored: ScoredFit) -> Judgement:
@@ -169,7 +173,7 @@ class _Weighed:
     @property
     def doubted(self) -> bool:
         """Whether what is in no catalogue may as well be there."""
-        return self.share_of_kin > 1 - VERDICT.credible
+        return _is_doubted(self.share_of_kin)
 
     def judgement(
         self,

@@ -58,8 +58,8 @@ def remarks_on_rest(rms_percent: float, held_out: Sequence[HeldOutSegment]) -> t
     left, times = two_digits(rms_percent), two_digits(rms_percent / noise)
     return (
         f"the fit leaves {left} % of the readings (rms), {times} times their noise: counted as what "
-        "channels and theory may be off by, slowly with frequency; an "
-        "effect may look like that, see 'viscorig diagnose'",
+        "channels and theory may be off by, slowly with frequency; an effect may look like that, see "
+        "'viscorig diagnose'",
     )
 
 
