@@ -9,7 +9,7 @@ from fitting.arrays import Array
 from instrument.errors import BadInput
 from instrument.interchange.celsius import OURS, is_temperature, with_celsius
 from instrument.interchange.found import Columns, Found, Modes
-from instrument.interchange.said_by_name import NotSaid, bracketed, unit_in
+from instrument.interchange.said_by_name import ANGULAR, ANGULAR_HZ, NotSaid, bracketed, unit_in
 from instrument.interchange.signals import Named
 
 Loss = Literal["loss factor", "damping ratio", "quality", "bandwidth", "decrement"]
@@ -40,6 +40,7 @@ def read_modes(source: str, table: Named, found: Found) -> bool:
     kinds = {name: kind for name in table if (kind := _kind(name)) is not None}
     stated = [name for name, kind in kinds.items() if kind in _LOSS_OF or kind == "damping"]
     frequencies = [name for name, kind in kinds.items() if kind == "frequency"]
+    frequencies = [name for name in frequencies if not _is_angular(name)] or frequencies
     numbers = [name for name, kind in kinds.items() if kind == "mode"]
     if not stated or not frequencies:
         return False
@@ -48,7 +49,8 @@ def read_modes(source: str, table: Named, found: Found) -> bool:
             found.said.append(f"{source}: {stated[0]}: of which mode? expected a column of their numbers")
         return False
     _refuse_doubt(source, kinds, frequencies)
-    f = table[frequencies[0]] * _factor(source, frequencies[0], _HZ)
+    units = ANGULAR_HZ if _is_angular(frequencies[0]) else _HZ
+    f = table[frequencies[0]] * _factor(source, frequencies[0], units)
     if not np.all(f > 0):
         raise BadInput(f"{source}: {frequencies[0]}: up from {np.min(f):g}, expected more than 0")
     if len(numbers) > 1:
@@ -90,9 +92,13 @@ def _kind(name: str) -> Kind | None:
         return "quality"
     if "damping" in words:
         return "damping"
-    if words & _FREQUENCY:
+    if words & _FREQUENCY or _is_angular(name):
         return "frequency"
     return "mode" if ordered and ordered[0] in _NUMBER else None
+
+
+def _is_angular(name: str) -> bool:
+    return not set(ANGULAR).isdisjoint(bracketed(name)[1])
 
 
 def _refuse_doubt(source: str, kinds: dict[str, Kind], frequencies: list[str]) -> None:

@@ -16,6 +16,8 @@ from instrument.interchange.celsius import with_celsius
 from instrument.interchange.found import CARRIED, Columns, Found, Ratio
 from instrument.interchange.read_modes import read_modes
 from instrument.interchange.said_by_name import (
+    ANGULAR,
+    ANGULAR_HZ,
     BASE,
     NotSaid,
     axis_of,
@@ -43,6 +45,8 @@ def read_table(source: str, table: Named, found: Found) -> bool:
     table = with_celsius(source, table, found)
     signals = signals_of(source, table, _others())
     frequency = _axis(source, table, _FREQUENCIES, _AXIS_HZ)
+    if frequency is None:
+        frequency = _axis(source, table, ANGULAR, ANGULAR_HZ)
     if frequency is not None:
         used = _on_lines(source, table, frequency, signals, found)
     elif any(s.unit.quantity == "force" for s in signals):
@@ -62,7 +66,7 @@ def _say_left(source: str, table: Named, used: list[Signal], found: Found) -> No
         for n in table
         if n not in taken
         and not any(n.lower().startswith(w) for w in words)
-        and bracketed(n)[1][:1] not in ([axis] for axis in (*_FREQUENCIES, *_TIMES))
+        and bracketed(n)[1][:1] not in ([axis] for axis in (*_FREQUENCIES, *ANGULAR, *_TIMES))
     ]
     if used and left:
         found.said.append(f"passed over: {source}: {', '.join(left)[:_LONGEST]}")

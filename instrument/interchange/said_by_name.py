@@ -48,6 +48,10 @@ _STEMS = {
     "receptance": "m/N",
     _TRANSMISSIBILITY: "(m/s^2)/(m/s^2)",
 }
+ANGULAR = ("omega", "angular", "circular", "kreisfrequenz", "pulsation")
+"""First words of an axis of 2 pi times the frequencies."""
+ANGULAR_HZ = dict.fromkeys(("rad/s", "1/s", ""), 1 / (2 * np.pi))
+"""Its units."""
 _NO_UNIT = ("", "-", "1")
 _LENGTHS = ("cm", "mm", "um", "nm", "in", "ft", "m")
 _SUFFIXES = (
@@ -101,7 +105,8 @@ def bracketed(name: str) -> tuple[str, list[str]]:
 
 
 def _plain(text: str) -> str:
-    """In small letters without accents."""
+    """In small letters without accents, omega in full."""
+    text = text.replace("ω", "omega")
     return "".join(c for c in unicodedata.normalize("NFKD", text.lower()) if not unicodedata.combining(c))
 
 
@@ -223,7 +228,9 @@ def axis_of(
         bracket, said = bracketed(name)
         if not said or said[0] not in words:
             continue
-        unit = bracket.strip().lower() if bracket or len(said) == 1 else _last_unit(said[1:], plain)
+        # Of an angular frequency, and of a circular one.
+        rest = [word for word in said[1:] if word != "frequency"]
+        unit = bracket.strip().lower() if bracket or not rest else _last_unit(rest, plain)
         if unit in plain:
             found.append((len(said), name, plain[unit]))
         else:

@@ -49,7 +49,18 @@ def test_a_motion_in_any_parts_and_units_is_the_same_velocity(table):
 
 
 @pytest.mark.parametrize(
-    "axis", [{"freq": F}, {"frequency_khz": F / 1e3}, {"f [rad/s]": OMEGA}, {"Frequency (Hz)": F}]
+    "axis",
+    [
+        {"freq": F},
+        {"frequency_khz": F / 1e3},
+        {"f [rad/s]": OMEGA},
+        {"Frequency (Hz)": F},
+        {"omega [rad/s]": OMEGA},
+        {"ω (1/s)": OMEGA},
+        {"omega": OMEGA},
+        {"Angular frequency": OMEGA},
+        {"omega_rad_s": OMEGA, "f_hz": F},
+    ],
 )
 def test_an_axis_of_frequencies_is_known_by_its_name_and_unit(axis):
     (columns,) = of({**axis, "velocity_m_s": np.abs(V)}).sweeps

@@ -44,6 +44,18 @@ def test_every_word_for_a_loss_comes_to_the_same(tmp_path, column, values):
     assert read.read == ("half-power" if "Half" in column or "3 dB" in column else None)
 
 
+@pytest.mark.parametrize(
+    "name", ["omega [rad/s]", "ω_n", "Angular frequency (rad/s)", "f_n [Hz],omega [rad/s]"]
+)
+def test_circular_frequencies_are_taken_where_there_are_no_others(tmp_path, name):
+    f = np.array([130.0, 360.0])
+    both = "," in name
+    rows = "\n".join(
+        f"{k},{f'{x},' if both else ''}{2 * np.pi * x},0.03" for k, x in zip((2, 3), f, strict=True)
+    )
+    np.testing.assert_allclose(table_of(tmp_path, f"Mode,{name},eta\n{rows}\n").frequency_hz, f)
+
+
 def test_a_sheet_with_specimens_decimal_commas_and_degrees_fahrenheit(tmp_path):
     text = (
         "Specimen;Mode No.;Resonance frequency [Hz];Half-power bandwidth [Hz];Loss factor;Temp [F]\n"
