@@ -46,6 +46,8 @@ class Glitch:
     rms: float
     """The same, all over it."""
     points: int
+    at_end: bool = False
+    """Whether it goes on up to an end of its curve: nothing shows then that it is local."""
 
 
 def glitches(problem: SmallProblem, law: CoreLaw) -> tuple[Mask, tuple[Glitch, ...]]:
@@ -70,7 +72,8 @@ def glitches(problem: SmallProblem, law: CoreLaw) -> tuple[Mask, tuple[Glitch, .
             aside[at[here]] = True
             f = curve.frequency_hz[here]
             size = float(rest[here].max()), rms(rest[here])
-            found.append(Glitch(float(f.min()), float(f.max()), *size, int(here.sum())))
+            at_end = bool(here[0] or here[-1])
+            found.append(Glitch(float(f.min()), float(f.max()), *size, int(here.sum()), at_end))
     return aside, tuple(found)
 
 

@@ -20,6 +20,7 @@ from fitting.diagnosis.several import SeveralProblem
 from fitting.diagnosis.small_problem import DEAF, SmallProblem
 from fitting.digits import two_digits
 from fitting.errors import OutsideModel
+from fitting.identification.result import BIASED
 from fitting.laws import CoreLaw
 from fitting.noise import Noise, noise_of
 from fitting.reduced import ReducedPlate
@@ -49,10 +50,14 @@ class SetAside:
         """Where, in a sentence."""
         name = name_of(files, self.file)
         of = f"{name}: " if name else ""
+        found = f"{of}{self.glitch.low_hz:.0f} to {self.glitch.high_hz:.0f} Hz is a local disturbance"
+        largest = f"(up to {100 * self.glitch.largest:.2g} %), as of a fixture's resonance"
+        aside = f"{self.glitch.points} points set aside"
+        if not self.glitch.at_end:
+            return f"{found} {largest}: {aside}"
         return (
-            f"{of}{self.glitch.low_hz:.0f} to {self.glitch.high_hz:.0f} Hz is a local disturbance (up to "
-            f"{100 * self.glitch.largest:.2g} %), as of a fixture's resonance: {self.glitch.points} points "
-            "set aside"
+            f"{found} {largest} or of a sensor that is loose, up to where the curve ends, so that the rest may "
+            f"have it too, unseen: {aside}; {BIASED}, see 'viscorig diagnose'"
         )
 
 

@@ -38,6 +38,17 @@ def test_a_resonance_of_the_fixture_is_set_aside_as_far_as_it_shows():
     assert found.largest == pytest.approx(top, rel=0.15)
 
 
+def test_a_stretch_up_to_where_the_curve_ends_says_so():
+    def rises(f):
+        return 1 + 0.15 * (f / f.max()) ** 12
+
+    f, aside, (found,) = looked_at(rises)
+    assert aside[-1]
+    assert found.at_end
+    assert found.high_hz == f.max()
+    assert not looked_at(resonance(300.0))[2][0].at_end
+
+
 def test_two_resonances_are_two_stretches():
     _, _, found = looked_at(lambda f: resonance(200.0)(f) * resonance(500.0)(f))
     assert [round(g.low_hz < at < g.high_hz) for g, at in zip(found, (200.0, 500.0), strict=True)] == [1, 1]

@@ -8,6 +8,7 @@ from shear_pair_cases import pair, sweep
 
 from fitting.aside import DISTURBED
 from fitting.diagnosis.glitch import Glitch
+from fitting.identification.result import doubts_itself
 from instrument.models.files import File
 from instrument.models.files_at_work import FilesAtWork, SetAside
 from instrument.progress import quiet
@@ -43,6 +44,13 @@ def test_a_stretch_is_told_with_its_file():
     one = SetAside(1, Glitch(100.0, 130.0, 0.03, 0.01, 40))
     assert one.words(FILES).startswith("a.csv: 100 to 130 Hz is a local disturbance (up to 3 %)")
     assert one.words(FILES).endswith("40 points set aside")
+
+
+def test_a_stretch_up_to_where_its_curve_ends_is_doubt():
+    words = SetAside(1, Glitch(100.0, 130.0, 0.03, 0.01, 40, at_end=True)).words(FILES)
+    assert "or of a sensor that is loose, up to where the curve ends" in words
+    assert doubts_itself([words])
+    assert not doubts_itself([SetAside(1, Glitch(100.0, 130.0, 0.03, 0.01, 40)).words(FILES)])
 
 
 @pytest.mark.parametrize(
