@@ -56,8 +56,8 @@ class SetAside:
         if not self.glitch.at_end:
             return f"{found} {largest}: {aside}"
         return (
-            f"{found} {largest} or of a sensor that is loose, up to where the curve ends, so that the rest may "
-            f"have it too, unseen: {aside}; {BIASED}, see 'viscorig diagnose'"
+            f"{found} {largest} or of a sensor that is loose, up to where the curve ends, so that the rest "
+            f"may have it too, unseen: {aside}; {BIASED}, see 'viscorig diagnose'"
         )
 
 
