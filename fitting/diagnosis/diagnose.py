@@ -311,7 +311,7 @@ def _candidate(
     noise_known: bool,
 ) -> Candidate:
     if isinstance(scored, Unlisted):
-        law = mixed_band(problem, search, ((scored, 1.0),), few=True)
+        law = mixed_band(problem, search, scored.weighing(search.none), few=True)
         share = judgement.probability[scored.names]
         cost, left = scored.cost - best, scored.chi2_per_dof
         return Candidate((FoundEffect(UNLISTED, {}),), cost, left, share, law)

@@ -42,6 +42,9 @@ twenty effects given 95 % and more were there in 94 of 100, and with the true on
 plates were certain of another; at one in eight in 97, and a fiftieth (docs/evidence/diagnosis.md)."""
 SHARES = (0.03, 0.1, 0.3, 1.0)
 """Of what is explained, that kin may differ by: one as likely as another. A choice."""
+ANOTHER = 0.3
+"""A share from which on it is another thing, not the same by another formula. A choice: the base rolls or a
+piece is missing, a mass explains it nearly, and the law is off by 10 to 40 %, that of no effect by 4."""
 FREQUENCY, LOSS, _GAIN = 0.01, 0.1, 0.03
 """What a cause does to a resonance, to its loss factor and to the gain of a segment, relative: where effects
 of the catalogue show, these go together. Only their proportions count."""
@@ -71,6 +74,8 @@ class Kin:
     """Covariance, beyond the explanation's own, of all its columns. Shape (columns, columns)."""
     along: Array
     """How far it goes along each direction. Shape (directions,)."""
+    apart: float = 0.0
+    """The chance that its share is one of another thing."""
     leaves: float = float("nan")
     """Chi-square of the readings, as far as they are linear."""
 
@@ -93,6 +98,15 @@ class Unlisted(ScoredFit):
         (first, kin, _), *_ = self.of
         dof = first.fitted.data - first.fitted.parameter_count
         return kin.leaves / dof if dof > 0 else float("nan")
+
+    def weighing(self, none: ScoredFit) -> list[tuple[ScoredFit, float]]:
+        """Whose laws are its own, with their shares.
+
+        As long as it is the explanation but for its formula it leaves the law nearly there. Another thing may
+        leave it anywhere: where it is without any effect half of the time, in the place of more.
+        """
+        back = sum(part * kin.apart for _, kin, part in self.of) / 2
+        return [(none, back), (self, 1 - back)]
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -193,7 +207,7 @@ def weighed(C: Array, by: Array, dd: Array, b: Array, explained: float, shares: 
     moved = -x @ by.T @ C
     off = moved - share @ moved
     wider = np.tensordot(share, np.array(more), 1) + (off.T * share) @ off
-    return Kin(odds, share @ moved, wider, share @ x)
+    return Kin(odds, share @ moved, wider, share @ x, float(share @ (np.array(shares) >= ANOTHER)))
 
 
 def _directions(search: Search, fitted: Refitted) -> Array:

@@ -73,7 +73,8 @@ class Judgement:
         if self.verdict == "unknown":
             return [(none, 0.5), (self.unlisted, 0.5)]
         akin = self.share_of_kin
-        return [*((t, (1 - akin) * share) for t, share in self.group), (self.unlisted, akin)]
+        listed = [(t, (1 - akin) * share) for t, share in self.group]
+        return [*listed, *((t, akin * share) for t, share in self.unlisted.weighing(none))]
 
     def of_effect(self, name: str) -> float:
         """Probability that an effect is there, alone or beside another."""

@@ -145,4 +145,5 @@ def _said(fault: dict[str, Any], prefix: str, model: type[BaseModel] | None = No
         return f"{place}: {'[[' + place + ']], ' if several else found}expected one table [{place}]"
     if place == prefix:
         return message
-    return f"{place}: {found}{message[:1].lower()}{message[1:]}"
+    in_pa = fault["type"] == "less_than_equal" and place.endswith(("_gpa", "_mpa"))
+    return f"{place}: {found}{message[:1].lower()}{message[1:]}{': is it in Pa?' if in_pa else ''}"

@@ -82,12 +82,14 @@ def _band_over(
     return mixture_of([band for band, _ in each], np.array([share for _, share in each]))
 
 
-def _few_of_law(found: DiagnosedModes, scored: ScoredFit, tables: Sequence[ModalTable]) -> LawBand:
-    """The law of an explanation at a few frequencies."""
+def _few_of_law(
+    found: DiagnosedModes, weighing: Sequence[tuple[ScoredFit, float]], tables: Sequence[ModalTable]
+) -> LawBand:
+    """The same at a few frequencies."""
     f = listed_hz(tables, FEW)
     each = [
         (band_of(*law_with(one.fitted, found.temper * one.fitted.covariance, kin), f), share)
-        for one, kin, share in each_of(((scored, 1.0),))
+        for one, kin, share in each_of(weighing)
     ]
     return mixture_of([band for band, _ in each], np.array([share for _, share in each]))
 
@@ -103,13 +105,14 @@ def _candidate(found: DiagnosedModes, scored: ScoredFit, tables: Sequence[ModalT
     # Its sizes are those of the verdict, which may have the last word on them.
     sized = accepted if accepted is not None and accepted.names == scored.names else scored
     akin = isinstance(scored, Unlisted)
+    whose = scored.weighing(found.none) if isinstance(scored, Unlisted) else [(sized, 1.0)]
     chi2 = scored.chi2_per_dof if isinstance(scored, Unlisted) else scored.fitted.chi2_per_dof
     return Candidate(
         (FoundEffect(UNLISTED, {}),) if akin else _effects(found, sized),
         scored.cost - found.scored[0].cost,
         chi2 if known else float("nan"),
         found.judgement.probability.get(scored.names, 0.0),
-        _few_of_law(found, sized, tables),
+        _few_of_law(found, whose, tables),
         dict(scored.checks),
     )
 

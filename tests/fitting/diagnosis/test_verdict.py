@@ -349,10 +349,10 @@ def test_two_effects_of_which_one_has_no_size_are_not_sure(unsized, verdict):
     assert found.accepted is pair
 
 
-def with_kin(odds, *scored_fits, none=POOR_NONE):
+def with_kin(odds, *scored_fits, none=POOR_NONE, apart=0.0):
     def kin(one):
         found = odds.get(one.names)
-        return None if found is None else Kin(found, np.zeros(1), np.zeros((1, 1)), np.zeros(1))
+        return None if found is None else Kin(found, np.zeros(1), np.zeros((1, 1)), np.zeros(1), apart)
 
     return judge(none, scored_fits, hidden=frozenset(), held_out=lambda one: 1.0, kin=kin)
 
@@ -378,6 +378,19 @@ def test_what_may_be_akin_and_in_no_catalogue_is_not_certain_and_not_named_where
         assert "in no catalogue" in said.why
     else:
         assert said.equivalent["gain_error"] == ("gain_error", "unlisted")[: 1 + (verdict == "ambiguous")]
+
+
+@pytest.mark.parametrize("apart", [0.0, 0.3, 1.0])
+def test_what_is_in_no_catalogue_may_leave_the_law_where_no_effect_does(apart):
+    said = with_kin({("gain_error",): 0.25}, scored("gain_error", cost=0.0), apart=apart)
+    listed, without, akin = said.weighing(POOR_NONE)
+    assert [one.names for one, _ in (listed, without, akin)] == [("gain_error",), (), ("unlisted",)]
+    assert [share for _, share in (listed, without, akin)] == pytest.approx(
+        [0.8, 0.2 * apart / 2, 0.2 * (1 - apart / 2)]
+    )
+    # Where nothing else explains the readings half of it is there.
+    alone = with_kin({("gain_error",): 1e9}, scored("gain_error", cost=0.0), apart=apart)
+    assert [share for _, share in alone.weighing(POOR_NONE)] == [0.5, 0.5]
 
 
 def test_kin_is_asked_of_what_nothing_refuses():

@@ -12,6 +12,7 @@ class Small(TomlTable):
     on: bool = True
     name: str = ""
     several: tuple[float, ...] = ()
+    young_gpa: Positive = 1.0
 
 
 @pytest.mark.parametrize(
@@ -19,6 +20,11 @@ class Small(TomlTable):
     [
         ('number = "0.3"', "number: '0.3', expected a number"),
         ("number = -1.0", "number: -1.0, expected a number greater than 0"),
+        ("number = 7e10", "number: 70000000000.0, expected a number less than or equal to 1000000000"),
+        (
+            "young_gpa = 7e10",
+            "young_gpa: 70000000000.0, expected a number less than or equal to 1000000000: is it in Pa?",
+        ),
         ("number = nan", "number: nan, expected a finite number"),
         ("number = inf", "number: inf, expected a finite number"),
         ("count = 1.5", "count: 1.5, expected a whole number"),
