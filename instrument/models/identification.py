@@ -28,6 +28,7 @@ from fitting.specimen import Specimen
 from fitting.strays import strays
 from fitting.sweep import Sweep
 from fitting.theory_error import TheoryError
+from instrument.models.quick_look import remarks_on_reading
 from instrument.models.remarks import (
     remarks_on_bend,
     remarks_on_damping,
@@ -141,6 +142,8 @@ def identify(
     with threadpool_limits(1, "blas"), progress("validating") as report:
         validation = problem.validated(sweep, noise, fit, report)
     result = summarise(method, sweep, noise, fit, validation, further)
+    reading = remarks_on_reading(sweep, specimen, result.rms_percent, progress)
+    result = replace(result, warnings=(*reading, *result.warnings))
     return Identified(
         result,
         sweep,

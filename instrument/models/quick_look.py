@@ -11,6 +11,7 @@ import numpy as np
 
 from fitting.arrays import Complex
 from fitting.errors import FittingError
+from fitting.identification.result import LOST_PERCENT
 from fitting.specimen import Drive, Reading, Specimen
 from fitting.structures import AnySpecimen, Beam
 from fitting.sweep import Sweep
@@ -50,6 +51,24 @@ def data_doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress = quiet) 
     with np.errstate(all="ignore"):
         # What is meant otherwise may well divide by zero.
         return _doubt(sweep, specimen, progress)
+
+
+def remarks_on_reading(
+    sweep: Sweep, specimen: AnySpecimen, rms_percent: float, progress: Progress = quiet
+) -> tuple[str, ...]:
+    """That a fit which leaves `rms_percent` would follow readings of absolute velocities; empty otherwise."""
+    if rms_percent < LOST_PERCENT or specimen.drive != "base" or specimen.reads != "relative":
+        return ()
+    sweep, specimen = _one_spot(sweep, specimen)
+    with np.errstate(all="ignore"):
+        model = any_core(specimen, sweep.frequency_hz, progress)
+        absolute = _as_is(sweep, replace(model, reads="absolute")).distance
+        if not _likely(absolute, _as_is(sweep, model).distance):
+            return ()
+    return (
+        "read as absolute velocities the data are this specimen's nearly, as relative to its clamp they are "
+        "not: if the pickup does not move with the base, [pickup] reads = 'absolute' is missing",
+    )
 
 
 def _doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> str:

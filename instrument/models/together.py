@@ -33,6 +33,7 @@ from instrument.models.file_remarks import (
 from instrument.models.files import File, mounted, numbers_of, one_plate
 from instrument.models.files_at_work import FilesAtWork, SetAside
 from instrument.models.identification import Identified, Joint
+from instrument.models.quick_look import remarks_on_reading
 from instrument.models.remarks import remarks_on_bend
 from instrument.models.second_process import executor
 from instrument.models.set_up import Hammer
@@ -111,7 +112,8 @@ def identify_together(
     further = (*scale, *bend, *remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
     result = summarise("direct", sweep, noise, fit, validation, further)
     rest = remarks_on_rest(result.rms_percent, validation.held_out) if not misfit else ()
-    result = replace(result, warnings=(*misfit, *result.warnings, *rest))
+    reading = remarks_on_reading(files[0].sweep, plate, result.rms_percent, progress)
+    result = replace(result, warnings=(*reading, *misfit, *result.warnings, *rest))
     validated = perf_counter() - checked
     found = Identified(
         result,

@@ -12,7 +12,7 @@ from fitting.structures.small_modes import small_velocity
 from fitting.sweep import Sweep
 from instrument.files.structure_file import read_structure
 from instrument.models import quick_look
-from instrument.models.quick_look import data_doubt
+from instrument.models.quick_look import data_doubt, remarks_on_reading
 from instrument.models.specimen_models import Models
 
 F = np.geomspace(14.0, 70.0, 15)
@@ -142,6 +142,16 @@ def test_that_a_laser_reads_more_than_is_stated_is_left_to_a_diagnosis_and_less_
     assert said == (
         "it looks as if the pickup's reading is relative to the clamp: [pickup] reads says absolute"
     )
+
+
+def test_a_law_that_does_not_follow_readings_of_absolute_velocities_says_so(plate, right):
+    absolute = replace(right, velocity_m_s=right.velocity_m_s + right.base_m_s2 / OMEGA)
+    (said,) = remarks_on_reading(absolute, plate, 100.0)
+    assert "[pickup] reads = 'absolute' is missing" in said
+    # A fit that follows has nothing to say of it, nor one of something else.
+    assert remarks_on_reading(absolute, plate, 3.0) == ()
+    assert remarks_on_reading(times(3.0)(right), plate, 100.0) == ()
+    assert remarks_on_reading(absolute, replace(plate, reads="absolute"), 100.0) == ()
 
 
 def test_amplitudes_have_no_sign_to_be_wrong(plate, right):
