@@ -98,7 +98,12 @@ class ClampLineEffect(Effect):
         return float(u[0])
 
     def story(self, u: Mapping[str, float]) -> str:
-        return f"the plate is free over {1e3 * u['dlength']:+.1f} mm more than its stated length"
+        return f"the plate is free over {_beside_stated(u)}"
+
+
+def _beside_stated(u: Mapping[str, float]) -> str:
+    mm = 1e3 * u["dlength"]
+    return f"{abs(mm):.1f} mm {'more' if mm > 0 else 'less'} than its stated length"
 
 
 class ClampLineOfBeamEffect(ClampLineEffect):
@@ -118,4 +123,4 @@ class ClampLineOfBeamEffect(ClampLineEffect):
         return replace(moved(plate, {"span": float(u[0])}), observe=observe)
 
     def story(self, u: Mapping[str, float]) -> str:
-        return f"the beam is free over {1e3 * u['dlength']:+.1f} mm more than its stated length"
+        return f"the beam is free over {_beside_stated(u)}"

@@ -69,3 +69,10 @@ def test_one_of_two_masses_is_what_both_are_without_the_other(full):
         without = u.copy()
         without[3 * (1 - number)] = 0.0
         assert np.allclose(form.change(full.spanned, without).M, one.change(full.spanned, its).M)
+
+
+@pytest.mark.parametrize(("dlength", "words"), [(0.0038, "3.8 mm more than"), (-0.0038, "3.8 mm less than")])
+@pytest.mark.parametrize("kind", ["plate", "beam"])
+def test_a_clamp_line_elsewhere_is_told_by_how_far(kind, dlength, words):
+    said = CATALOGUE["clamp_line"].on(kind).story({"dlength": dlength})
+    assert said == f"the {kind} is free over {words} its stated length"
