@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fitting.arrays import Array
 from fitting.aside import Reasons, reasons
 from fitting.diagnosis import text
 from fitting.diagnosis.begin import begin
@@ -13,6 +12,7 @@ from fitting.diagnosis.cautions import warnings_of
 from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.kin import UNLISTED, Unlisted, kin_of
+from fitting.diagnosis.overstated_noise import is_overstated, with_noise_of_left
 from fitting.diagnosis.pairs import Pairs
 from fitting.diagnosis.prediction import over_noise
 from fitting.diagnosis.problem import DiagnosisProblem
@@ -22,13 +22,12 @@ from fitting.diagnosis.result import Candidate, Diagnosis, FoundEffect, Paramete
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.singles import Singles
 from fitting.diagnosis.stage import few_of_law, found_effects, mixed_band, stage_of
-from fitting.diagnosis.structure import roughness
-from fitting.diagnosis.thresholds import SEARCH, VERDICT
+from fitting.diagnosis.thresholds import SEARCH
 from fitting.diagnosis.verdict import Judgement, in_light_of, judge, told
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
-from fitting.noise import Noise, noise_of, scatter_of_left
+from fitting.noise import Noise, noise_of
 from fitting.reduced import ReducedPlate
 from fitting.sweep import Sweep
 
@@ -199,11 +198,9 @@ def _diagnosis(
 def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, list[ScoredFit], Judgement]:
     """The whole catalogue, and the verdict; the search as it ended."""
     singles = Singles(search, lambda x: report(0.5 * x)).best()
-    share = _noise_left(search, singles) if noise.source == "local scatter" else 1.0
-    if share < VERDICT.overstated:
-        # What scatters from point to point need not be noise: a drift does, in a sweep that jumps about, and
-        # so does a resonance of a few points.
-        search = search.with_evidence(search.evidence.with_noise(_noise_of_left(search, singles[0])))
+    sweep = search.problem.sweep
+    if singles and is_overstated(sweep, noise, search.evidence, singles[0].fitted):
+        search = search.with_evidence(with_noise_of_left(sweep, search.evidence, singles[0].fitted))
         singles = Singles(search, lambda x: report(0.5)).best()
     singles = _bettered(singles, [one for best in singles[:1] for one in search.elsewhere(best)])
     leading = [t for t in singles if t.cost < singles[0].cost + SEARCH.near]
@@ -241,24 +238,6 @@ def _bettered(known: Sequence[ScoredFit], found: Sequence[ScoredFit]) -> list[Sc
         if scored.names not in cheapest or scored.cost < cheapest[scored.names].cost:
             cheapest[scored.names] = scored
     return sorted(cheapest.values(), key=_cost)
-
-
-def _noise_left(search: Search, scored_fits: Sequence[ScoredFit]) -> float:
-    """Variance of what the best fit leaves, or of what of it jumps from point to point, over the noise's."""
-    if not scored_fits:
-        return 1.0
-    best = scored_fits[0].fitted
-    parts = 2 if search.evidence.has_phase else 1
-    rough = roughness(search.problem.sweep, best.residuals[: best.data], parts)
-    return float(np.nanmin([best.chi2_per_dof, rough]))
-
-
-def _noise_of_left(search: Search, best: ScoredFit) -> Array:
-    """Noise of every point by what the best fit leaves, its unknowns counted. Shape (points,)."""
-    fitted, measured = best.fitted, search.evidence.measured_m_s
-    v = fitted.velocity_m_s if search.evidence.has_phase else np.abs(fitted.velocity_m_s)
-    dof = max(1, fitted.data - fitted.parameter_count)
-    return scatter_of_left(search.problem.sweep, v - measured) * float(np.sqrt(fitted.data / dof))
 
 
 def _rivals(

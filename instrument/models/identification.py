@@ -13,6 +13,7 @@ from fitting.aside import LOST, Reasons, reasons
 from fitting.diagnosis.begin import Begun, begin
 from fitting.diagnosis.freer_law import loosened
 from fitting.diagnosis.joint import fit_of
+from fitting.diagnosis.overstated_noise import with_own_noise
 from fitting.diagnosis.prediction import held_out
 from fitting.digits import written_out
 from fitting.errors import OutsideModel
@@ -183,7 +184,7 @@ class _Direct:
 
     def fit(self, start: CoreLaw, report: Report) -> Fit:
         begun = begin(self._ready.problem, self._ready.reduced, self._noise, self._ready.bare, start)
-        self._begun = loosened(begun)
+        self._begun = loosened(with_own_noise(begun, self._noise))
         return fit_of(self._begun)
 
     def validated(self, sweep: Sweep, noise: Noise, fit: Fit, report: Report) -> Validation:

@@ -13,6 +13,7 @@ from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
 from fitting.diagnosis.freer_law import loosened
 from fitting.diagnosis.joining import joined
 from fitting.diagnosis.joint import fit_of
+from fitting.diagnosis.overstated_noise import with_own_noise
 from fitting.diagnosis.prediction import held_out
 from fitting.diagnosis.result import FoundEffect, ParameterEstimate
 from fitting.errors import OutsideModel
@@ -93,7 +94,7 @@ def identify_together(
             begun, noise = work.fit()
         else:
             # What a misfit says of a law's form is a guess.
-            begun = loosened(begun)
+            begun = loosened(with_own_noise(begun, noise))
         other = exchanged(files) if scatters or leaves_much(begun) else None
         misfit = (work.about_misfit(),) if scatters else ()
         if other is not None:
