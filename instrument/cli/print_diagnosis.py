@@ -108,9 +108,10 @@ def print_before_after(out: Output, found: DiagnosisResult) -> None:
 
 
 def _print_candidates(out: Output, found: DiagnosisResult) -> None:
-    candidates = found.candidates
+    # A probability is not by the fit alone: what stands in for anything shares with what does not.
+    candidates = sorted(found.candidates, key=lambda c: -c.probability)
     shown = candidates[:_MOST_CANDIDATES]
-    shown += tuple(c for c in candidates[_MOST_CANDIDATES:] if c.name in NOT_NAMED)
+    shown += [c for c in candidates[_MOST_CANDIDATES:] if c.name in NOT_NAMED]
     rows = [
         [
             candidate_words(c.name),
@@ -122,7 +123,7 @@ def _print_candidates(out: Output, found: DiagnosisResult) -> None:
     ]
     more = f", {len(shown)} of {len(candidates)}" if len(shown) < len(candidates) else ""
     columns = ["effect", "probability", "chi2/degree", "parameters, +- one standard error"]
-    out.table(f"candidates, best first{more}", columns, rows)
+    out.table(f"candidates, likeliest first{more}", columns, rows)
 
 
 def _print_law(out: Output, found: DiagnosisResult) -> None:

@@ -60,6 +60,11 @@ _FACE = {
     "poisson": Usual(0.1, 0.5, "metals 0.25 to 0.35", {}),
     "loss_factor": Usual(0.0, 0.5, "metals below 0.01", {"%": 1e-2}),
 }
+_GLUE = {
+    "shear_mpa": Usual(2.0, 20_000.0, "epoxies 300 to 2000", {"GPa": 1e3, "Pa": 1e-6}),
+    "thickness_mm": Usual(1e-3, 5.0, "films 0.01 to 0.5", _LENGTH),
+    "density_kg_m3": Usual(100.0, 8_000.0, "epoxies 1200", {"g/cm3": 1e3, "g/m3": 1e-3}),
+}
 _CORE = {
     "density_kg_m3": Usual(5.0, 8_000.0, "rubber 1000", {"g/cm3": 1e3, "g/m3": 1e-3}),
     "thickness_mm": Usual(0.005, 100.0, "films 0.02 to 2", _LENGTH),
@@ -99,6 +104,9 @@ def specimen_doubts(tables: dict[str, Any]) -> list[str]:
         found += outside(name, tables.get(name), usual)
     for name in _LAYERS:
         found += _metal(name, tables.get(name))
+    glues = tables.get("glue")
+    for glue in glues if isinstance(glues, list) else []:
+        found += outside("glue", glue, _GLUE)
     placed = tables.get("mass")
     for mass in placed if isinstance(placed, list) else []:
         found += outside("mass", mass, _PLACED)

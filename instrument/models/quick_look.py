@@ -75,6 +75,7 @@ def _doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> str:
     f = sweep.frequency_hz
     if f.max() < _LOWEST_HZ:
         return f"{f.min():g} to {f.max():g} Hz: the frequencies are in kHz, expected Hz"
+    others = _other_spots(sweep, specimen)
     sweep, specimen = _one_spot(sweep, specimen)
     try:
         model = any_core(specimen, sweep.frequency_hz, progress)
@@ -91,6 +92,9 @@ def _doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> str:
     if otherwise < NEAR or _likely(otherwise, as_is.distance):
         # That a laser reads absolute velocities where relative ones are stated is the diagnosis's to say.
         return _RELATIVE if model.reads == "absolute" else ""
+    for words, elsewhere in others:
+        if _explains(_distance_of(sweep, elsewhere, progress), as_is.distance):
+            return f"it looks as if {words}"
     far = as_is.distance > 2 * NEAR
     if far and isinstance(specimen, Beam) and specimen.boundary != "centre-driven":
         left, words = unstated_mass(specimen, lambda carrying: _distance_of(sweep, carrying, progress))
@@ -217,6 +221,20 @@ def _one_spot(sweep: Sweep, specimen: AnySpecimen) -> tuple[Sweep, AnySpecimen]:
         sweep = replace(sweep.take(sweep.pickup == first), pickup=None)
         specimen = specimen.at_pickup(first)
     return sweep.thinned(_ENOUGH), specimen
+
+
+def _other_spots(sweep: Sweep, specimen: AnySpecimen) -> list[tuple[str, AnySpecimen]]:
+    """Where the first spot in the data may be instead, of those that are stated, and words for each."""
+    if sweep.pickup is None or not isinstance(specimen, Specimen | Beam):
+        return []
+    first, *others = (int(k) for k in np.unique(sweep.pickup))
+    return [
+        (
+            f"spots {first} and {k} are exchanged: what stands as pickup {first} is read at {k}",
+            specimen.at_pickup(k),
+        )
+        for k in others
+    ]
 
 
 def _as_is(sweep: Sweep, model: AnyCore) -> Nearest:

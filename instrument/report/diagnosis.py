@@ -132,10 +132,10 @@ def _candidates(found: DiagnosisResult) -> TableBlock:
             format_number(c.chi2_per_dof, 3),
             some_parameters(c.parameters) or "-",
         )
-        for k, c in enumerate(found.candidates)
+        for k, c in enumerate(sorted(found.candidates, key=lambda c: -c.probability))
         if k < _MOST_CANDIDATES or c.name == "none"
     )
-    title = f"Candidates, best first ({len(found.candidates)} were fitted)"
+    title = f"Candidates, likeliest first ({len(found.candidates)} were fitted)"
     return TableBlock(title, ("effect", "probability", "chi² / degree", "parameters"), rows)
 
 

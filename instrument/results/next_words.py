@@ -1,11 +1,12 @@
 """What would tell explanations apart, as people read it: one sentence for the best, a row for each."""
 
 from collections.abc import Sequence
+from math import log
 
 from fitting.digits import times
 from instrument.facts.follow_up import FollowUp, FollowUpKind
 
-NEXT_TITLE = "what would tell the explanations apart, best first"
+NEXT_TITLE = "what would tell the explanations apart if one of them is true, best first"
 NEXT_COLUMNS = ("what to measure", "s of rig and hands", "settles it", "likelier by")
 
 _FOLLOWING: dict[FollowUpKind, str] = {
@@ -19,6 +20,8 @@ _FOLLOWING: dict[FollowUpKind, str] = {
     "damped_struck": "the damped plate struck",
 }
 
+_BEYOND_DOUBT = log(1.001e6)
+"""Of odds: no explanation, nor the program, is known well enough for more to mean anything."""
 _MOST_NAMED = 3
 """Of a group, in a sentence: its table names all."""
 
@@ -26,7 +29,8 @@ _MOST_NAMED = 3
 def advice(offer: FollowUp) -> str:
     """Which explanations, by which measurement, where, why, what it costs and what may be hoped for."""
     what = f"{offer.todo[0].lower()}{offer.todo[1:]}"
-    cost = f"It takes {offer.seconds:.0f} s and settles the matter with {_percent(offer)} chance"
+    takes, settles = f"It takes {offer.seconds:.0f} s", f"settles the matter with {_percent(offer)} chance"
+    cost = f"{takes} and, if one of these is true, {settles}"
     cost += f"; if not, {_FOLLOWING[offer.then]} should follow." if offer.then else "."
     return f"T{apart_words(offer.between)[1:]}, {what} {offer.why} {cost}"
 
@@ -38,7 +42,7 @@ def kind_words(kind: FollowUpKind) -> str:
 
 def next_row(offer: FollowUp) -> tuple[str, ...]:
     """One row under `NEXT_COLUMNS`."""
-    return offer.todo, f"{offer.seconds:.0f}", _percent(offer), times(offer.separation)
+    return offer.todo, f"{offer.seconds:.0f}", _percent(offer), times(min(offer.separation, _BEYOND_DOUBT))
 
 
 def apart_words(between: Sequence[str]) -> str:

@@ -54,7 +54,7 @@ def test_what_scatters_for_having_few_points_is_no_noise():
 
 
 def test_noise_as_it_scatters_is_kept_and_so_is_what_is_stated():
-    dense, noise, true = begun(400)
+    dense, noise, _ = begun(400)
     assert share_left(dense.problem.sweep, dense.evidence, dense.none) == pytest.approx(1.0, abs=0.25)
     assert with_own_noise(dense, noise) is dense
     stated, noise, _ = begun(70, Noise(3 * begun(70)[2], "stated"))

@@ -117,7 +117,10 @@ def test_what_would_tell_rivals_apart_is_listed_with_its_cost(capsys, given, mon
     said = " ".join(out.split())
     # One advice: the sentence is the first row in words, and its reason stands there alone.
     assert "Next measurement: To tell gain_error and no effect apart, point the laser at (285, 24) mm" in said
-    assert "A gain is the same at every spot. It takes 209 s and settles the matter with 92 % chance." in said
+    assert (
+        "A gain is the same at every spot. It takes 209 s and, if one of these is true, settles the matter "
+        "with 92 % chance."
+    ) in said
     assert "spot:" not in out
     assert "92 %" in out
     assert "clamping:" not in out

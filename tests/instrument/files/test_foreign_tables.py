@@ -107,6 +107,9 @@ def test_a_number_a_unit_away_is_questioned_with_the_unit_it_would_be_usual_in(t
     (doubt,) = specimen_doubts({"core": {"poisson": -0.2, "density_kg_m3": 1000.0}})
     assert "rubber has 0.45 to 0.5" in doubt
     assert specimen_doubts({"core": {"poisson": 0.0, "density_kg_m3": 180.0}}) == []
+    (doubt,) = specimen_doubts({"glue": [{"shear_mpa": 400.0}, {"shear_mpa": 0.3}]})
+    assert doubt.startswith("glue.shear_mpa = 0.3 is outside 2 to 20000")
+    assert doubt.endswith("is it in GPa?")
     path = written(tmp_path, "[plate]\nlength_mm = 0.3\n", "plate.toml")
     question_specimen(path, insist=True)
     with pytest.raises(BadInput, match=INSIST):

@@ -154,6 +154,21 @@ def test_a_law_that_does_not_follow_readings_of_absolute_velocities_says_so(plat
     assert remarks_on_reading(absolute, replace(plate, reads="absolute"), 100.0) == ()
 
 
+def test_spots_that_are_exchanged_are_named(plate, right):
+    other = plate.length_m / 2, plate.width_m / 4
+    two = replace(plate, further_pickups_m=(other,))
+    law = plate.core.law
+    stiffer = law.with_values(law.values * np.array([1.5, 1.5, 1.0, 1.0]))
+    there = Models.of(two.at_pickup(1), F).predict(stiffer, F) * np.exp(0.1j)
+    n = len(F)
+    both = right.take(np.tile(np.arange(n), 2))
+    each = np.repeat([0, 1], n)
+    given = replace(both, velocity_m_s=np.concatenate([right.velocity_m_s, there]), pickup=each)
+    assert data_doubt(given, two) == ""
+    said = data_doubt(replace(given, pickup=1 - each), two)
+    assert said == ("it looks as if spots 0 and 1 are exchanged: what stands as pickup 0 is read at 1")
+
+
 def test_amplitudes_have_no_sign_to_be_wrong(plate, right):
     amplitudes = replace(right, velocity_m_s=np.abs(right.velocity_m_s), base_m_s2=None)
     assert data_doubt(amplitudes, plate) == ""

@@ -7,6 +7,7 @@ import pytest
 from conftest import DATA
 
 from fitting.noise import noise_of, scatter_over_stated
+from fitting.specimen import Patch
 from fitting.sweep import Sweep
 from fitting.tolerances import STATED
 from instrument.files.sweep_file import read_sweep
@@ -83,6 +84,10 @@ def test_tolerances_not_named_are_typical(zn1):
     assert remarks_on_tolerances(struck)[0].startswith("18 of 19 tolerances not named")
     assert remarks_on_tolerances(replace(plain, tolerances=dict.fromkeys(STATED, 0.01))) == ()
     assert remarks_on_tolerances(zn1) == ()
+    # Nobody states how exactly a patch was cut.
+    patched = replace(plain, tolerances=dict.fromkeys(STATED, 0.01), patches=(Patch(0.0, 0.1, 0.0, 0.1),))
+    (said,) = remarks_on_tolerances(patched)
+    assert said.startswith("a [[patch]] is taken to be cut exactly as stated")
 
 
 def test_they_are_listed(zn1):

@@ -14,7 +14,7 @@ OFFER = FollowUp.model_validate(SPOT)
 def test_the_advice_says_which_measurement_why_and_what_it_costs():
     assert advice(OFFER) == (
         "To tell spot_offset and gain_error apart, aim it elsewhere. A gain is the same at every spot. "
-        "It takes 30 s and settles the matter with 80 % chance."
+        "It takes 30 s and, if one of these is true, settles the matter with 80 % chance."
     )
 
 
@@ -30,6 +30,8 @@ def test_every_measurement_has_words_to_follow_by():
 
 def test_a_row_has_a_cell_under_every_heading():
     assert dict(zip(NEXT_COLUMNS, next_row(OFFER), strict=True))["settles it"] == "80 %"
+    far = next_row(OFFER.but(separation=5e5))
+    assert dict(zip(NEXT_COLUMNS, far, strict=True))["likelier by"] == "over 10^6 times"
 
 
 @pytest.mark.parametrize(
