@@ -13,7 +13,7 @@ NO_DRIFT = (
 
 
 def warnings_of(search: Search, judgement: Judgement) -> tuple[str, ...]:
-    """Of a rare material, of times that are missing, and of what someone accepted against the data."""
+    """Of a rare material, an implausible size, missing times, and what someone accepted against the data."""
     said, problem = list[str](), search.problem
     accepted = judgement.accepted
     if accepted is not None and accepted.names:
@@ -23,6 +23,11 @@ def warnings_of(search: Search, judgement: Judgement) -> tuple[str, ...]:
                 f"beside {' and '.join(accepted.names)} the law may bend {times:g} times as far from its "
                 "formula as materials usually do, as the data ask: the core follows another law, or more is "
                 "amiss"
+            )
+        if accepted.too_large:
+            said.append(
+                f"{accepted.too_large} ends at the limit of what is plausible: there is more of it, or it is "
+                f"something else, and {BIASED}"
             )
     names = {n for group in judgement.equivalent.values() for n in group}
     if not problem.points.timed:

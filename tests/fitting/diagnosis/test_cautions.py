@@ -1,0 +1,23 @@
+"""What is to be borne in mind beside a verdict."""
+
+from types import SimpleNamespace as Like
+
+from fitting.diagnosis.cautions import warnings_of
+from fitting.identification.result import doubts_itself
+from fitting.laws import LAWS
+
+LAW = LAWS["fractional-zener"](1e6, 3e7, 1e-4, 0.6)
+SEARCH = Like(problem=Like(points=Like(timed=True)), stated=LAW)
+
+
+def said_of(too_large):
+    accepted = Like(names=("core_thickness",), fitted=Like(law=LAW), too_large=too_large)
+    judgement = Like(accepted=accepted, equivalent={}, group=(), by_hand=False)
+    return warnings_of(SEARCH, judgement)
+
+
+def test_an_effect_that_ends_where_no_more_of_it_is_plausible_leaves_its_law_in_doubt():
+    assert said_of("") == ()
+    (said,) = said_of("core_thickness")
+    assert said.startswith("core_thickness ends at the limit of what is plausible")
+    assert doubts_itself([said])
