@@ -94,4 +94,4 @@ def predict(
     known = found_law(fit.result)
     found = fitted_response(model, known, f, bar)
     law = known.law(law) if law is not None else None
-    return Response(prediction_from_fit(found, theory_remark(model, law, f)))
+    return Response(prediction_from_fit(found, known.outside(f), theory_remark(model, law, f)))

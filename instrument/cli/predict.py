@@ -68,7 +68,9 @@ def predict(
         if real_modes or hammer is not None:
             raise click.UsageError(f"--real-modes, --hammer with a {read.kind}: expected a plate")
         if fit is not None:
-            _show(out, read, prediction_from_fit(fitted_response(read, read_fit(fit), frequencies)))
+            known = read_fit(fit)
+            found = fitted_response(read, known, frequencies)
+            _show(out, read, prediction_from_fit(found, known.outside(frequencies)))
             return
         _show(out, read, _of_small(read, frequencies))
         return
@@ -81,7 +83,8 @@ def predict(
         known = read_fit(fit)
         found = fitted_response(read, known, frequencies, bar)
         law = known.law(law) if law is not None else None
-        result = prediction_from_fit(found, theory_remark(read, law, frequencies))
+        remarks = (known.outside(frequencies), theory_remark(read, law, frequencies))
+        result = prediction_from_fit(found, *remarks)
     else:
         remarks = (_outside(read.core, frequencies), theory_remark(read, law, frequencies))
         spots = [
@@ -90,6 +93,13 @@ def predict(
         ]
         result = of_spots([prediction_from(frequencies, v, *remarks) for v in spots])
     _show(out, read, result)
+
+
+_ERRORS = {
+    "+-/(m/s)": ("velocity_standard_error_m_s", 1.0),
+    "+-/deg": ("phase_standard_error_rad", 180 / np.pi),
+}
+"""Columns of standard errors, of amplitude and phase, where a fit is predicted with."""
 
 
 def _of_small(read: Beam | ShearPair, frequencies: NDArray[np.float64]) -> PredictionResult:
@@ -107,18 +117,21 @@ def _outside(core: Core | None, frequencies: NDArray[np.float64]) -> str:
 
 
 def _show(out: Output, read: StatedSpecimen, result: PredictionResult) -> None:
+    known = [] if np.isnan(result.points[0].velocity_standard_error_m_s) else list(_ERRORS)
     several = [] if result.points[0].pickup is None else ["pickup"]
     rows = [
         [
             *(str(p.pickup) for _ in several),
             f"{p.frequency_hz:g}",
             *(f"{v:.6g}" for v in (p.velocity_m_s, p.velocity_re_m_s, p.velocity_im_m_s)),
+            *(f"{getattr(p, key) * scale:.2g}" for key, scale in (_ERRORS[name] for name in known)),
         ]
         for p in result.points
     ]
     per = acceleration_unit().typed(read.drive_amplitude, ".6g") + " base acceleration"
     title = f"{read.reads} velocity at {per}" if read.drive == "base" else "velocity for a force of 1 N"
-    out.table(title, [*several, "frequency/Hz", "amplitude/(m/s)", "real/(m/s)", "imaginary/(m/s)"], rows)
+    columns = ["frequency/Hz", "amplitude/(m/s)", "real/(m/s)", "imaginary/(m/s)"]
+    out.table(title, [*several, *columns, *known], rows)
     for remark in result.notes:
         out.say(f"note: {remark}")
     out.result(result)

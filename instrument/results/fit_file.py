@@ -23,6 +23,8 @@ from instrument.facts.identification import IdentificationResult
 from instrument.files.text import read_text
 from instrument.models.fitted_plate import FittedPlate
 
+_AT = 1e-3
+"""Frequencies are written with few digits."""
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 
 
@@ -85,6 +87,12 @@ class _Posterior(BaseModel):
         return C
 
 
+class _Row(BaseModel):
+    """Of the law's list over the measured band."""
+
+    frequency_hz: Annotated[float, Field(gt=0, allow_inf_nan=False)]
+
+
 class _Hammer(BaseModel):
     modal_ratios: list[float]
 
@@ -100,6 +108,17 @@ class FoundLaw(BaseModel):
     adjusted: list[_Adjusted] = []
     hammer: _Hammer | None = None
     posterior: _Posterior | None = None
+    rows: list[_Row] = Field(default=[], alias="law")
+
+    def outside(self, frequency_hz: Array) -> str:
+        """What is to be said of frequencies beyond the measured band; empty within. Shape (points,)."""
+        f = [row.frequency_hz for row in self.rows]
+        if not f or (min(f) * (1 - _AT) <= frequency_hz.min() and frequency_hz.max() <= max(f) * (1 + _AT)):
+            return ""
+        return (
+            f"the law was found from {min(f):g} to {max(f):g} Hz: outside it is an extrapolation of its "
+            "formula, which no error covers"
+        )
 
     def law(self, start: CoreLaw) -> CoreLaw:
         """The law found, of the kind the specimen has, bent as it was. Raises `BadInput`, `OutsideModel`."""

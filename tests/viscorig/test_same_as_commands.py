@@ -83,8 +83,10 @@ def test_predict(command, plate, options, keywords):
 
 def test_predict_with_what_was_found(command, tmp_path, plate, found):
     path = found.to_json(tmp_path / "found.json")
-    expected = command("predict", COARSE, "--frequencies", "18.4,19.3", "--fit", path)
-    assert vr.predict(plate, [18.4, 19.3], fit=found).as_dict() == expected
+    for f in ("18.4,19.3", "18.4,450"):
+        expected = command("predict", COARSE, "--frequencies", f, "--fit", path)
+        assert vr.predict(plate, [float(x) for x in f.split(",")], fit=found).as_dict() == expected
+    assert "extrapolation" in expected["notes"][0]
 
 
 def test_predict_with_a_hammer_test(command, tmp_path, plate, records):

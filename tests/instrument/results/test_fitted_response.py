@@ -66,6 +66,20 @@ def test_predict_takes_the_law_of_a_fit(capsys, tmp_path):
     assert all(0 < p["phase_standard_error_rad"] < 0.05 for p in points)
 
 
+def test_what_lies_beyond_the_measured_band_is_said_and_errors_are_printed(capsys, tmp_path):
+    path = tmp_path / "fit.json"
+    rows = [{"frequency_hz": f} for f in (18.0, 110.0)]
+    path.write_text(json.dumps(json.loads(found().model_dump_json()) | {"law": rows}))
+    asked = ["predict", str(ZN1), "--fit", str(path), "--frequencies"]
+    assert run([*asked, "19.3,101"]) == 0
+    inside = capsys.readouterr().out
+    assert "extrapolation" not in inside
+    assert "+-/(m/s)" in inside
+    assert "+-/deg" in inside
+    assert run([*asked, "19.3,300"]) == 0
+    assert "the law was found from 18 to 110 Hz" in capsys.readouterr().out
+
+
 def test_what_is_no_fit_is_refused(tmp_path, coarse):
     path = tmp_path / "fit.json"
     path.write_text("{}")
