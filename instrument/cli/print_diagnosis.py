@@ -108,10 +108,9 @@ def print_before_after(out: Output, found: DiagnosisResult) -> None:
 
 
 def _print_candidates(out: Output, found: DiagnosisResult) -> None:
-    # A probability is not by the fit alone: what stands in for anything shares with what does not.
-    candidates = sorted(found.candidates, key=lambda c: -c.probability)
+    candidates = found.likeliest_first
     shown = candidates[:_MOST_CANDIDATES]
-    shown += [c for c in candidates[_MOST_CANDIDATES:] if c.name in NOT_NAMED]
+    shown += tuple(c for c in candidates[_MOST_CANDIDATES:] if c.name in NOT_NAMED)
     rows = [
         [
             candidate_words(c.name),

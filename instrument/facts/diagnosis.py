@@ -186,6 +186,11 @@ class DiagnosisResult(Result):
     """What the session's laser sees: `absolute` or `relative` velocity."""
 
     @property
+    def likeliest_first(self) -> tuple[CandidateFitted, ...]:
+        """Candidates by probability, which is not by the fit alone: what may stand in for anything shares."""
+        return tuple(sorted(self.candidates, key=lambda c: -c.probability))
+
+    @property
     def stages(self) -> tuple[StageFitted, StageFitted]:
         """Before and after."""
         return self.before, self.after

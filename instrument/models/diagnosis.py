@@ -19,6 +19,7 @@ from instrument.models.remarks import (
     remarks_on_damping,
     remarks_on_law,
     remarks_on_noise,
+    remarks_on_patches,
     remarks_on_tolerances,
 )
 from instrument.models.second_process import executor
@@ -130,6 +131,7 @@ def diagnose(
         *remarks_on_law(start, sweep.frequency_hz),
         *remarks_on_noise(sweep.take(why_aside == "")),
         *remarks_on_tolerances(specimen),
+        *remarks_on_patches(specimen),
         *remarks_on_damping(specimen, tested=hammer is not None),
     )
     before = theory_remark(specimen, result.before.law, sweep.frequency_hz)

@@ -13,7 +13,7 @@ from fitting.strays import strays
 from fitting.structures import AnySpecimen, Beam, ShearPair
 from fitting.structures.shear_pair import EDGE
 from instrument.models.files import File
-from instrument.models.remarks import remarks_on_law, remarks_on_noise, remarks_on_strays
+from instrument.models.remarks import remarks_on_law, remarks_on_noise, remarks_on_patches, remarks_on_strays
 
 _WORTH_SAYING = 0.01
 """Of the modulus: a correction that is left out."""
@@ -38,6 +38,7 @@ def remarks_on_files(files: Sequence[File]) -> tuple[str, ...]:
         of_file = (
             *remarks_on_strays(file.sweep),
             *remarks_on_noise(file.sweep.take(strays(file.sweep) == 0)),
+            *remarks_on_patches(s),
             *remarks_on_edges(s),
             *remarks_on_held_width(s),
         )

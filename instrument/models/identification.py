@@ -35,6 +35,7 @@ from instrument.models.remarks import (
     remarks_on_damping,
     remarks_on_law,
     remarks_on_noise,
+    remarks_on_patches,
     remarks_on_strays,
     remarks_on_tolerances,
 )
@@ -111,7 +112,7 @@ def identify(
     setup = seconds = 0.0
     further += (*remarks_on_law(stated, sweep.frequency_hz), *remarks_on_noise(sweep))
     if method == "direct":
-        further += remarks_on_tolerances(specimen)
+        further += (*remarks_on_tolerances(specimen), *remarks_on_patches(specimen))
         further += remarks_on_damping(specimen, tested=hammer is not None)
     elif not specimen.exact:
         further += ("the paper's method takes what is stated for exact: tolerances are not in its band",)

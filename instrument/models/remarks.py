@@ -8,6 +8,7 @@ from fitting.laws import CoreLaw
 from fitting.noise import scatter_over_stated
 from fitting.specimen import Specimen
 from fitting.strays import BEYOND, strays
+from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
 from fitting.unstated_damping import RATIO, with_unstated_damping
 from instrument.models.tolerance_words import asked, not_named
@@ -18,20 +19,23 @@ _DIFFERS = 1.5
 """Times, median over the points: a stated noise so far off the scatter is not this sweep's."""
 
 
-_CUT_EXACTLY = (
-    "a [[patch]] is taken to be cut exactly as stated, and no tolerance is asked of its sides: where it is "
-    "5 % narrower the law is 5 to 8 % low, beyond its band, and nothing else says so: measure it",
-)
-
-
 def remarks_on_tolerances(specimen: Specimen) -> tuple[str, ...]:
     """Where typical tolerances stand in for ones that were not named."""
     missing, every = not_named(specimen), asked(specimen)
-    cut = _CUT_EXACTLY if specimen.patches and not specimen.exact else ()
     if not missing:
-        return cut
+        return ()
     count = "" if len(missing) == len(every) else f"{len(missing)} of {len(every)} "
-    return (f"{count}tolerances not named: typical values of a careful laboratory (docs/specimen.md)", *cut)
+    return (f"{count}tolerances not named: typical values of a careful laboratory (docs/specimen.md)",)
+
+
+def remarks_on_patches(specimen: AnySpecimen) -> tuple[str, ...]:
+    """That what is cut wrongly is believed."""
+    if not isinstance(specimen, Specimen) or not specimen.patches or specimen.exact:
+        return ()
+    return (
+        "a [[patch]] is taken to be cut exactly as stated, and no tolerance is asked of its sides: where it "
+        "is 5 % narrower the law is 5 to 8 % low, beyond its band, and nothing else says so: measure it",
+    )
 
 
 def remarks_on_damping(specimen: Specimen, *, tested: bool) -> tuple[str, ...]:

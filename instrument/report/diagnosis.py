@@ -132,7 +132,7 @@ def _candidates(found: DiagnosisResult) -> TableBlock:
             format_number(c.chi2_per_dof, 3),
             some_parameters(c.parameters) or "-",
         )
-        for k, c in enumerate(sorted(found.candidates, key=lambda c: -c.probability))
+        for k, c in enumerate(found.likeliest_first)
         if k < _MOST_CANDIDATES or c.name == "none"
     )
     title = f"Candidates, likeliest first ({len(found.candidates)} were fitted)"

@@ -21,11 +21,11 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from mode_cases import FINE, read_off
 
 from fitting.arrays import Array
-from fitting.effects import CATALOGUE
 from fitting.errors import FittingError
 from instrument.campaign.plates.geometry import PLATES
 from instrument.campaign.plates.hidden import HIDDEN
 from instrument.campaign.plates.hidden.base import Hidden, Setting
+from instrument.campaign.plates.judged import left_out
 from instrument.campaign.plates.materials import PlateMaterialLaw, draw_law
 from instrument.campaign.plates.reduced import ReducedSolid
 from instrument.campaign.plates.simulate import built, moduli_of
@@ -97,8 +97,8 @@ def told_of(seed: int, *, without_truth: bool) -> Told:
     table = replace(read_off((f, eta), rng), read="model")
     head, _, rest = toml(draw_stated(rng, true), CAREFUL, 150.0).partition("[damping]")
     specimen = specimen_from(head + "[pickup]" + rest.partition("[pickup]")[2])
-    names = [h.name for h in hidden if h.name in CATALOGUE]
-    diagnosed = diagnose_tables([table], [specimen], without=names if without_truth else ())
+    without = left_out([h.name for h in hidden]) if without_truth else []
+    diagnosed = diagnose_tables([table], [specimen], without=without)
     result = modal_diagnosis_from(diagnosed, [table], ["table"])
     at = np.geomspace(f[0], f[-1], 4)
     return Told(kind, hidden, result, diagnosed.found.begun.none.chi2, _off(result.after, at, law))

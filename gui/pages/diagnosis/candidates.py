@@ -38,7 +38,7 @@ _ROLES: dict[RowStanding, Role] = {
 
 
 class Candidates(QWidget):
-    """Ranked best first.
+    """Ranked, the likeliest first.
 
     Signals
     -------

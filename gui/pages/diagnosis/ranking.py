@@ -47,17 +47,18 @@ class CandidateRow:
 
 
 def ranked(found: DiagnosisResult) -> list[CandidateRow]:
-    """Best first; then what the catalogue holds beside them, so that it can be accepted too."""
+    """Likeliest first; then what the catalogue holds beside them, so that it can be accepted too."""
+    gains = dict(zip((c.name for c in found.candidates), log_odds(found), strict=True))
     rows = [
         CandidateRow(
             c.name,
             standing(c.name, found),
-            gain,
+            gains[c.name],
             probability_words(c, found).replace("-", "–"),
             c.chi2_per_dof,
             tuple(typeset(parameter_words(key, p)) for key, p in c.parameters.items()),
         )
-        for c, gain in zip(found.candidates, log_odds(found), strict=True)
+        for c in found.likeliest_first
     ]
     single = {row.name for row in rows}
     return rows + [CandidateRow(name, "not fitted") for name in sorted(CATALOGUE) if name not in single]

@@ -33,7 +33,12 @@ def diagnosed(case: PlateCase) -> Answer:
 
 def diagnosed_without_the_truth(case: PlateCase) -> Answer:
     """With all of it but what is really there."""
-    return _diagnosed(case, [name for name in case.truth.names if name in CATALOGUE])
+    return _diagnosed(case, left_out(case.truth.names))
+
+
+def left_out(there: Collection[str]) -> list[str]:
+    """Of the catalogue what is there, and what contains it: two masses bring the one along."""
+    return [e.name for e in CATALOGUE.values() if {e.name, e.extends} & set(there)]
 
 
 def _diagnosed(case: PlateCase, without: Collection[str] = ()) -> Answer:

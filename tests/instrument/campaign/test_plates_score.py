@@ -12,6 +12,7 @@ from instrument.campaign.plates import visible
 from instrument.campaign.plates.answers import Answer, Band, line_of, outcome_from, outcome_of
 from instrument.campaign.plates.cases import KINDS, NONE, draw_case
 from instrument.campaign.plates.hidden import ON_REQUEST
+from instrument.campaign.plates.judged import left_out
 from instrument.campaign.plates.run import plate_jobs, run_plates
 from instrument.campaign.plates.score import reliability, score, traces
 from instrument.campaign.plates.tables import summary
@@ -126,6 +127,17 @@ def test_a_campaign_goes_on_where_it_was_stopped(tmp_path):
     assert lines[:2] == first
     with pytest.raises(BadInput, match="other sources or options"):
         run_plates(jobs, tmp_path, exact=True, identify=true_band, diagnose=no_effect, workers=1)
+
+
+def test_what_contains_the_true_one_is_left_out_with_it():
+    assert sorted(left_out(["added_mass"])) == ["added_mass", "added_masses"]
+    assert sorted(left_out(["clamp_compliance", "gain_error"])) == [
+        "clamp_compliance",
+        "clamp_friction",
+        "gain_error",
+        "uneven_clamp",
+    ]
+    assert left_out(["stiffener"]) == []
 
 
 def summary_of_one(folder, kind, how):

@@ -11,7 +11,7 @@ from fitting.specimen import Patch
 from fitting.sweep import Sweep
 from fitting.tolerances import STATED
 from instrument.files.sweep_file import read_sweep
-from instrument.models.remarks import remarks_on_noise, remarks_on_tolerances
+from instrument.models.remarks import remarks_on_noise, remarks_on_patches, remarks_on_tolerances
 from instrument.models.tolerance_words import asked, tolerance_rows, tolerances_used
 
 
@@ -84,10 +84,13 @@ def test_tolerances_not_named_are_typical(zn1):
     assert remarks_on_tolerances(struck)[0].startswith("18 of 19 tolerances not named")
     assert remarks_on_tolerances(replace(plain, tolerances=dict.fromkeys(STATED, 0.01))) == ()
     assert remarks_on_tolerances(zn1) == ()
-    # Nobody states how exactly a patch was cut.
-    patched = replace(plain, tolerances=dict.fromkeys(STATED, 0.01), patches=(Patch(0.0, 0.1, 0.0, 0.1),))
-    (said,) = remarks_on_tolerances(patched)
+
+
+def test_a_patch_is_believed_to_be_cut_exactly(zn1):
+    patched = replace(zn1, exact=False, patches=(Patch(0.0, 0.1, 0.0, 0.1),))
+    (said,) = remarks_on_patches(patched)
     assert said.startswith("a [[patch]] is taken to be cut exactly as stated")
+    assert remarks_on_patches(replace(patched, exact=True)) == remarks_on_patches(zn1) == ()
 
 
 def test_they_are_listed(zn1):

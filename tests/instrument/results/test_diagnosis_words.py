@@ -86,6 +86,12 @@ def test_odds_are_against_none():
     assert log_odds(found.but(candidates=costs[:1])) == [None]
 
 
+def test_candidates_are_listed_by_their_probability_whatever_they_cost():
+    found = diagnosis()
+    some = tuple(found.candidates[0].but(probability=p, delta_bic=d) for p, d in ((0.2, 0.0), (0.7, 90.0)))
+    assert [c.probability for c in found.but(candidates=some).likeliest_first] == [0.7, 0.2]
+
+
 def test_resampling_is_said_where_it_was_done():
     assert resampling_words(diagnosis()) == ""
     said = resampling_words(diagnosis().but(p_value=0.05, nested_held_out_rms_percent=2.345))
