@@ -31,7 +31,6 @@ from instrument.run.following import Earlier
 from instrument.run.operator import SimulatedOperator
 from instrument.run.replay import replay
 from instrument.session.configuration import read_whole_experiment
-from instrument.session.journal import JOURNAL
 from instrument.session.storage import SessionFile
 from instrument.simulated_case import write_case
 from instrument.stream.derived import DiagnosisFound, PointMeasured
@@ -61,7 +60,10 @@ def events_of(finished):
 
 
 class KilledAt(Companion):
-    """What a kill at certain points would have left: a copy of what is sealed by then."""
+    """What a kill at certain points would have left: a copy made once they are on the disk.
+
+    By the thread that seals, between two seals: what the run has measured by then may be ahead of it.
+    """
 
     def __init__(self, folder, points):
         self._folder, self._points, self._count = folder, points, 0
@@ -69,14 +71,17 @@ class KilledAt(Companion):
     def recording(self, folder, session):
         self._running = folder
 
-    def happened(self, event):
-        self._count += isinstance(event, PointMeasured)
-        if isinstance(event, PointMeasured) and self._count in self._points:
-            # The journal first: what it names is there, whatever is sealed meanwhile.
-            sealed = (self._running / JOURNAL).read_bytes()
-            copy = self._folder / str(self._count) / self._running.name
-            shutil.copytree(self._running, copy, ignore=shutil.ignore_patterns("*.tmp", "lock"))
-            (copy / JOURNAL).write_bytes(sealed)
+    def watch(self, events):
+        before, self._count = self._count, self._count + sum(isinstance(e, PointMeasured) for e in events)
+        for point in self._points:
+            if before < point <= self._count:
+                copy = self._folder / str(point) / self._running.name
+                shutil.copytree(self._running, copy, ignore=shutil.ignore_patterns("lock"))
+
+
+def run_to_be_killed(points, experiment, folder, *offers):
+    killed = KilledAt(folder, points)
+    return run(experiment, folder, *offers, companion=killed, watch=killed.watch)
 
 
 @pytest.fixture(scope="module")
@@ -91,7 +96,7 @@ def rig(tmp_path_factory):
 def finished(rig):
     """Steps backwards at once, then another spot."""
     folder, experiment = rig
-    return run(experiment, folder, companion=KilledAt(folder, KILLS))
+    return run_to_be_killed(KILLS, experiment, folder)
 
 
 def test_a_group_is_followed_by_what_tells_it_apart_until_one_explanation_is_left(finished):
@@ -231,7 +236,7 @@ def clamped(tmp_path_factory):
     folder = tmp_path_factory.mktemp("clamped")
     with formula_rig(folder, sweep=SWEEP) as (_, experiment):
         experiment = that_follows(experiment)
-        whole = run(experiment, folder, (CLAMPING, BACKWARDS), companion=KilledAt(folder, (17, 20)))
+        whole = run_to_be_killed((17, 20), experiment, folder, (CLAMPING, BACKWARDS))
         again = [
             run(experiment, running.parent, (CLAMPING, BACKWARDS), resume=running)
             for running in sorted(folder.glob("*/*.running"))
