@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,8 @@ from fitting.element import CORNERS, DOFS, WITH_GLUE, Rectangles, Shape
 from fitting.specimen import Patch, Specimen
 
 Indices = NDArray[np.intp]
+Moved = Literal["patch", "cut"]
+"""What of a patch is another than stated: where it lies, or how long it is cut."""
 
 _SLIVER = 0.02
 """Of an element's side: a narrower strip of treatment on it is left out, it would hardly hold its nodes."""
@@ -100,16 +103,17 @@ class Cell:
 
 @dataclass(frozen=True)
 class Shift:
-    """A patch laid elsewhere along x or y than stated."""
+    """A patch laid elsewhere along x or y than stated, or cut longer about its middle."""
 
     patch: int
     axis: int
     """0 for x, 1 for y."""
+    kind: Moved = "patch"
 
     @property
     def name(self) -> str:
         """As results list it."""
-        return f"patch_{self.patch + 1}_{'xy'[self.axis]}"
+        return f"{self.kind}_{self.patch + 1}_{'xy'[self.axis]}"
 
     def of(
         self, specimen: Specimen, by_m: float, patches: tuple[Patch, ...] | None = None
@@ -117,29 +121,38 @@ class Shift:
         """The patches with it, or others of the same plate; edges that are the plate's stay."""
         found = list(patches or specimen.patches)
         sides = list(_sides(found[self.patch]))
-        for k in self.moving(specimen):
-            sides[k] += by_m
+        for k, share in self.moving(specimen).items():
+            sides[k] += share * by_m
         found[self.patch] = Patch(*sides)
         return tuple(found)
 
-    def moving(self, specimen: Specimen) -> list[int]:
-        """Which of from x, to x, from y, to y move."""
-        return [k for k in _inner(specimen, specimen.patches[self.patch]) if k // 2 == self.axis]
+    def moving(self, specimen: Specimen) -> dict[int, float]:
+        """How far from x, to x, from y, to y move for each metre."""
+        inner = [k for k in _inner(specimen, specimen.patches[self.patch]) if k // 2 == self.axis]
+        if self.kind == "patch":
+            return dict.fromkeys(inner, 1.0)
+        # What ends at the plate's edge is as long as its other end is laid.
+        return dict(zip(inner, (-0.5, 0.5), strict=True)) if len(inner) > 1 else {}
 
-    def edge_m(self, specimen: Specimen) -> float:
-        """Where its first edge that moves is."""
-        return _sides(specimen.patches[self.patch])[self.moving(specimen)[0]]
+    def stated_m(self, specimen: Specimen) -> float:
+        """Where its first edge that moves is, or how long it is."""
+        low, high = _along(specimen.patches[self.patch], self.axis)
+        return high - low if self.kind == "cut" else (low, high)[next(iter(self.moving(specimen))) % 2]
 
     def by_m(self, specimen: Specimen, stated: Specimen) -> float:
-        """How far it is from where another specimen has it."""
-        k = self.moving(stated)[0]
-        return _sides(specimen.patches[self.patch])[k] - self.edge_m(stated)
+        """How much further, or longer, it is than another specimen has it."""
+        pairs = zip(*(_along(s.patches[self.patch], self.axis) for s in (specimen, stated)), strict=True)
+        low, high = (now - then for now, then in pairs)
+        if self.kind == "cut":
+            return high - low
+        moving = [(low, high)[k % 2] for k in self.moving(stated)]
+        return sum(moving) / len(moving)
 
 
 def shift_of(name: str) -> Shift:
     """The one that has a name."""
-    _, patch, axis = name.split("_")
-    return Shift(int(patch) - 1, "xy".index(axis))
+    kind, patch, axis = name.split("_")
+    return Shift(int(patch) - 1, "xy".index(axis), "cut" if kind == "cut" else "patch")
 
 
 _ROUNDING_M = 1e-9
@@ -149,8 +162,9 @@ SHIFT_M = 1e-4
 
 
 def shifts_of(specimen: Specimen) -> tuple[Shift, ...]:
-    """What patches can be laid elsewhere, those that reach from edge to edge left out."""
-    each = (Shift(k, axis) for k in range(len(specimen.patches)) for axis in (0, 1))
+    """What patches can be laid elsewhere, or cut otherwise; those that reach from edge to edge left out."""
+    kinds: tuple[Moved, ...] = ("patch", "cut")
+    each = (Shift(k, axis, kind) for kind in kinds for k in range(len(specimen.patches)) for axis in (0, 1))
     return tuple(shift for shift in each if shift.moving(specimen))
 
 
@@ -162,6 +176,11 @@ def is_turned(specimen: Specimen) -> bool:
 
 def _sides(patch: Patch) -> tuple[float, float, float, float]:
     return patch.from_x_m, patch.to_x_m, patch.from_y_m, patch.to_y_m
+
+
+def _along(patch: Patch, axis: int) -> tuple[float, float]:
+    sides = _sides(patch)
+    return sides[2 * axis], sides[2 * axis + 1]
 
 
 def _inner(specimen: Specimen, patch: Patch) -> list[int]:

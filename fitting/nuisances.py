@@ -20,13 +20,13 @@ from fitting.nuisance_sums import Kept, SideBySide, between
 from fitting.parts import coefficients, loaded, names_of
 from fitting.placed import Masses, Placed, Points
 from fitting.specimen import PlacedMass, Specimen
-from fitting.tolerances import PLATE, moved
+from fitting.tolerances import OF_PATCHES, PLATE, moved
 
 _H = 1e-2
 """Step of differences, in standard deviations."""
 _FELT = 0.3
 """Standard deviations from which a plate's derivatives to stated numbers are taken to vary."""
-_TREATMENT = ("constraining", "core", "glue", "patch")
+_TREATMENT = ("constraining", "core", "glue", *OF_PATCHES)
 Spot = Literal["pickup", "force"]
 
 

@@ -64,6 +64,7 @@ _STATED = (
     StatedNumber("glue_thickness", "1", 0.2, "a bond line: hardly ever measured"),
     StatedNumber("glue_shear", "1", 0.2, "data sheets of adhesives"),
     StatedNumber("patch", "m", 5e-4, "laid by a rule; each patch, along x and along y"),
+    StatedNumber("cut", "m", 5e-4, "cut by a knife along a rule; each patch, along x and along y"),
 )
 STATED: dict[str, StatedNumber] = {s.name: s for s in _STATED}
 """Every kind of stated number by its name, in the order in which results list them."""
@@ -90,8 +91,10 @@ OF_TEMPERATURE = ("substrate_young_per_k", "constraining_young_per_k")
 """Numbers that play a part where data are of several temperatures."""
 STATED_PER_K = 0.5
 """Of the typical standard deviation of a metal's change for a kelvin, where the file states it."""
-OF_FEW = tuple(s.name for s in _STATED[-9:])
+OF_FEW = tuple(s.name for s in _STATED[-10:])
 """Numbers that only orthotropic faces, glue and patches have."""
+OF_PATCHES = ("patch", "cut")
+"""Of each patch along x and along y: where it lies, and how long it is."""
 PLATE = (*(s.name for s in _STATED[:13]), *OF_FEW)
 """Those that change a plate's matrices."""
 _FIELDS = {
@@ -111,11 +114,11 @@ _LARGEST_POISSON = 0.4999
 
 def plate_numbers(specimen: Specimen) -> list[tuple[str, str]]:
     """Those of `PLATE` that a specimen has: name, and kind. Every patch has its own."""
-    found = []
+    found: list[tuple[str, str]] = []
     for kind in PLATE:
         layer, _, quantity = kind.partition("_")
-        if kind == "patch":
-            found += [(shift.name, kind) for shift in shifts_of(specimen)]
+        if kind in OF_PATCHES:
+            found += [(shift.name, kind) for shift in shifts_of(specimen) if shift.kind == kind]
         elif layer == "glue":
             found += [(kind, kind)] if specimen.has_glue else []
         elif layer in ("constraining", "core") and specimen.core is None:
@@ -163,9 +166,9 @@ def moved(specimen: Specimen, names: Sequence[str], by: Sequence[float]) -> Spec
             sides |= {f"{name}_m": getattr(specimen, f"{name}_m") + step, "elements": specimen.mesh}
             continue
         layer_name, quantity = name.split("_", 1)
-        if layer_name == "patch" and not specimen.patches:
+        if layer_name in OF_PATCHES and not specimen.patches:
             continue
-        if layer_name == "patch":
+        if layer_name in OF_PATCHES:
             sides["patches"] = shift_of(name).of(specimen, step, sides.get("patches"))
             continue
         if layer_name == "glue" and not specimen.has_glue:

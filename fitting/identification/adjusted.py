@@ -9,7 +9,7 @@ from fitting.arrays import Array
 from fitting.mesh import shift_of
 from fitting.nuisance import Nuisance
 from fitting.specimen import Glue, Specimen, StatedSpecimen
-from fitting.tolerances import ADDED
+from fitting.tolerances import ADDED, OF_PATCHES
 
 
 @dataclass(frozen=True)
@@ -86,10 +86,13 @@ def stated_number(specimen: StatedSpecimen, n: Nuisance) -> tuple[float, float, 
         return 0.0, 1e6, "us"
     if n.kind == "phase":
         return 0.0, 180 / pi, "deg"
-    if n.kind == "patch":
-        return shift_of(n.name).edge_m(specimen), 1e3, "mm"
+    if n.kind in OF_PATCHES:
+        return shift_of(n.name).stated_m(specimen), 1e3, "mm"
     layer, _, quantity = n.kind.partition("_")
     field, factor, unit = _LAYERS[quantity]
+    if n.kind == "glue_shear":
+        # As its file has it: glue is a hundredth of what a face is.
+        factor, unit = 1e-6, "MPa"
     stated: Any = _glue(specimen) if layer == "glue" else getattr(specimen, layer)
     owner = stated if hasattr(stated, field) else stated.rolled
     return getattr(owner, field), factor, unit

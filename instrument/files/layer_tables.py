@@ -99,7 +99,7 @@ class PatchPart(TomlTable):
 
 
 def refuse_patches(patches: Sequence[PatchPart], length_mm: float, width_mm: float) -> None:
-    """Raises `ValueError` for patches that are none, off the plate or over each other."""
+    """Raises `ValueError` for patches that are none or slivers, off the plate or over each other."""
     for k, p in enumerate(patches):
         for axis, low, high, side in (
             ("x", p.from_x_mm, p.to_x_mm, length_mm),
@@ -108,6 +108,10 @@ def refuse_patches(patches: Sequence[PatchPart], length_mm: float, width_mm: flo
             if low >= high:
                 raise ValueError(
                     f"patch.{k}.from_{axis}_mm = {low:g}, expected less than to_{axis}_mm = {high:g}"
+                )
+            if high - low < _SHORTEST_MM:
+                raise ValueError(
+                    f"patch.{k} is {high - low:g} mm long along {axis}, expected {_SHORTEST_MM:g} mm at least"
                 )
             if high > side:
                 raise ValueError(
@@ -118,5 +122,7 @@ def refuse_patches(patches: Sequence[PatchPart], length_mm: float, width_mm: flo
             raise ValueError(f"patch.{i} and patch.{k} overlap, expected patches beside each other")
 
 
+_SHORTEST_MM = 1.0
+"""Of a patch: what is cut shorter holds on to nothing, and a file in metres says 0.1."""
 _TOUCH_M2 = 1e-12
 """A square micrometre is rounding."""

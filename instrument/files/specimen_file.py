@@ -126,6 +126,7 @@ class TolerancesSection(TomlTable):
     glue_thickness_percent: NotNegative | None = None
     glue_shear_percent: NotNegative | None = None
     patch_mm: NotNegative | None = None
+    cut_mm: NotNegative | None = None
     mass_percent: NotNegative | None = None
     place_mm: NotNegative | None = None
     area_percent: NotNegative | None = None

@@ -5,11 +5,13 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.bent_law import BentLaw
 from fitting.laws import CoreLaw
+from fitting.mesh import shifts_of
 from fitting.noise import scatter_over_stated
 from fitting.specimen import Specimen
 from fitting.strays import BEYOND, strays
 from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
+from fitting.tolerances import STATED
 from fitting.unstated_damping import RATIO, with_unstated_damping
 from instrument.models.tolerance_words import asked, not_named
 
@@ -29,12 +31,14 @@ def remarks_on_tolerances(specimen: Specimen) -> tuple[str, ...]:
 
 
 def remarks_on_patches(specimen: AnySpecimen) -> tuple[str, ...]:
-    """That what is cut wrongly is believed."""
-    if not isinstance(specimen, Specimen) or not specimen.patches or specimen.exact:
+    """That no data tell a patch cut wrongly from another core."""
+    if not isinstance(specimen, Specimen) or specimen.exact or "cut" in specimen.tolerances:
+        return ()
+    if not any(shift.kind == "cut" for shift in shifts_of(specimen)):
         return ()
     return (
-        "a [[patch]] is taken to be cut exactly as stated, and no tolerance is asked of its sides: where it "
-        "is 5 % narrower the law is 5 to 8 % low, beyond its band, and nothing else says so: measure it",
+        "a [[patch]] cut shorter than stated looks like a softer core, and no data tell the two apart: "
+        f"measure it, and say how well by cut_mm ({1e3 * STATED['cut'].typical:g} stands in)",
     )
 
 

@@ -189,12 +189,14 @@ def test_every_new_number_has_a_tolerance_and_moves_the_plate_as_the_other_plate
         "glue_thickness",
     } < set(names)
     assert {"patch_1_x", "patch_1_y", "patch_2_x", "patch_2_y"} < set(names)
+    # From the clamp to its other end the first one is as long as that end is laid.
+    assert [n for n in names if n.startswith("cut")] == ["cut_1_y", "cut_2_x", "cut_2_y"]
     plate = Plate(specimen)
     shapes = real_modes(plate, G, 3).shapes
     n_0, n_1, _ = names_of(specimen).counts
     parts = np.einsum("pmm->pm", projected_parts(plate, shapes))
     K_0, K_1, M = np.split(parts, [n_0, n_0 + n_1])
-    for name in ("substrate_angle", "constraining_shear", "glue_shear", "patch_1_x"):
+    for name in ("substrate_angle", "constraining_shear", "glue_shear", "patch_1_x", "cut_1_y", "cut_2_x"):
         k = names.index(name)
         logs = []
         for z in (1.0, -1.0):
@@ -215,6 +217,15 @@ def test_a_patch_from_edge_to_edge_cannot_be_laid_elsewhere():
     (shift,) = shifts_of(across)
     assert shift.name == "patch_1_x"
     assert shift.of(across, SHIFT_M)[0] == Patch(0.0, 0.1 + SHIFT_M, 0.0, 0.2)
+
+
+def test_a_patch_cut_longer_ends_further_out_on_both_sides_and_lies_where_it_did():
+    inside = replace(PLATE, patches=(Patch(0.05, 0.15, 0.0, 0.2),))
+    laid, cut = shifts_of(inside)
+    assert (cut.name, cut.stated_m(inside)) == ("cut_1_x", pytest.approx(0.1))
+    moved = replace(inside, patches=laid.of(inside, 1e-3, cut.of(inside, 4e-3)))
+    assert moved.patches[0] == Patch(pytest.approx(0.049), pytest.approx(0.153), 0.0, 0.2)
+    assert [s.by_m(moved, inside) for s in (laid, cut)] == pytest.approx([1e-3, 4e-3])
 
 
 def test_an_ordinary_plate_has_no_more_numbers_than_it_had():
@@ -249,7 +260,8 @@ def test_a_patch_about_the_axis_is_even_and_its_shift_across_is_not(reach):
     L, B = PLATE.length_m, PLATE.width_m
     patch = Patch(0.2 * L, 0.7 * L, reach * B if reach > 1e-3 else 0.0, (1 - reach) * B)
     specimen = replace(PLATE, patches=(patch,))
-    assert [s.name for s in shifts_of(specimen)] == ["patch_1_x", "patch_1_y"][: 1 + (reach > 1e-3)]
+    laid = ["patch_1_x", "patch_1_y"][: 1 + (reach > 1e-3)]
+    assert [s.name for s in shifts_of(specimen)] == laid + [n.replace("patch", "cut") for n in laid]
     plate = Plate(specimen)
     assert specimen.only_even
     X = plate.even @ np.random.default_rng(0).normal(size=(plate.even.shape[1], 2))
@@ -257,7 +269,8 @@ def test_a_patch_about_the_axis_is_even_and_its_shift_across_is_not(reach):
     np.testing.assert_array_equal(found, whole)
     counts = np.cumsum(names_of(specimen).counts[:2])
     K_1 = np.split(found, counts)[1]
-    moved = replace(specimen, patches=shifts_of(specimen)[-1].of(specimen, SHIFT_M))
+    across = shifts_of(specimen)[len(laid) - 1]
+    moved = replace(specimen, patches=across.of(specimen, SHIFT_M))
     c = coefficients(moved, specimen)
     K = X.T @ (Plate(moved).K_1 @ X) - X.T @ (plate.K_1 @ X)
     by = np.tensordot(c.K_1 - coefficients(specimen, specimen).K_1, K_1, 1)

@@ -22,6 +22,11 @@ def test_glue_and_patches_come_in_si_units():
     assert patch(10.0, 20.0, 0.0, 50.0).patch() == Patch(0.01, 0.02, 0.0, 0.05)
 
 
+def test_a_patch_that_is_a_sliver_is_refused():
+    with pytest.raises(ValueError, match=r"^patch\.1 is 0\.1 mm long along y, expected 1 mm at least$"):
+        refuse_patches([patch(0.0, 50.0, 0.0, 90.0), patch(0.0, 50.0, 40.0, 40.1)], 100.0, 90.0)
+
+
 def test_patches_may_touch_and_not_overlap():
     refuse_patches([patch(0.0, 50.0, 0.0, 90.0), patch(50.0, 100.0, 0.0, 90.0)], 100.0, 90.0)
     with pytest.raises(ValueError, match="overlap"):

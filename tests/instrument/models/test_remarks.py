@@ -86,11 +86,14 @@ def test_tolerances_not_named_are_typical(zn1):
     assert remarks_on_tolerances(zn1) == ()
 
 
-def test_a_patch_is_believed_to_be_cut_exactly(zn1):
-    patched = replace(zn1, exact=False, patches=(Patch(0.0, 0.1, 0.0, 0.1),))
+def test_no_data_tell_a_patch_cut_shorter_from_a_softer_core(zn1):
+    patched = replace(zn1, exact=False, patches=(Patch(0.0, 0.1, 0.05, 0.1),))
     (said,) = remarks_on_patches(patched)
-    assert said.startswith("a [[patch]] is taken to be cut exactly as stated")
+    assert "say how well by cut_mm (0.5 stands in)" in said
     assert remarks_on_patches(replace(patched, exact=True)) == remarks_on_patches(zn1) == ()
+    assert remarks_on_patches(replace(patched, tolerances={"cut": 1e-3})) == ()
+    # What ends at the plate's edges is as long as its other end is laid.
+    assert remarks_on_patches(replace(patched, patches=(Patch(0.0, 0.1, 0.0, 0.1),))) == ()
 
 
 def test_they_are_listed(zn1):
