@@ -56,8 +56,8 @@ class Cause:
 
 
 def explains(fit: ShiftedFit) -> bool:
-    """Whether a law for each temperature leaves no more than noise."""
-    return fit.own_chi2_per_dof <= VERDICT.size
+    """Whether a law for each temperature leaves no more than noise, where that is known."""
+    return not fit.noise_known or fit.own_chi2_per_dof <= VERDICT.size
 
 
 def common(effects: Sequence[Effect]) -> list[Effect]:

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.chances import chi2_above
+from fitting.chances import chi2_above, f_above
 from fitting.diagnosis.refitted import Refitted
 from fitting.laws import CoreLaw
 from fitting.temperature.one_law import OneLaw, OwnLaws
@@ -155,8 +155,13 @@ class ShiftedFit:
         Where a temperature has fewer readings than its law has parameters, these do not all count.
         """
         read = self.own.residuals[: self.own.data]
+        return float(read @ read / self._own_degrees)
+
+    @cached_property
+    def _own_degrees(self) -> float:
+        """Of freedom that a law for each temperature leaves."""
         left = self.own.data - min(float(self.own.parameter_count), _effective(self.own))
-        return float(read @ read / max(left, 1.0))
+        return max(left, 1.0)
 
     @cached_property
     def degrees(self) -> float:
@@ -194,14 +199,16 @@ class ShiftedFit:
 
     @property
     def p_value(self) -> float:
-        """Chance that one law fits so much worse than many, were there one; NaN where the noise is unknown.
+        """Chance that one law fits so much worse than many, were there one.
 
-        What the many leave beyond noise is taken for noise: it is not the one law's fault.
+        What the many leave beyond noise is taken for noise: it is not the one law's fault. Where the noise is
+        unknown all of it is, by Fisher's F.
         """
+        more = max(self.chi2 - self.chi2_own, 0.0)
         if not self.noise_known:
-            return float("nan")
-        scale = max(1.0, self.own_chi2_per_dof)
-        return float(chi2_above(max(self.chi2 - self.chi2_own, 0.0) / scale, self.degrees))
+            share = more / self.degrees / self.own_chi2_per_dof
+            return float(f_above(share, self.degrees, self._own_degrees))
+        return float(chi2_above(more / max(1.0, self.own_chi2_per_dof), self.degrees))
 
 
 def _effective(fit: Refitted) -> float:

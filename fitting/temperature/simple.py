@@ -22,7 +22,7 @@ _NEAR = 6.0
 
 @dataclass(frozen=True)
 class Verdict:
-    """`simple` is None where nothing can be told: the noise is unknown, or something else may explain it."""
+    """`simple` is None where nothing can be told: something else may explain it."""
 
     simple: bool | None
     p_value: float
@@ -34,7 +34,7 @@ class Verdict:
 
 def in_doubt(fit: ShiftedFit) -> bool:
     """Whether a common cause is to be looked for before anything is said."""
-    return fit.noise_known and not (explains(fit) and fit.p_value >= REFUSED)
+    return not (explains(fit) and fit.p_value >= REFUSED)
 
 
 def serving(causes: Sequence[Cause]) -> list[Cause]:
@@ -76,10 +76,6 @@ def _judged(
     def told(simple: bool | None, words: str, p: float = best.p_value) -> Verdict:
         return Verdict(simple, p, off, at, words)
 
-    if not fit.noise_known:
-        return told(
-            None, "whether one shifted law serves cannot be told: the noise of the readings is unknown"
-        )
     if not in_doubt(fit):
         return told(True, f"thermorheologically simple as far as these data tell: {_gain(fit)}")
     if able:
@@ -125,7 +121,8 @@ def story(cause: Cause) -> str:
 
 def _gain(fit: ShiftedFit) -> str:
     more = fit.chi2 - fit.chi2_own
-    return f"chi-square {more:+.1f} for {fit.degrees:.0f} parameters fewer, p {fit.p_value:.2g}"
+    said = f"chi-square {more:+.1f} for {fit.degrees:.0f} parameters fewer, p {fit.p_value:.2g}"
+    return said if fit.noise_known else f"{said}, noise being what a law for each temperature leaves"
 
 
 def _refusal(fit: ShiftedFit, difference: str) -> str:

@@ -51,8 +51,8 @@ class ShiftedResult(Result):
     law: tuple[LawRow, ...]
     """Over reduced frequency, at the reference temperature."""
     simple: bool | None
-    """Whether one shifted law serves; None where that cannot be told: the noise is unknown, or the plate or
-    its rig may be what sets temperatures apart."""
+    """Whether one shifted law serves; None where that cannot be told: the plate or its rig may be what sets
+    temperatures apart."""
     common_cause: EffectFound | None = None
     """An effect that all sweeps seem to have in common; it is counted in."""
     p_value: Number

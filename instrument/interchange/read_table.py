@@ -22,6 +22,7 @@ from instrument.interchange.said_by_name import (
     NotSaid,
     axis_of,
     bracketed,
+    is_unit_said,
     stated_factor,
     unit_in,
 )
@@ -121,6 +122,8 @@ def _on_lines(source: str, table: Named, f: Array, signals: list[Signal], found:
     alone = sum(s.unit.per is not None for s in signals) == 1
     for s in signals:
         if s.unit.per is not None:
+            if not any(is_unit_said(name) for name in s.names):
+                found.said.append(f"{source}: {s.name}: no unit, taken in SI's")
             found.add_ratio(_ratio(source, s, f), _coherence(table, s.name, alone=alone))
     plain = [s for s in signals if s.unit.per is None]
     forces = [s for s in plain if s.unit.quantity == "force"]

@@ -78,6 +78,12 @@ _MOST_RAD = 8 * np.pi
 _MOST_SAID_RAD = 2 * _MOST_RAD
 """The same where rad are said: 50 degrees, which a resonance takes too."""
 _UNWRAPPED = "unwrapped"
+_SPELT = re.compile(r"\s(?:in|/)\s+(\S+)\s*$", re.I)
+"""A unit behind its word: `Mobility in mm/s/N`."""
+_AMIDST = re.compile(r"[\[(]([^\[\]()]*)[\])]")
+"""A unit that other words follow: `Accelerance (g/N) real`."""
+_PIECES = frozenset(("m", "cm", "mm", "um", "nm", "in", "ft", "s", "s2", "g", "n", "kn", "lbf"))
+"""Of a unit written with underscores: `mobility_mm_s_n`."""
 _LAST_GROUP = re.compile(r"\(((?:[^()]|\([^()]*\))*)\)\s*$")
 _DECIBELS = re.compile(r"dB\b\s*(?:re[lf]?\b[.:]?)?\s*([\d.]+(?:e[-+]?\d+)?)?\s*(.*)", re.I)
 EXPECTED_DB = "expected as in '[dB re 1 (m/s)/N]'"
@@ -100,8 +106,21 @@ def bracketed(name: str) -> tuple[str, list[str]]:
     if match and match[0].startswith("(") and plain[: match.start()].rstrip().endswith("/"):
         # (m/s)/(m/s^2): the first of the two groups is part of the unit.
         match = re.search(r"(\(.*)$", plain)
+    spelt = _SPELT.search(plain)
+    if spelt and (unit_of(spelt[1]) or spelt[1].lower() in (*_ANGLES, "hz", "khz", "rad/s")):
+        match = spelt
     before = plain[: match.start()] if match else plain
-    return (match[1] if match else ""), [w for w in re.split(r"[^a-z0-9]+", _plain(before)) if w]
+    unit = match[1] if match else ""
+    if match is None and (amidst := _AMIDST.search(plain)) is not None:
+        said = _with_stroke(amidst[1])
+        if unit_of(said) is not None:
+            unit, before = said, plain[: amidst.start()] + " " + plain[amidst.end() :]
+    return unit, [w for w in re.split(r"[^a-z0-9]+", _plain(before)) if w]
+
+
+def _with_stroke(unit: str) -> str:
+    """`g per N` as `g/N`."""
+    return re.sub(r"\s+per\s+", "/", unit, flags=re.I)
 
 
 def _plain(text: str) -> str:
@@ -142,16 +161,45 @@ def unit_in(name: str) -> Unit | None:
         return _of_level(level, name)
     if unit.strip().lower() == "s" and not _RATIOS & set(words):
         return None
+    if _is_t(name, unit, words):
+        return unit_of(_STEMS[_TRANSMISSIBILITY])
     if unit and not (unit.strip() in _NO_UNIT and _TRANSMISSIBILITY in words):
-        return unit_of(_without_size(unit))
+        return unit_of(_without_size(_with_stroke(unit)))
     stem = next((_STEMS[w] for w in words if w in _STEMS), None)
     if stem is not None:
-        return unit_of(stem)
+        spelt = _pieces(words)
+        return _of_pieces(spelt) if spelt else unit_of(stem)
     over, per, under = name.strip().lower().rpartition("_per")
     if per:
         units = [next((u for suffix, u in _SUFFIXES if end.endswith(suffix)), "") for end in (over, under)]
         return unit_of("({})/({})".format(*units))
     return next((unit_of(u) for suffix, u in _SUFFIXES if under.endswith(suffix)), None)
+
+
+def _is_t(name: str, unit: str, words: list[str]) -> bool:
+    """Whether it is a transmissibility by its letter alone: a part of it, or said to have no unit."""
+    alone = [w for w in words if w not in _PARTS] == ["t"] and unit.strip() in _NO_UNIT
+    return alone and (bool(unit) or part_in(name) in ("re", "im", "magnitude"))
+
+
+def is_unit_said(name: str) -> bool:
+    """Whether a ratio's name has a unit, or is in the one that its word is defined by."""
+    unit, words = bracketed(name)
+    return bool(unit) or bool(_pieces(words)) or _TRANSMISSIBILITY in words or not _STEMS.keys() & set(words)
+
+
+def _pieces(words: list[str]) -> list[str]:
+    """The words of a name that are a unit's, those of a part left out."""
+    rest = [w for w in words if w not in _PARTS and w not in _STEMS]
+    while rest and rest[0] not in _PIECES:
+        rest = rest[1:]
+    return rest if all(w in _PIECES or w == "per" for w in rest) else []
+
+
+def _of_pieces(pieces: list[str]) -> Unit | None:
+    """`mm s n`, `g per n`: one over a force, the last of them; None for anything else."""
+    *over, under = (w for w in pieces if w != "per")
+    return unit_of(f"({'/'.join(over)})/{under}") or unit_of(f"({'/'.join(over)})/{under.upper()}")
 
 
 def part_in(name: str) -> Part:
@@ -272,7 +320,7 @@ def refuse_unknown(source: str, name: str, unit: Unit | None) -> None:
         if _RATIOS & set(words):
             raise NotSaid(f"{source}: {name}: a ratio in one unit, expected one over another")
         return
-    decides = bool(_MEASURED & {word.rstrip("0123456789") for word in words})
+    decides = bool((_MEASURED | _STEMS.keys()) & {word.rstrip("0123456789") for word in words})
     is_part = part_in(name) in ("re", "im", "magnitude")
     part = is_part or bool(BASE & set(words))
     base = bool(_OF_BASE & set(words)) and (is_part or (bool(said) and set(words) <= BASE))
@@ -280,5 +328,5 @@ def refuse_unknown(source: str, name: str, unit: Unit | None) -> None:
         raise NotSaid(f"{source}: {name}: dB of what? {EXPECTED_DB}")
     if said and (decides or base):
         raise NotSaid(f"{source}: {name}: in {said!r}, expected one of {KNOWN}, or one over another")
-    if not said and ((decides and part) or base):
+    if not said and ((decides and part) or base or _STEMS.keys() & set(words)):
         raise NotSaid(f"{source}: {name}: no unit, expected one in its name: {KNOWN}, or one over another")

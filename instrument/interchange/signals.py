@@ -67,14 +67,15 @@ def signals_of(source: str, table: Named, others: Collection[str]) -> list[Signa
         if unit is not None:
             refuse_contradiction(source, name, unit)
         parts.setdefault(stem_of(name), {})[part_in(name)] = name
-    _lend_phase(table, parts)
+    _lend_phase(source, table, parts)
     return [s for stem, by_part in parts.items() if (s := _signal(source, table, stem, by_part)) is not None]
 
 
-def _lend_phase(table: Named, parts: dict[tuple[str, ...], dict[Part, str]]) -> None:
-    """A phase that says no more than the only size does is that one's, beside which there may be a base's.
+def _lend_phase(source: str, table: Named, parts: dict[tuple[str, ...], dict[Part, str]]) -> None:
+    """A phase that says no more than the only size does is that one's, beside what drives it.
 
-    Several are of the sizes whose words they share, each of one.
+    Several are of the sizes whose words they share, each of one; a base's is of the only base. Raises
+    `NotSaid` where one may be of several.
     """
     alone = [stem for stem, names in parts.items() if set(names) == {"phase"}]
     sizes = [
@@ -83,15 +84,26 @@ def _lend_phase(table: Named, parts: dict[tuple[str, ...], dict[Part, str]]) -> 
         if set(names) in ({"whole"}, {"magnitude"})
         and not any(np.iscomplexobj(table[name]) for name in names.values())
     ]
-    owners = {of: [stem for stem in sizes if set(of) <= set(stem)] for of in alone}
-    if len(alone) == 1:
+    bases = [stem for stem in sizes if BASE & set(stem)]
+    owners = {
+        of: bases if BASE & set(of) else [stem for stem in sizes if set(of) <= set(stem)] for of in alone
+    }
+    if len(alone) == 1 and not BASE & set(alone[0]):
         (of,) = alone
-        readings = [stem for stem in parts if stem != of and not BASE & set(stem)]
+        readings = [s for s in parts if s != of and not BASE & set(s) and not _is_force(parts[s])]
         owners[of] = [stem for stem in owners[of] if [stem] == readings]
     found = [stem for (stem, *more) in owners.values() if not more] if all(owners.values()) else []
     if len(set(found)) == len(alone):
         for of, stem in zip(alone, found, strict=True):
             parts[stem]["phase"] = parts.pop(of)["phase"]
+    elif any(owners.values()):
+        names = ", ".join(parts[of]["phase"] for of in alone)
+        raise NotSaid(f"{source}: {names}: the phase of what? expected the words of it in its name")
+
+
+def _is_force(names: dict[Part, str]) -> bool:
+    units = [u for part, n in names.items() if part != "phase" and (u := unit_in(n))]
+    return bool(units) and units[0].quantity == "force" and units[0].per is None
 
 
 def _signal(source: str, table: Named, stem: tuple[str, ...], names: dict[Part, str]) -> Signal | None:

@@ -65,9 +65,16 @@ def test_one_law_that_is_refused_is_not_and_says_by_how_much_and_where():
     assert "try --shift free" in said.words
 
 
-def test_without_noise_and_without_any_law_nothing_is_told():
-    assert judge(fit(p=0.0, noise_known=False)).simple is None
-    assert not in_doubt(fit(p=0.0, noise_known=False))
+def test_where_the_noise_is_unknown_what_each_law_leaves_is_the_measure():
+    said = judge(fit(own=50.0, noise_known=False))
+    assert said.simple is True
+    assert "noise being what a law for each temperature leaves" in said.words
+    refused = fit(p=0.0, own=50.0, noise_known=False)
+    assert in_doubt(refused)
+    assert judge(refused).simple is False
+
+
+def test_without_any_law_nothing_is_told():
     unfit = judge(fit(p=0.0, own=50.0))
     assert unfit.simple is None
     assert "not even a law for each temperature" in unfit.words

@@ -46,6 +46,23 @@ def of(table):
         ("H1 [s]", "s"),
         ("FRF_m_s_per_m_s2", "(m/s)/(m/s^2)"),
         ("frf_re_m_s2_per_n", "(m/s^2)/N"),
+        ("Mobility Magnitude in mm/s/N", "(mm/s)/N"),
+        ("Velocity/Acceleration Real in m/s/(m/s^2)", "(m/s)/(m/s^2)"),
+        ("Acceleration/Force real in g/N", "g/N"),
+        ("Velocity in in/s", "in/s"),
+        ("Accelerance (g per N) real", "g/N"),
+        ("inertance_g_N_real", "g/N"),
+        ("inertance_g_per_N", "g/N"),
+        ("inertance_mm_s2_N", "(mm/s^2)/N"),
+        ("mobility_mm_s_N real", "(mm/s)/N"),
+        ("mobility_re_mm_s_per_n", "(mm/s)/N"),
+        ("mobility_kn", "furlong"),
+        ("receptance_um_N", "um/N"),
+        ("mobility_re", "(m/s)/N"),
+        ("Mobility tip x real", "(m/s)/N"),
+        ("T real", "(m/s^2)/(m/s^2)"),
+        ("T [-]", "(m/s^2)/(m/s^2)"),
+        ("T", "furlong"),
         ("Transmissibility", "(m/s^2)/(m/s^2)"),
         ("Transmissibility [-]", "(m/s^2)/(m/s^2)"),
         ("Transmissibility [dB]", "(m/s^2)/(m/s^2)"),
@@ -211,6 +228,14 @@ def test_a_single_row_is_no_sweep(tmp_path):
 def test_thousands_that_are_parted_are_no_decimals(tmp_path, row):
     with pytest.raises(BadInput, match=r"line 3: .* expected one decimal mark"):
         csv(tmp_path, f"Frequency [Hz];Velocity real [m/s];Velocity imag [m/s]\n10;1;1\n{row}\n")
+
+
+def test_a_ratio_that_is_called_by_its_word_alone_is_said_to_be_in_si():
+    told = of({"Inertance real": F, "Inertance imag": F}).said
+    assert "a: Inertance real: no unit, taken in SI's" in told
+    assert not any("taken in" in line for line in of({"mobility_re_mm_s_n": F, "mobility_im_mm_s_n": F}).said)
+    with pytest.raises(BadInput, match="mobility_kn: no unit, expected one in its name"):
+        of({"mobility_kn": F})
 
 
 def test_a_column_is_no_axis_for_its_first_letter():

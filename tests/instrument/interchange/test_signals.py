@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from instrument.errors import BadInput
+from instrument.interchange.said_by_name import NotSaid
 from instrument.interchange.signals import signals_of
 
 SIZE, TURN = np.array([1e-3, 2e-3]), np.array([-90.0, 45.0])
@@ -54,7 +55,24 @@ def test_several_phases_are_each_of_the_size_whose_words_they_share():
     np.testing.assert_allclose(base.values * mass.values, 2 * np.abs(mass.values) ** 2)
 
 
-def test_where_one_of_several_phases_is_of_two_sizes_none_is_lent():
+@pytest.mark.parametrize("name", ["Base phase [deg]", "Phase ref [deg]", "Phase Base acceleration [deg]"])
+def test_a_phase_of_the_base_is_the_only_bases(name):
+    table = {"Velocity [mm/s]": SIZE, "Velocity phase [deg]": TURN, "Base accel [g]": 2 * SIZE, name: -TURN}
+    velocity, base = signals_of("table", table, [])
+    turned = np.exp(1j * np.radians(TURN))
+    np.testing.assert_allclose(velocity.values, 1e-3 * SIZE * turned)
+    np.testing.assert_allclose(base.values / np.abs(base.values), turned.conj())
+
+
+def test_a_phase_beside_a_force_is_the_responses():
+    table = {"Velocity [mm/s]": SIZE, "Phase [deg]": TURN, "Force [N]": SIZE}
+    velocity, force = signals_of("table", table, [])
+    np.testing.assert_allclose(np.angle(velocity.values), np.radians(TURN))
+    assert not np.iscomplexobj(force.values)
+
+
+def test_where_one_of_several_phases_is_of_two_sizes_it_is_asked_about():
     table = {"Velocity tip (m/s)": SIZE, "Velocity root (m/s)": SIZE}
     table |= {"Phase velocity (deg)": TURN, "Phase tip (deg)": TURN}
-    assert not any(np.iscomplexobj(s.values) for s in signals_of("table", table, []))
+    with pytest.raises(NotSaid, match=r"Phase velocity \(deg\), Phase tip \(deg\): the phase of what\?"):
+        signals_of("table", table, [])
