@@ -9,11 +9,14 @@ import numpy as np
 from fitting.arrays import Array
 from instrument.batch.columns import Cell
 from instrument.batch.run import BatchRow
-from instrument.batch.taking_part import Group, group_of, law_of, repeats_among
+from instrument.batch.taking_part import Group, groups_of, law_of, repeats_among
 from instrument.facts.batch import BatchSpread
 from instrument.material.comparing import RESOLUTION
 from instrument.material.spread import FEWEST, FREQUENCIES, Curves, Spread, spread_of_curves
 from instrument.material.spread_facts import apart_rows, spread_rows
+
+NO_SPREAD = "No three rows of one material, within 1.5 K, have a band in common: no spread is told."
+"""For people."""
 
 
 @dataclass(frozen=True)
@@ -22,7 +25,7 @@ class Between:
 
     material: str | None
     temperature_c: float | None
-    """In whole degrees; None where none was measured."""
+    """Mean of theirs; None where none was measured."""
     spread: Spread
     places: tuple[int, ...]
     """Of its rows among all."""
@@ -73,9 +76,10 @@ def between_rows(rows: Iterable[BatchRow], repeats: Mapping[int, str] | None = N
     given.
     """
     repeats = repeats_among(rows) if repeats is None else repeats
+    groups = groups_of(rows)
     bands: dict[Group, list[tuple[float, float]]] = defaultdict(list)
-    for _, row, law in _taking_part(rows, repeats):
-        bands[group_of(row)].append((float(law["frequency_hz"][0]), float(law["frequency_hz"][-1])))
+    for place, _, law in _taking_part(rows, repeats):
+        bands[groups[place]].append((float(law["frequency_hz"][0]), float(law["frequency_hz"][-1])))
     at = {
         group: np.geomspace(low, high, FREQUENCIES)
         for group, some in bands.items()
@@ -83,7 +87,7 @@ def between_rows(rows: Iterable[BatchRow], repeats: Mapping[int, str] | None = N
     }
     found: dict[Group, list[_Curve]] = defaultdict(list)
     for place, row, law in _taking_part(rows, repeats):
-        if (group := group_of(row)) in at:
+        if (group := groups[place]) in at:
             found[group].append(_curve(place, row, law, at[group]))
     return [_between(group, at[group], some) for group, some in sorted(found.items(), key=_order)]
 

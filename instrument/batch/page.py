@@ -5,7 +5,7 @@ from importlib.metadata import version
 from itertools import islice
 from pathlib import Path, PurePath
 
-from instrument.batch.between import Between
+from instrument.batch.between import NO_SPREAD, Between
 from instrument.batch.columns import Cell, cells
 from instrument.batch.counted import Counted
 from instrument.batch.figure import MOST, laws_figure
@@ -72,7 +72,7 @@ def _laws(rows: Rows, counted: Counted) -> tuple[Block, ...]:
 
 def _between(between: Sequence[Between]) -> tuple[Block, ...]:
     if not between:
-        return (Sentence("No three rows of one material and temperature have a band in common.", "note"),)
+        return (Sentence(NO_SPREAD, "note"),)
     shown = [
         (
             one.material or "",

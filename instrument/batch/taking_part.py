@@ -1,6 +1,7 @@
 """Which rows of a batch take part in a spread, in which group, and which of them repeat another."""
 
 import os
+from collections import defaultdict
 from collections.abc import Iterable
 
 import numpy as np
@@ -12,14 +13,38 @@ from instrument.batch.run import BatchRow
 UNKNOWN = "unknown"
 """The verdict that leaves a law without a part: it may be biased by more than any spread."""
 Group = tuple[str | None, float | None]
-"""The table's `material` and the temperature in whole degrees Celsius; None where there is none."""
+"""The table's `material` and its rows' mean temperature to a tenth of a kelvin; None where there is none."""
+_GAP_K, _WIDE_K = 0.5, 1.5
+"""Between neighbours of one temperature, and from its lowest to its highest. A choice: a room wanders by as
+much within a day, and a rubber changes by 3 to 5 % a kelvin."""
 
 
-def group_of(row: BatchRow) -> Group:
-    """Rows of one group are specimens of one material at one temperature."""
-    temperature = cells(row)["temperature_c"]
-    warm = round(temperature) + 0.0 if isinstance(temperature, int | float) else None
-    return row.task.material, warm
+def groups_of(rows: Iterable[BatchRow]) -> list[Group]:
+    """The group of every row: specimens of one material at about one temperature."""
+    of = [(row.task.material, _temperature(row)) for row in rows]
+    known = defaultdict[str | None, set[float]](set)
+    for material, warm in of:
+        if warm is not None:
+            known[material].add(warm)
+    means = {material: _means(sorted(some)) for material, some in known.items()}
+    return [(material, None if warm is None else means[material][warm]) for material, warm in of]
+
+
+def _temperature(row: BatchRow) -> float | None:
+    found = cells(row)["temperature_c"]
+    return float(found) if isinstance(found, int | float) else None
+
+
+def _means(ascending: list[float]) -> dict[float, float]:
+    """Of each temperature that of the group it is in."""
+    found: dict[float, float] = {}
+    group: list[float] = []
+    for warm, following in zip(ascending, [*ascending[1:], np.inf], strict=True):
+        group.append(warm)
+        if following - warm > _GAP_K or following - group[0] > _WIDE_K:
+            found |= dict.fromkeys(group, round(float(np.mean(group)), 1) + 0.0)
+            group = []
+    return found
 
 
 def law_of(row: BatchRow) -> dict[str, Array] | None:
@@ -45,10 +70,10 @@ def repeats_among(rows: Iterable[BatchRow]) -> dict[int, str]:
     """
     first: dict[tuple[str, Group], str] = {}
     found = {}
-    for place, row in enumerate(rows):
+    for place, (row, group) in enumerate(zip(rows, groups_of(rows), strict=True)):
         if law_of(row) is None:
             continue
-        key = row.contents or os.path.realpath(row.task.data), group_of(row)
+        key = row.contents or os.path.realpath(row.task.data), group
         if key in first:
             found[place] = first[key]
         else:

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from instrument.batch.asking import tasks_of
-from instrument.batch.between import between_rows, marks_of
+from instrument.batch.between import NO_SPREAD, between_rows, marks_of
 from instrument.batch.counted import Counted
 from instrument.batch.page import write_page
 from instrument.batch.run import here, run_batch, there
@@ -14,6 +14,7 @@ from instrument.batch.taking_part import repeats_among
 from instrument.cli.options import force_option, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
+from instrument.material.spread import FEWEST
 from instrument.models.second_process import VARIABLE, processors
 from instrument.progress import bar
 
@@ -95,6 +96,8 @@ def batch(
     for one in between:
         for line in one.lines:
             out.say(line)
+    if not between and counted.done >= FEWEST:
+        out.say(NO_SPREAD)
     for path in written:
         out.say(f"wrote {path}")
     out.result(counted.result(repeated, written, between, twice))

@@ -26,7 +26,7 @@ class BatchSpread(Result):
     material: str | None = None
     """As the table has it."""
     temperature_c: Number | None
-    """In whole degrees; null where none was measured."""
+    """Mean of its rows'; null where none was measured."""
     rows: int
     frequencies: tuple[SpreadAt, ...]
     apart: tuple[SpecimenApart, ...] = ()

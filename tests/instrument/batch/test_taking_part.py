@@ -5,7 +5,7 @@ from dataclasses import replace
 from row_cases import row, rows
 
 from instrument.batch.between import between_rows, marks_of
-from instrument.batch.taking_part import group_of, law_of, repeats_among
+from instrument.batch.taking_part import groups_of, law_of, repeats_among
 
 
 def of(material, some):
@@ -39,15 +39,24 @@ def test_one_file_at_two_temperatures_repeats_nothing():
 
 def test_materials_are_apart():
     some = [*of("felt", rows(3, 0.0)), *rows(5, 0.0), *of("butyl", [row(k, 3.0, 20.2) for k in range(4)])]
-    assert group_of(some[-1]) == ("butyl", 20.0)
+    assert groups_of(some)[-1] == ("butyl", 20.2)
     found = between_rows(some)
     assert [(b.material, b.temperature_c, b.result.rows) for b in found] == [
-        ("butyl", 20.0, 4),
+        ("butyl", 20.2, 4),
         ("felt", None, 3),
         (None, None, 5),
     ]
     assert all(at.storage_modulus_spread.percent < 2.0 for b in found for at in b.result.frequencies)
-    assert "4 rows of butyl at 20 degC at" in found[0].lines[0]
+    assert "4 rows of butyl at 20.2 degC at" in found[0].lines[0]
+
+
+def test_a_room_that_wanders_over_half_a_degree_cuts_no_group():
+    warm = [21.2, 21.4, 21.5, 21.6, 21.9, 22.2, 24.0, 24.2, 70.0]
+    groups = groups_of([row(k, 1.0, t) for k, t in enumerate(warm)])
+    assert [t for _, t in groups] == [21.6] * 6 + [24.1] * 2 + [70.0]
+    # From its lowest to its highest no more than a rubber bears.
+    drifting = groups_of([row(k, 1.0, 20.0 + 0.4 * k) for k in range(6)])
+    assert [t for _, t in drifting] == [20.6] * 4 + [21.8] * 2
 
 
 def test_a_row_that_is_not_like_the_others_is_named_and_the_spread_given_without_it():
