@@ -59,7 +59,7 @@ def explain(
         said.append(judgement.why)
         return tuple(said)
     stories = [story(e, f) for e, f in zip(scored.fitted.effects, found, strict=True)]
-    said.append(f"{how_likely(judgement, scored.names)} {' and '.join(stories)}.")
+    said.append(f"{how_likely(judgement, scored.names)} {', and besides '.join(stories)}.")
     if not all(e.replaces_law for e in scored.fitted.effects):
         said.append(_moved(problem, scored.fitted))
     if scored.stands_in and not judgement.by_hand:
@@ -87,6 +87,8 @@ def explain(
         f"With it the fit leaves {two_digits(after.rms_percent)} % rms instead of "
         f"{two_digits(before.rms_percent)} %" + _chi2(before, after) + _held_out(before, after, found)
     )
+    if after.chi2_per_dof >= before.chi2_per_dof:
+        said.append("What speaks for it is not what is left, but how near it leaves stated numbers and law.")
     said.append(_law(before, after))
     return tuple(said)
 
@@ -199,7 +201,7 @@ def moved_words(problem: DiagnosisProblem, plain: Complex, velocity_m_s: Complex
     # Beside what it changes elsewhere nobody wants the rest.
     largest = max(parts)[0]
     parts = [part for part in parts if part[0] > _WORTH_SAYING * largest] or parts
-    return f"It changes the response by up to {', '.join(words for _, words in parts)}."
+    return f"The law kept, it changes the response by up to {', '.join(words for _, words in parts)}."
 
 
 def _whose(problem: DiagnosisProblem, point: int) -> str:

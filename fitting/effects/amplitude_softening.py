@@ -115,8 +115,8 @@ class AmplitudeSofteningEffect(Effect):
 
     def story(self, u: Mapping[str, float]) -> str:
         told = (
-            f"the core softens with strain, by {100 * u['k']:.2g} % at the largest strain of the sweep at 1 g"
-            " (of a force: at 1 N)"
+            f"the core {'softens' if u['k'] > 0 else 'stiffens'} with strain, by {100 * abs(u['k']):.2g} % "
+            "at the largest strain of the sweep at 1 g (of a force: at 1 N)"
         )
         told = f"{told}, and {'gains' if u['loss'] > 0 else 'loses'} loss" if "loss" in u else told
         return f"{told}; {100 * u['kept']:.0f} % of it stays when the strain is gone" if "kept" in u else told

@@ -23,4 +23,5 @@ class GainErrorEffect(Effect):
         return np.asarray(v * u[0])
 
     def story(self, u: Mapping[str, float]) -> str:
-        return f"the velocity channel reads {100 * (u['factor'] - 1):+.2f} % of the truth"
+        off = 100 * (u["factor"] - 1)
+        return f"the velocity channel reads {abs(off):.2f} % {'high' if off > 0 else 'low'}"

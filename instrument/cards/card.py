@@ -54,10 +54,10 @@ class Card:
             *([f"with: {law.found}"] if law.found else []),
         ]
         if law.verdict == "unknown":
-            lines.append(
-                "WARNING: verdict unknown: the data show structure that nothing in the catalogue explains; "
-                "this law may be biased beyond its band"
-            )
+            why = "the data show structure that nothing in the catalogue explains"
+            if law.shift is not None:
+                why = "it is not told whether one shifted law serves at all these temperatures"
+            lines.append(f"WARNING: verdict unknown: {why}; this law may be biased beyond its band")
         if law.is_doubted:
             lines.append(
                 "WARNING: the fit says that this law may be biased beyond its band: see its warnings, and "

@@ -8,9 +8,17 @@ from instrument.models.modal import TablesDiagnosed
 
 
 def with_unseen(result: DiagnosisResult, diagnosed: Diagnosed) -> DiagnosisResult:
-    """The result of a diagnosis with it; as it is where nothing was looked for or no noise is known."""
+    """The result of a diagnosis with it; as it is where nothing was looked for or no noise is known.
+
+    Nor where nothing explains the data: what else would not be seen there is no news.
+    """
     rivals = diagnosed.result.rivals
-    if rivals is None or not diagnosed.effects or not rivals.evidence.scale_known:
+    if (
+        result.verdict == "unknown"
+        or rivals is None
+        or not diagnosed.effects
+        or not rivals.evidence.scale_known
+    ):
         return result
     return result.but(unseen=tuple(_fact(one) for one in unseen(rivals, diagnosed.effects)))
 

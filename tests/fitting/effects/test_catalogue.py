@@ -76,3 +76,11 @@ def test_one_of_two_masses_is_what_both_are_without_the_other(full):
 def test_a_clamp_line_elsewhere_is_told_by_how_far(kind, dlength, words):
     said = CATALOGUE["clamp_line"].on(kind).story({"dlength": dlength})
     assert said == f"the {kind} is free over {words} its stated length"
+
+
+def test_the_sign_of_a_size_is_a_word():
+    gain, strain = (CATALOGUE[name] for name in ("gain_error", "amplitude_softening"))
+    assert gain.story({"factor": 0.987}) == "the velocity channel reads 1.30 % low"
+    assert gain.story({"factor": 1.024}) == "the velocity channel reads 2.40 % high"
+    assert strain.story({"k": 0.25}).startswith("the core softens with strain, by 25 % at the largest")
+    assert strain.story({"k": -0.25}).startswith("the core stiffens with strain, by 25 % at the largest")

@@ -270,7 +270,7 @@ def test_abaqus_shifts_by_wlf_itself_as_the_law_does(tmp_path):
     [
         ({"shift": "arrhenius", "shift_parameters": {"activation_energy_j_mol": 1.2e5}}, "ln a_T = 120000"),
         ({"shift": "free", "shift_parameters": {}}, "log10 a_T = 1.3333 at 5 degrees C, 0.0000 at 20"),
-        ({"simple": None}, "WARNING: verdict unknown"),
+        ({"simple": None}, "WARNING: verdict unknown: it is not told whether one shifted law serves"),
     ],
 )
 def test_other_shifts_and_doubts_are_said_in_the_header(tmp_path, changed, said):

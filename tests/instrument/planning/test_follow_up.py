@@ -293,6 +293,9 @@ def test_what_is_left_open_is_both(rivals, ranked, monkeypatch):
 def test_where_nothing_was_looked_for_nothing_is_said_of_it(rivals):
     result = diagnosis()
     assert with_unseen(result, ambiguous(rivals)) is result
+    unknown = result.but(verdict="unknown")
+    seen = replace(ambiguous(rivals), effects=(CATALOGUE["temperature_drift"],))
+    assert with_unseen(unknown, seen) is unknown
     assert with_unseen(result, replace(diagnosed(sweep()), effects=tuple(CATALOGUE.values()))) is result
 
 
