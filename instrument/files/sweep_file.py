@@ -1,18 +1,21 @@
 """A sweep as CSV: columns with their units in the name, `#` comments, any order."""
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.specimen import Drive
+from fitting.specimen import Drive, Reading
 from fitting.sweep import Sweep, segments_by_gap
 from instrument.errors import BadInput
 from instrument.files.column import Column
 from instrument.files.nearest import nearest
 from instrument.files.point_columns import understood
 from instrument.files.table import check_frequency, check_whole, number, read_rows
+from instrument.files.text import read_text
 
 IMPORT_READS = "'viscorig import' reads other programs' tables"
 """For people whose columns have other names."""
@@ -36,6 +39,8 @@ _DECISIVE = (
     "base_accel_im_m_s2",
 )
 """Without them the same file gives another law."""
+_READS = re.compile(r"^#\s*velocity is (absolute|relative)\b", re.M)
+"""What a comment says that a laser sees: exports of sessions begin with it."""
 _READINGS = (("velocity", "m_s", 0), ("acceleration", "m_s2", -1), ("displacement", "m", 1))
 """Stem and unit of phasor columns, and the power of i omega that makes a velocity of them."""
 
@@ -47,6 +52,8 @@ class SweepFile:
     path: Path
     columns: dict[str, Array]
     unknown: dict[str, list[str]]
+    reads: Reading | None = None
+    """As its comments say; None where they do not."""
 
     @property
     def temperature_c(self) -> float | None:
@@ -130,7 +137,8 @@ def read_sweep(path: Path) -> SweepFile:
     unknown = {
         name: [row[k] for _, row in rows] for k, name in enumerate(header) if name and name not in known
     }
-    return SweepFile(path, columns, unknown)
+    said = _READS.search(read_text(path))
+    return SweepFile(path, columns, unknown, cast(Reading, said[1]) if said else None)
 
 
 def sweep_of_columns(path: Path, columns: dict[str, Array]) -> SweepFile:

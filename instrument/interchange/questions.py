@@ -45,7 +45,8 @@ def question_data(given: Given, path: Path, progress: Progress = quiet, like: Sp
     """
     plate = given.specimen
     if not given.session:
-        doubt = kelvin_doubt(given.temperature_c) or _drifted(given.temperature_range_c)
+        doubt = _otherwise_read(given) or kelvin_doubt(given.temperature_c)
+        doubt = doubt or _drifted(given.temperature_range_c)
         _ask(doubt or _many(len(given.sweep), isinstance(plate, Specimen)), [path])
     if (
         given.session
@@ -56,6 +57,14 @@ def question_data(given: Given, path: Path, progress: Progress = quiet, like: Sp
     if isinstance(plate, Specimen) and plate.masses:
         return
     _ask(data_doubt(given.sweep, like or plate, progress), [path])
+
+
+def _otherwise_read(given: Given) -> str:
+    """That a file says itself what its laser sees, and the specimen something else; empty otherwise."""
+    if not given.reads or given.reads == given.specimen.reads:
+        return ""
+    frame = "absolute" if given.reads == "absolute" else "relative to the clamp"
+    return f'its comments say that velocities are {frame}: expected reads = "{given.reads}" in [pickup]'
 
 
 def question_modes(

@@ -73,6 +73,13 @@ def test_a_sweep_in_kilohertz_is_asked_about_and_a_session_is_not():
     question_data(replace(kilo, session="monday"), Path("monday.h5"))
 
 
+def test_a_file_that_says_otherwise_than_its_specimen_what_the_laser_sees_is_asked_about(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text(f"# velocity is absolute: as exported\n{(DATA / 'practice-007.csv').read_text()}")
+    with pytest.raises(BadInput, match=r'velocities are absolute: expected reads = "absolute" in \[pickup\]'):
+        question_data(read_given(path, case_file("zn1.toml"), None), path)
+
+
 def test_files_of_unlike_temperatures_are_asked_about_before_they_get_one_law():
     paths = [Path("a.csv"), Path("b.csv"), Path("c.csv")]
     with pytest.raises(BadInput, match=r"^c\.csv: at 0 degC, a\.csv at 20 degC: .* 'identify --shift'"):
