@@ -7,6 +7,7 @@ others are passed over.
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import islice
 from pathlib import Path
 
 from instrument.batch.task import BatchTask
@@ -14,13 +15,17 @@ from instrument.errors import BadInput
 from instrument.files.nearest import nearest
 from instrument.files.plausible import INSIST
 from instrument.files.table import Rows, number, read_rows
-from instrument.interchange.given import is_session
+from instrument.interchange.given import SESSION_ENDINGS, is_session
 from instrument.interchange.questions import kelvin_doubt
+from instrument.interchange.readers import foreign_endings
 
 _OPTIONAL = ("hammer", "temperature_c", "material")
 """Columns of a table beside its data and specimens."""
 _MEANT = 0.8
 """How alike an unknown column is to the one that was meant."""
+_DATA = {".csv", *SESSION_ENDINGS, *foreign_endings()}
+_MOST_SHOWN = 80
+"""Letters of a header in a message."""
 _COLDEST_C = -273.15
 _WARM = re.compile(r"t|temp(?:eratur|erature)?(?:[^a-z].*)?", re.I)
 """Names of temperatures in whatever unit: left out, rows of all of them would be one group."""
@@ -44,6 +49,12 @@ def tasks_of(
         found = [_task(path, specimen, hammer) for path in files]
         lonely = next((t for t in found if t.specimen is None and not is_session(Path(t.data))), None)
         if lonely is not None:
+            heads = _heads_of_a_list(Path(lonely.data))
+            if heads:
+                raise BadInput(
+                    f"{lonely.data}: a list of files with the columns {heads}: expected a column 'data', "
+                    "and commas between columns; others are specimen, hammer, temperature_c, material"
+                )
             raise BadInput(
                 f"{lonely.data}: Missing option '--specimen': a sweep does not say which plate it was "
                 "(a table of sweeps begins with a column 'data', commas between its columns)"
@@ -53,6 +64,17 @@ def tasks_of(
 
 def _task(data: Path, specimen: Path | None, hammer: Path | None) -> BatchTask:
     return BatchTask(str(data), str(specimen) if specimen else None, str(hammer) if hammer else None)
+
+
+def _heads_of_a_list(path: Path) -> str:
+    """Of a table that names files in its first row, though not as ours do; empty for anything else."""
+    try:
+        with open(path, encoding="utf-8-sig") as file:
+            head, first = islice((line for line in file if line.strip() and not line.startswith("#")), 2)
+    except (OSError, UnicodeDecodeError, ValueError):
+        return ""
+    named = any(Path(cell.strip(" \"'\n")).suffix.lower() in _DATA for cell in re.split("[,;\t]", first))
+    return head.strip()[:_MOST_SHOWN] if named else ""
 
 
 def _is_table(path: Path) -> bool:

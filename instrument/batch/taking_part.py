@@ -62,20 +62,37 @@ def law_of(row: BatchRow) -> dict[str, Array] | None:
     return law
 
 
+_SAVED_AGAIN = 1e-4
+"""Relative, over all of a band: laws so alike are of one measurement, written with fewer digits or another
+comment. Two measurements differ by their noise, some thousandths over the root of their points, somewhere."""
+
+
 def repeats_among(rows: Iterable[BatchRow]) -> dict[int, str]:
     """Place of each row whose data an earlier row of its group has already, and that row's data.
 
-    Told by contents, whatever the files are called and whichever specimen they are given: one measurement
-    counts once. Rows that take no part repeat nothing.
+    Told by contents, whatever the files are called and whichever specimen they are given, and by laws that
+    are one to four digits: one measurement counts once. Rows that take no part repeat nothing.
     """
     first: dict[tuple[str, Group], str] = {}
+    laws = defaultdict[Group, list[tuple[str, Array]]](list)
     found = {}
     for place, (row, group) in enumerate(zip(rows, groups_of(rows), strict=True)):
-        if law_of(row) is None:
+        law = law_of(row)
+        if law is None:
             continue
         key = row.contents or os.path.realpath(row.task.data), group
-        if key in first:
-            found[place] = first[key]
-        else:
-            first[key] = row.task.data
+        curve = np.concatenate([law["frequency_hz"], law["storage_modulus_pa"], law["loss_factor"]])
+        earlier = first.get(key) or next((data for data, other in laws[group] if _is_one(curve, other)), None)
+        if earlier is not None:
+            found[place] = earlier
+            continue
+        first[key] = row.task.data
+        laws[group].append((row.task.data, curve))
     return found
+
+
+def _is_one(curve: Array, other: Array) -> bool:
+    # Nearly all differ in any one number by more.
+    if curve.shape != other.shape or abs(curve[-1] - other[-1]) > _SAVED_AGAIN * abs(other[-1]):
+        return False
+    return bool(np.all(np.abs(curve / other - 1) < _SAVED_AGAIN))

@@ -90,7 +90,9 @@ def batch(
     twice = [(tasks[place].data, first) for place, first in repeats.items()]
     _say(out, counted, repeated)
     for data, first in twice[:_FAILURES_SHOWN]:
-        out.say(f"repeat, not in the spread: {data} is {first} again, to the last byte")
+        out.say(
+            f"repeat, not in the spread: {data} is {first} again, by its bytes or by its law to four digits"
+        )
     if len(twice) > _FAILURES_SHOWN:
         out.say(f"and {len(twice) - _FAILURES_SHOWN} more repeats, all in {CSV}")
     for one in between:

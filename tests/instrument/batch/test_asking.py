@@ -51,3 +51,13 @@ def test_temperatures_by_another_name_are_not_passed_over(tmp_path, name):
 def test_a_temperature_below_the_absolute_zero_is_refused(tmp_path):
     with pytest.raises(BadInput, match=r"line 2: temperature_c = -300, expected more than -273\.15"):
         asked(tmp_path, "data,specimen,temperature_c\na.csv,b.toml,-300\n")
+
+
+@pytest.mark.parametrize("heads", ["data;specimen;temperature_c", "file,spec,temperature_c"])
+def test_a_list_of_files_that_is_not_written_as_ours_is_told_from_a_sweep(tmp_path, heads):
+    separator = ";" if ";" in heads else ","
+    path = tmp_path / "list.csv"
+    path.write_text(f"{heads}\n{separator.join(['a.csv', 'a.toml', '21'])}\n", encoding="utf-8")
+    said = f"a list of files with the columns {heads}: expected a column 'data', and commas"
+    with pytest.raises(BadInput, match=re.escape(said)):
+        tasks_of([path], None)

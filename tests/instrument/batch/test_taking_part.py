@@ -26,6 +26,13 @@ def test_equal_contents_under_two_names_are_one_specimen():
     assert marks_of([found], repeats)[4] == {"repeat_of": "1.csv"}
 
 
+def test_a_file_saved_again_with_fewer_digits_is_one_specimen():
+    some = [holding(str(k), one) for k, one in enumerate(rows(4, 0.02))]
+    again, another = holding("x", row(9, 1.5)), holding("y", row(10, 1.5 * (1 + 3e-5)))
+    assert repeats_among([*some, again, another]) == {5: "9.csv"}
+    assert repeats_among([*some, again, holding("y", row(10, 1.5 * (1 + 3e-4)))]) == {}
+
+
 def test_a_row_that_failed_is_repeated_by_none():
     some = [holding("a", row(1, 1.0, failed="no such file")), holding("a", row(2, 1.0))]
     assert repeats_among(some) == {}
@@ -38,7 +45,11 @@ def test_one_file_at_two_temperatures_repeats_nothing():
 
 
 def test_materials_are_apart():
-    some = [*of("felt", rows(3, 0.0)), *rows(5, 0.0), *of("butyl", [row(k, 3.0, 20.2) for k in range(4)])]
+    some = [
+        *of("felt", rows(3, 0.0)),
+        *rows(5, 0.0),
+        *of("butyl", [row(k, 3.0 + 0.01 * k, 20.2) for k in range(4)]),
+    ]
     assert groups_of(some)[-1] == ("butyl", 20.2)
     found = between_rows(some)
     assert [(b.material, b.temperature_c, b.result.rows) for b in found] == [
