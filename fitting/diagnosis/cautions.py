@@ -29,6 +29,7 @@ def warnings_of(search: Search, judgement: Judgement) -> tuple[str, ...]:
                 f"{accepted.too_large} ends at the limit of what is plausible: there is more of it, or it is "
                 f"something else, and {BIASED}"
             )
+        said += [e.caution for e in accepted.fitted.effects if e.caution]
     names = {n for group in judgement.equivalent.values() for n in group}
     if not problem.points.timed:
         if "temperature_drift" in names:

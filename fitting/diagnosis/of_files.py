@@ -79,6 +79,7 @@ class OfFiles(Effect):
             sharp=inner.sharp,
             beside_others=inner.beside_others,
             discriminating_test=inner.discriminating_test,
+            caution=inner.caution,
             parameters=(*inner.parameters, *further, *where),
             spans=inner.spans,
         )

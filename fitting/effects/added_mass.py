@@ -61,6 +61,10 @@ class AddedMassEffect(Effect):
     unexplained_share = 0.003
     chance = 0.03
     discriminating_test = "a look at the plate and a balance; a second spot off the axis"
+    caution = (
+        "a mass is taken for a point: a tape or a strip that is stuck on stiffens the plate as well, which "
+        "readings hardly tell, and the law may then be off by up to four standard errors: look at it"
+    )
 
     def on(self, kind: str) -> Effect | None:
         others = {"shear-pair": MassOfPairEffect, "beam": MassOnBeamEffect}
@@ -87,6 +91,7 @@ class MassOnBeamEffect(AddedMassEffect):
 
     parameters = AddedMassEffect.parameters[:2]
     spans = ()
+    caution = AddedMassEffect.caution.replace("plate", "beam")
     needs = ONE_PIECE
     discriminating_test = "a look at the beam and a balance; a second spot"
 
@@ -129,6 +134,7 @@ class MassOfPairEffect(AddedMassEffect):
 
     parameters = (EffectParameter("mass", "kg", -0.5, 5.0, 3e-3, spread=0.02, below=0.05),)
     spans = ()
+    caution = ""
     discriminating_test = "the mass on a balance; other masses on the same discs, which part mass and modulus"
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:

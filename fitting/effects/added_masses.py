@@ -39,6 +39,7 @@ class AddedMassesEffect(Effect):
     twice = True
     chance = 0.005
     discriminating_test = AddedMassEffect.discriminating_test
+    caution = AddedMassEffect.caution
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         places = [(x * plate.length_m, y * plate.width_m) for x, y in _PLACES]

@@ -158,6 +158,8 @@ class Effect:
     spans: tuple[Span, ...] = ()
     discriminating_test: ClassVar[str] = ""
     """The measurement that shows this effect apart from others."""
+    caution: ClassVar[str] = ""
+    """What its formula leaves out that readings hardly tell, where that matters to the law: a sentence."""
     replaces_law: ClassVar[bool] = False
     unexplained_share: ClassVar[float] = 0.0
     """Share of the chi-square it explains that its own formula may leave (`fitting.diagnosis.predictive`)."""

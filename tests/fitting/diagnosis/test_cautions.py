@@ -3,6 +3,7 @@
 from types import SimpleNamespace as Like
 
 from fitting.diagnosis.cautions import warnings_of
+from fitting.effects import CATALOGUE
 from fitting.identification.result import doubts_itself
 from fitting.laws import LAWS
 
@@ -10,8 +11,8 @@ LAW = LAWS["fractional-zener"](1e6, 3e7, 1e-4, 0.6)
 SEARCH = Like(problem=Like(points=Like(timed=True)), stated=LAW)
 
 
-def said_of(too_large):
-    accepted = Like(names=("core_thickness",), fitted=Like(law=LAW), too_large=too_large)
+def said_of(too_large, *effects):
+    accepted = Like(names=("core_thickness",), fitted=Like(law=LAW, effects=effects), too_large=too_large)
     judgement = Like(accepted=accepted, equivalent={}, group=(), by_hand=False)
     return warnings_of(SEARCH, judgement)
 
@@ -21,3 +22,12 @@ def test_an_effect_that_ends_where_no_more_of_it_is_plausible_leaves_its_law_in_
     (said,) = said_of("core_thickness")
     assert said.startswith("core_thickness ends at the limit of what is plausible")
     assert doubts_itself([said])
+
+
+def test_what_a_mass_leaves_out_is_said_and_is_no_doubt_by_itself():
+    mass, pair = (CATALOGUE["added_mass"].on(kind) for kind in ("plate", "shear-pair"))
+    (said,) = said_of("", mass)
+    assert said.startswith("a mass is taken for a point: a tape or a strip")
+    assert not doubts_itself([said])
+    assert said_of("", pair) == ()
+    assert "stiffens the beam as well" in CATALOGUE["added_mass"].on("beam").caution
