@@ -53,7 +53,7 @@ def tasks_of(
             if heads:
                 raise BadInput(
                     f"{lonely.data}: a list of files with the columns {heads}: expected a column 'data', "
-                    "and commas between columns; others are specimen, hammer, temperature_c, material"
+                    "commas between its columns; others are specimen, hammer, temperature_c, material"
                 )
             raise BadInput(
                 f"{lonely.data}: Missing option '--specimen': a sweep does not say which plate it was "

@@ -58,6 +58,6 @@ def test_a_list_of_files_that_is_not_written_as_ours_is_told_from_a_sweep(tmp_pa
     separator = ";" if ";" in heads else ","
     path = tmp_path / "list.csv"
     path.write_text(f"{heads}\n{separator.join(['a.csv', 'a.toml', '21'])}\n", encoding="utf-8")
-    said = f"a list of files with the columns {heads}: expected a column 'data', and commas"
+    said = f"a list of files with the columns {heads}: expected a column 'data', commas between its columns"
     with pytest.raises(BadInput, match=re.escape(said)):
         tasks_of([path], None)
