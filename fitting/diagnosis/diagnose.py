@@ -17,7 +17,7 @@ from fitting.diagnosis.pairs import Pairs
 from fitting.diagnosis.prediction import over_noise
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refitted import Refitted
-from fitting.diagnosis.resampling import Again, Resampled, gain, resampled_of
+from fitting.diagnosis.resampling import Again, Resampled, gain, repeats_of, resampled_of
 from fitting.diagnosis.result import Candidate, Diagnosis, FoundEffect, ParameterEstimate, Rivals
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.singles import Singles
@@ -33,6 +33,9 @@ from fitting.sweep import Sweep
 
 _BEYOND = 0.005
 """Of what the group holds: what is less likely does not decide what to measure next. A choice."""
+
+_OF_SEARCH, _OF_REPEATED = 0.8, 0.15
+"""Share of a diagnosis that its search is, and of that the first one where it is repeated."""
 
 Report = Callable[[float], None]
 Settle = Callable[[Search, Judgement], Judgement]
@@ -93,7 +96,8 @@ def diagnose_task(
                 return None
             return Again(problem, remade, reduced, effects, bare, start, none, noise)
 
-        decided = _decided(search, noise, report, again, resamples, settle)
+        repeats = 0 if remade is None else repeats_of(len(problem.sweep), resamples)
+        decided = _decided(search, noise, report, again, repeats, settle)
     else:
         decided = _taken_on_trust(search, [catalogue[name] for name in accepted_by_hand])
     return _diagnosis(decided, reduced, catalogue, bare, channels, why_aside, report)
@@ -121,15 +125,20 @@ def _decided(
     noise: Noise,
     report: Report,
     again: Callable[[Refitted], Again | None],
-    resamples: int | None,
+    repeats: int,
     settle: Settle | None,
 ) -> _Decided:
     """The whole catalogue searched, the search repeated where it can be, and the last word heard."""
-    search, scored_fits, judgement = _searched(search, noise, report)
+    # Repeated often, the search is the least of the work.
+    own = _OF_REPEATED if repeats else 1.0
+    search, scored_fits, judgement = _searched(search, noise, lambda x: report(own * x))
     resampled, repeated = Resampled(), again(search.none.fitted)
     if repeated is not None:
         most = gain(search.none, scored_fits)
-        resampled = resampled_of(repeated, most, resamples, search.executor, report)
+        rest = _OF_SEARCH * (1 - own)
+        resampled = resampled_of(
+            repeated, most, repeats, search.executor, lambda x: report(_OF_SEARCH * own + rest * x)
+        )
         judgement = in_light_of(judgement, resampled.p_value)
     if settle is not None:
         judgement = settle(search, judgement)
@@ -148,7 +157,7 @@ def _diagnosis(
     """Everything that is said of it."""
     search, judgement = decided.search, decided.judgement
     problem, evidence = search.problem, search.evidence
-    report(0.8)
+    report(_OF_SEARCH)
     none, accepted = search.none.fitted, judgement.accepted
     search.validate([search.none, *([accepted] if accepted is not None else [])])
     before = stage_of(problem, evidence, none, search.validation(search.none), 1.0)

@@ -112,13 +112,18 @@ def resampled_of(
     again: Again, found: float, repeats: int | None, executor: Executor, report: Report
 ) -> Resampled:
     """Both; `found` is the gain of the data. Nothing where points are many and nobody asks."""
-    if repeats is None:
-        repeats = REPEATS if len(again.problem.sweep) <= SMALL else 0
+    repeats = repeats_of(len(again.problem.sweep), repeats)
     if not repeats:
         return Resampled()
-    gains = list(executor.each(again.gain_without_effect, list(range(repeats)), report))
+    tasks = list(range(repeats))
+    gains = list(executor.each(again.gain_without_effect, tasks, lambda x: report(0.5 * x)))
     p = (1 + sum(g >= found for g in gains)) / (1 + repeats)
-    return Resampled(p, nested_rms_percent(again, executor, report))
+    return Resampled(p, nested_rms_percent(again, executor, lambda x: report(0.5 + 0.5 * x)))
+
+
+def repeats_of(points: int, wanted: int | None) -> int:
+    """On how many sweeps without any effect the search is repeated; None wants it where points are few."""
+    return (REPEATS if points <= SMALL else 0) if wanted is None else wanted
 
 
 def nested_rms_percent(again: Again, executor: Executor, report: Report) -> float | None:

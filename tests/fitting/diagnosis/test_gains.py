@@ -104,3 +104,11 @@ def test_effects_are_told_with_errors_unless_they_end_at_a_limit():
     assert np.isnan(second.parameters["loss_factor"].standard_error)
     assert np.isnan(second.parameters["y"].standard_error)
     assert second.parameters["x"].standard_error == pytest.approx(0.02)
+
+
+def test_what_is_done_of_both_only_grows():
+    heard = []
+    assert resampled_of(again(10), 5.0, 4, ALONE, heard.append).nested_rms_percent is not None
+    assert heard == sorted(heard)
+    assert heard[-1] == 1.0
+    assert max(x for x in heard if x <= 0.5) == 0.5
