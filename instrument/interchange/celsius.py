@@ -6,8 +6,8 @@ import numpy as np
 
 from fitting.arrays import Array
 from instrument.interchange.found import Found
-from instrument.interchange.said_by_name import bracketed
 from instrument.interchange.signals import Named
+from instrument.interchange.unit_in_name import bracketed
 
 OURS = "temperature_c"
 _WORDS = frozenset(("temperature", "temp", "temperatur"))

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from instrument.files.table import Rows
 from instrument.files.units import unit_of
-from instrument.interchange.said_by_name import bracketed
+from instrument.interchange.unit_in_name import bracketed
 
 _STATED = r"{}[-_ ]*(?:axis)?[-_ ]*units?"
 _X = re.compile(_STATED.format("(?:x|abscissa|frequency)"), re.I)

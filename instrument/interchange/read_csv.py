@@ -14,9 +14,10 @@ from instrument.interchange.celsius import is_temperature
 from instrument.interchange.decoded import decoded
 from instrument.interchange.found import CARRIED, EXPECTED, Found
 from instrument.interchange.read_table import read_table
-from instrument.interchange.said_by_name import NotSaid, part_in, unit_in
+from instrument.interchange.said_by_name import NotSaid
 from instrument.interchange.signals import Named
 from instrument.interchange.text_table import TextTable, find_table, is_number, number_of
+from instrument.interchange.unit_in_name import part_in, unit_in
 
 _PARTED = re.compile(r"[-+]?[1-9]\d{0,2}(?:[.,]\d{3})+")
 _HUNDREDS = re.compile(r"[-+]?[1-9]\d\d")

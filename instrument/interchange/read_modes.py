@@ -9,8 +9,9 @@ from fitting.arrays import Array
 from instrument.errors import BadInput
 from instrument.interchange.celsius import OURS, is_temperature, with_celsius
 from instrument.interchange.found import Columns, Found, Modes
-from instrument.interchange.said_by_name import ANGULAR, ANGULAR_HZ, NotSaid, bracketed, unit_in
+from instrument.interchange.said_by_name import ANGULAR, ANGULAR_HZ, NotSaid
 from instrument.interchange.signals import Named
+from instrument.interchange.unit_in_name import bracketed, unit_in
 
 Loss = Literal["loss factor", "damping ratio", "quality", "bandwidth", "decrement"]
 Kind = Literal["mode", "frequency", "spread", "damping"] | Loss

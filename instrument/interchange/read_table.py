@@ -15,18 +15,9 @@ from instrument.files.units import DERIVATIVE, KNOWN, Quantity
 from instrument.interchange.celsius import with_celsius
 from instrument.interchange.found import CARRIED, Columns, Found, Ratio
 from instrument.interchange.read_modes import read_modes
-from instrument.interchange.said_by_name import (
-    ANGULAR,
-    ANGULAR_HZ,
-    BASE,
-    NotSaid,
-    axis_of,
-    bracketed,
-    is_unit_said,
-    stated_factor,
-    unit_in,
-)
+from instrument.interchange.said_by_name import ANGULAR, ANGULAR_HZ, BASE, NotSaid, axis_of
 from instrument.interchange.signals import Named, Signal, signals_of
+from instrument.interchange.unit_in_name import bracketed, is_unit_said, stated_factor, unit_in
 
 _RATES = ("sample_rate_hz", "sampling_rate_hz", "fs", "fs_hz", "sample_rate", "sampling_frequency")
 _FREQUENCIES = ("frequency", "freq", "f", "frequenz", "frequence")

@@ -9,18 +9,14 @@ from numpy.typing import NDArray
 
 from instrument.errors import BadInput
 from instrument.files.units import Unit
-from instrument.interchange.said_by_name import (
-    BASE,
+from instrument.interchange.said_by_name import BASE, NotSaid, radians, refuse_contradiction, refuse_unknown
+from instrument.interchange.unit_in_name import (
     EXPECTED_DB,
-    NotSaid,
     Part,
     amplitude_factor,
     of_decibels,
     part_in,
-    radians,
     reference_of_db,
-    refuse_contradiction,
-    refuse_unknown,
     stem_of,
     unit_in,
 )

@@ -16,7 +16,7 @@ from instrument.errors import BadInput
 from instrument.files.table import Rows
 from instrument.files.units import unit_of
 from instrument.interchange.preamble import named_by_preamble, with_stated_units
-from instrument.interchange.said_by_name import bracketed
+from instrument.interchange.unit_in_name import bracketed
 
 SEPARATORS = (";", "\t", ",", "")
 """Between columns; empty for blanks, any number of them."""

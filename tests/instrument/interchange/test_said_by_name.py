@@ -11,17 +11,8 @@ from instrument.files.units import unit_of
 from instrument.interchange.found import Found
 from instrument.interchange.read_csv import read_csv
 from instrument.interchange.read_table import read_table
-from instrument.interchange.said_by_name import (
-    amplitude_factor,
-    axis_of,
-    bracketed,
-    part_in,
-    radians,
-    refuse_contradiction,
-    refuse_unknown,
-    stem_of,
-    unit_in,
-)
+from instrument.interchange.said_by_name import axis_of, radians, refuse_contradiction, refuse_unknown
+from instrument.interchange.unit_in_name import amplitude_factor, bracketed, part_in, stem_of, unit_in
 
 V = np.array([0.1 + 0.02j, 0.2 - 0.1j, -0.05 - 0.3j, -0.1j, 0.02 + 0.01j])
 PARTS = {"Velocity real [m/s]": V.real, "Velocity imag [m/s]": V.imag}
