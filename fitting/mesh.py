@@ -14,6 +14,8 @@ from fitting.specimen import Patch, Specimen
 Indices = NDArray[np.intp]
 Moved = Literal["patch", "cut"]
 """What of a patch is another than stated: where it lies, or how long it is cut."""
+OF_PATCHES: tuple[Moved, ...] = ("patch", "cut")
+"""Both, of each patch along x and along y."""
 
 _SLIVER = 0.02
 """Of an element's side: a narrower strip of treatment on it is left out, it would hardly hold its nodes."""
@@ -163,8 +165,9 @@ SHIFT_M = 1e-4
 
 def shifts_of(specimen: Specimen) -> tuple[Shift, ...]:
     """What patches can be laid elsewhere, or cut otherwise; those that reach from edge to edge left out."""
-    kinds: tuple[Moved, ...] = ("patch", "cut")
-    each = (Shift(k, axis, kind) for kind in kinds for k in range(len(specimen.patches)) for axis in (0, 1))
+    each = (
+        Shift(k, axis, kind) for kind in OF_PATCHES for k in range(len(specimen.patches)) for axis in (0, 1)
+    )
     return tuple(shift for shift in each if shift.moving(specimen))
 
 

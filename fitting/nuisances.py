@@ -14,13 +14,14 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.mesh import OF_PATCHES
 from fitting.narrow import NarrowResonances
 from fitting.nuisance import Nuisance, felt
 from fitting.nuisance_sums import Kept, SideBySide, between
 from fitting.parts import coefficients, loaded, names_of
 from fitting.placed import Masses, Placed, Points
 from fitting.specimen import PlacedMass, Specimen
-from fitting.tolerances import OF_PATCHES, PLATE, moved
+from fitting.tolerances import PLATE, moved
 
 _H = 1e-2
 """Step of differences, in standard deviations."""

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from math import exp, radians
 from typing import Any, Literal
 
-from fitting.mesh import is_turned, shift_of, shifts_of
+from fitting.mesh import OF_PATCHES, is_turned, shift_of, shifts_of
 from fitting.specimen import Face, Orthotropy, Specimen
 
 Unit = Literal["1", "m", "s", "rad", "1/K"]
@@ -93,8 +93,6 @@ STATED_PER_K = 0.5
 """Of the typical standard deviation of a metal's change for a kelvin, where the file states it."""
 OF_FEW = tuple(s.name for s in _STATED[-10:])
 """Numbers that only orthotropic faces, glue and patches have."""
-OF_PATCHES = ("patch", "cut")
-"""Of each patch along x and along y: where it lies, and how long it is."""
 PLATE = (*(s.name for s in _STATED[:13]), *OF_FEW)
 """Those that change a plate's matrices."""
 _FIELDS = {

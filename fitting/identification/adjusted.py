@@ -6,10 +6,10 @@ from math import exp, pi
 from typing import Any
 
 from fitting.arrays import Array
-from fitting.mesh import shift_of
+from fitting.mesh import OF_PATCHES, shift_of
 from fitting.nuisance import Nuisance
 from fitting.specimen import Glue, Specimen, StatedSpecimen
-from fitting.tolerances import ADDED, OF_PATCHES
+from fitting.tolerances import ADDED
 
 
 @dataclass(frozen=True)
