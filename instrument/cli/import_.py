@@ -8,6 +8,7 @@ from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
 from instrument.facts.written import ImportResult
 from instrument.interchange.importing import import_file
+from instrument.interchange.naming import Naming
 
 
 @click.command("import")
@@ -20,8 +21,9 @@ from instrument.interchange.importing import import_file
 @click.option(
     "--columns",
     metavar="NAMES",
-    help="Of a text: names in the place of its own, with their units: 'Frequency [Hz],FRF real "
-    "[(m/s)/g],FRF imag [(m/s)/g],-'; - for a column to pass over.",
+    help="Of a text or a .mat: names in the place of its own, with their units. In the order of a text's "
+    "columns, 'Frequency [Hz],FRF real [(m/s)/g],FRF imag [(m/s)/g],-' (- to pass over), or by its own "
+    "names, 'f=Frequency [Hz],H=FRF [(m/s^2)/N]'.",
 )
 @json_option
 def import_(file: Path, out: Path | None, columns: str | None, json_path: str | None) -> None:
@@ -32,7 +34,7 @@ def import_(file: Path, out: Path | None, columns: str | None, json_path: str | 
     is found is listed.
     """
     output = Output(json_path)
-    imported = import_file(file, out, None if columns is None else [c.strip() for c in columns.split(",")])
+    imported = import_file(file, out, None if columns is None else Naming.of(columns))
     for line in imported.said:
         output.say(line)
     for path in imported.files:

@@ -10,8 +10,7 @@ from instrument.interchange.signals import Named
 from instrument.interchange.unit_in_name import bracketed
 
 OURS = "temperature_c"
-_WORDS = frozenset(("temperature", "temp", "temperatur"))
-"""With accents taken off, in English, French and German."""
+_WORDS = frozenset(("temperature", "temp"))
 _TO_CELSIUS: dict[str, Callable[[Array], Array]] = {
     **dict.fromkeys(("c", "°c", "degc", "deg c", "celsius"), lambda x: x),
     **dict.fromkeys(("k", "kelvin"), lambda x: x - 273.15),

@@ -1,7 +1,7 @@
 """Foreign data to this program's CSV files: sweeps, FRFs, impact records."""
 
 from collections import Counter
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from instrument.files.point_columns import understood
 from instrument.files.sweep_file import read_sweep, sweep_of_columns
 from instrument.impact.record import Hit
 from instrument.interchange.found import Columns, Modes
+from instrument.interchange.naming import Naming
 from instrument.interchange.provenance import one_line
 from instrument.interchange.readers import read_foreign
 
@@ -32,15 +33,15 @@ class Imported:
     said: tuple[str, ...]
 
 
-def import_file(path: Path, out: Path | None, columns: Sequence[str] | None = None) -> Imported:
+def import_file(path: Path, out: Path | None, naming: Naming | None = None) -> Imported:
     """Read a foreign file and write what it holds. Raises `BadInput` where there is nothing of use in it.
 
-    `columns` are names in the place of a text's own, empty or `-` for what is passed over.
+    `naming` has names in the place of the file's own.
 
     One kind of thing goes to `out` itself; several get its name with `-sweep`, `-frf`, `-hits` or `-modes`
     behind it.
     """
-    found = read_foreign(path, columns)
+    found = read_foreign(path, naming)
     if found.sweeps:
         # Said by its own rows: nobody has seen those that would be written.
         sweep_of_columns(path, one_table(found.sweeps))

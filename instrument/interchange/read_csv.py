@@ -13,6 +13,7 @@ from instrument.files.table import Rows, rate_stated_in, shown
 from instrument.interchange.celsius import is_temperature
 from instrument.interchange.decoded import decoded
 from instrument.interchange.found import CARRIED, EXPECTED, Found
+from instrument.interchange.naming import Naming
 from instrument.interchange.read_table import read_table
 from instrument.interchange.said_by_name import NotSaid
 from instrument.interchange.signals import Named
@@ -24,13 +25,13 @@ _HUNDREDS = re.compile(r"[-+]?[1-9]\d\d")
 _MARKED = re.compile(r"[-+]?\d[\d.,]*(?:[eE][-+]?\d+)?")
 
 
-def read_csv(path: Path, columns: Sequence[str] | None = None) -> Found:
-    """The table's sweep, FRF or record; `columns` are names in the place of the file's own.
+def read_csv(path: Path, naming: Naming | None = None) -> Found:
+    """The table's sweep, FRF or record; `naming` has names in the place of the file's own.
 
     Raises `BadInput` naming file and line.
     """
     text = decoded(path)
-    found, stands = Found(), find_table(path, text, columns)
+    found, stands = Found(), find_table(path, text, naming)
     table = _numbers(path, stands)
     rate = rate_stated_in(path, text)
     if rate is not None:
@@ -39,12 +40,9 @@ def read_csv(path: Path, columns: Sequence[str] | None = None) -> Found:
     words = [name for name in stands.names if name not in ("", "-") and name not in table]
     if words:
         found.said.append(f"passed over: {path.name}: {', '.join(words)[:200]}: no numbers")
-    try:
-        for name, part in _hits_apart(path, table):
-            if not read_table(name, part, found):
-                raise NotSaid(_nothing(path, stands.names))
-    except NotSaid as error:
-        raise BadInput(f"{error}; --columns says it for the file") from None
+    for name, part in _hits_apart(path, table):
+        if not read_table(name, part, found):
+            raise NotSaid(_nothing(path, stands.names))
     return found
 
 

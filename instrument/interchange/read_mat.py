@@ -1,6 +1,7 @@
 """MATLAB files: named arrays, structs of them, and the structs of an LMS Test.Lab export."""
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from instrument.files.rates import rate_of_step
 from instrument.files.uff58 import HERTZ, SECONDS
 from instrument.files.units import DERIVATIVE, KNOWN, Unit, unit_of
 from instrument.interchange.found import Found, Ratio, motion_of
+from instrument.interchange.naming import Naming
 from instrument.interchange.read_table import read_table
 from instrument.interchange.signals import Named
 
@@ -21,13 +23,40 @@ _DEPTH = 4
 _OUR_OWN = ("units", "about")
 
 
-def read_mat(path: Path) -> Found:
-    """What its variables hold. Raises `BadInput`."""
+def read_mat(path: Path, naming: Naming | None = None) -> Found:
+    """What its variables hold; `naming` has names in the place of their own. Raises `BadInput`."""
     variables = {n: v for n, v in read_mat_variables(path).items() if n not in _OUR_OWN}
     found = Found()
+    if naming is not None:
+        variables = _renamed(path, variables, naming)
     _walk(path, path.name, variables, found, 0)
     _testlab(path, variables, found)
     return found
+
+
+def _renamed(path: Path, variables: dict[str, Any], naming: Naming) -> dict[str, Any]:
+    """With other names of arrays, in whatever struct."""
+    if naming.in_order:
+        raise BadInput(f"{path}: arrays are in no order, expected OWN=NAME in --columns")
+    naming.named(path.name, _names(variables))
+    return _with_names(variables, naming.by_own)
+
+
+def _names(struct: dict[str, Any]) -> Iterator[str]:
+    for name, value in struct.items():
+        if isinstance(value, dict):
+            yield from _names(value)
+        else:
+            yield name
+
+
+def _with_names(struct: dict[str, Any], by_own: dict[str, str]) -> dict[str, Any]:
+    return {
+        (name if isinstance(value, dict) else by_own.get(name, name)): (
+            _with_names(value, by_own) if isinstance(value, dict) else value
+        )
+        for name, value in struct.items()
+    }
 
 
 def _walk(path: Path, source: str, struct: dict[str, Any], found: Found, depth: int) -> None:

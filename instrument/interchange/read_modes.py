@@ -27,7 +27,7 @@ _LOSS_OF: dict[Loss, Callable[[Array, Array], Array]] = {
 Of several that are stated the first counts."""
 _HZ = {"hz": 1.0, "khz": 1e3, "rad/s": 1 / (2 * np.pi), "": 1.0}
 _PLAIN = {"": 1.0, "-": 1.0, "1": 1.0, "%": 0.01, "percent": 0.01, "pct": 0.01}
-_FREQUENCY = frozenset(("frequency", "freq", "f", "fn", "f0", "frequenz", "frequence", "eigenfrequency"))
+_FREQUENCY = frozenset(("frequency", "freq", "f", "fn", "f0", "eigenfrequency"))
 _NUMBER = frozenset(("mode", "n", "order"))
 _SPREAD = frozenset(("std", "sd", "sigma", "stdev", "deviation", "uncertainty", "se"))
 _GREEK = (("η", "eta"), ("ζ", "zeta"), ("Δf", "df"), ("δ", " delta"), ("σ", "sigma"))
@@ -83,7 +83,7 @@ def _kind(name: str) -> Kind | None:
         return "bandwidth"
     if words & {"decrement", "logdec"}:
         return "decrement"
-    if words & {"eta", "lossfactor", "verlustfaktor", "tandelta"} or words >= {"loss", "factor"}:
+    if words & {"eta", "lossfactor", "tandelta"} or words >= {"loss", "factor"}:
         return "loss factor"
     if words >= {"tan", "delta"} or words >= {"tan", "d"}:
         return "loss factor"

@@ -20,8 +20,9 @@ from instrument.interchange.signals import Named, Signal, signals_of
 from instrument.interchange.unit_in_name import bracketed, is_unit_said, stated_factor, unit_in
 
 _RATES = ("sample_rate_hz", "sampling_rate_hz", "fs", "fs_hz", "sample_rate", "sampling_frequency")
-_FREQUENCIES = ("frequency", "freq", "f", "frequenz", "frequence")
-_TIMES = ("time", "t", "zeit", "temps")
+_FREQUENCIES = ("frequency", "freq", "f")
+_TIMES = ("time", "t")
+_COHERENCE = "coh"
 _LONGEST = 200
 _AXIS_HZ = {"Hz": 1.0, "kHz": 1e3, "rad/s": 1 / (2 * np.pi), "": 1.0}
 _AXIS_S = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "": 1.0}
@@ -52,13 +53,14 @@ def read_table(source: str, table: Named, found: Found) -> bool:
 def _say_left(source: str, table: Named, used: list[Signal], found: Found) -> None:
     """Of what was not taken, its names: nobody else would miss them."""
     taken = {name for signal in used for name in signal.names}
-    words = (*_RATES, "coherence", "accepted", "hit", *_others(), *CARRIED)
+    words = (*_RATES, "accepted", "hit", *_others(), *CARRIED)
     left = [
         n
         for n in table
         if n not in taken
         and not any(n.lower().startswith(w) for w in words)
         and bracketed(n)[1][:1] not in ([axis] for axis in (*_FREQUENCIES, *ANGULAR, *_TIMES))
+        and not _is_coherence(n)
     ]
     if used and left:
         found.said.append(f"passed over: {source}: {', '.join(left)[:_LONGEST]}")
@@ -124,7 +126,7 @@ def _on_lines(source: str, table: Named, f: Array, signals: list[Signal], found:
     if not readings:
         return ratios
     if len(readings) > 1 or len(drives) > 1:
-        raise BadInput(
+        raise NotSaid(
             f"{source}: {', '.join(s.name for s in motions + forces)}: which is the response? expected one "
             f"velocity, and one force or motion of the base (a name with one of {', '.join(sorted(BASE))})"
         )
@@ -210,10 +212,15 @@ def _phasor(stem: str, unit: str, values: NDArray[Any]) -> Columns:
 
 def _coherence(table: Named, ratio: str, *, alone: bool) -> Array | None:
     """The only one beside the only ratio; else the one whose further words are all in the ratio's name."""
-    names, words = [n for n in table if n.lower().startswith("coherence")], set(bracketed(ratio)[1])
-    further = {n: set(bracketed(n)[1]) - {"coherence"} for n in names}
+    names = [n for n in table if _is_coherence(n)]
+    words = set(bracketed(ratio)[1])
+    further = {n: set(bracketed(n)[1][1:]) for n in names}
     own = names if alone and len(names) == 1 else [n for n in names if further[n] and further[n] <= words]
     return np.asarray(table[own[0]], float) if len(own) == 1 else None
+
+
+def _is_coherence(name: str) -> bool:
+    return "".join(bracketed(name)[1][:1]).startswith(_COHERENCE)
 
 
 def _records(

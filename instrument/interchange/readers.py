@@ -1,6 +1,6 @@
 """Readers of other programs' files, by the ending of the file's name; other packages add theirs."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,9 @@ from instrument.errors import BadInput
 from instrument.files.guard import checked_frf, checked_hits, said_of
 from instrument.files.table import LARGEST
 from instrument.interchange.found import CARRIED, EXPECTED, Found
+from instrument.interchange.naming import OF_ARRAYS, Naming
 from instrument.interchange.provenance import one_line
+from instrument.interchange.said_by_name import NotSaid
 
 Reader = Callable[[Path], Found]
 """From a file to what it holds. Raises `BadInput`."""
@@ -47,22 +49,22 @@ READERS: Registry[Reader] = Registry(
 """By the ending without its dot, in small letters."""
 
 
-def read_foreign(path: Path, columns: Sequence[str] | None = None) -> Found:
-    """What a file holds, by its ending; `columns` are names in the place of a text's. Raises `BadInput`."""
+def read_foreign(path: Path, naming: Naming | None = None) -> Found:
+    """What a file holds, by its ending; `naming` has names in the place of its own. Raises `BadInput`."""
     if not path.is_file():
         raise BadInput(f"{path}: {'no file' if path.exists() else 'no such file'}")
     reader = READERS.get(_ending(path))
     if reader is None:
         raise BadInput(f"{path}: unknown ending {path.suffix!r}, {READERS.expected(_ending(path))}")
-    if columns is not None:
-        if _ending(path) not in _TEXTS:
-            raise BadInput(f"{path}: --columns names those of a table as text, expected {', '.join(_TEXTS)}")
-        text_reader: Callable[..., Found] = reader
-        reader = partial(text_reader, columns=columns)
+    if naming is not None:
+        if _ending(path) not in _NAMED:
+            raise BadInput(f"{path}: --columns is of arrays with names, expected {', '.join(_NAMED)}")
+        named_reader: Callable[..., Found] = reader
+        reader = partial(named_reader, naming=naming)
     found = _read(reader, path)
     if not (found.sweeps or found.frfs or found.hits or found.modes):
         said = "; ".join(found.said) or "no array that says what it is"
-        expected = f"; expected {EXPECTED}" if _ending(path) in _NAMED else ""
+        expected = f"; expected {EXPECTED}; {OF_ARRAYS}" if _ending(path) in _NAMED else ""
         raise BadInput(f"{path}: nothing to import: {one_line(said)[:160]}{expected}")
     found.said += [f"column pickup: {k} is {name}" for k, name in enumerate(found.spots)]
     return found
@@ -73,6 +75,9 @@ def _read(reader: Reader, path: Path) -> Found:
     try:
         with said_of(path):
             return _checked(path, reader(path))
+    except NotSaid as error:
+        hint = "; 'viscorig import --columns' says it for the file" if _ending(path) in _NAMED else ""
+        raise BadInput(f"{error}{hint}") from None
     except BadInput:
         raise
     except Exception as error:

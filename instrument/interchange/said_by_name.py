@@ -32,7 +32,7 @@ _MEASURED = {*_QUANTITIES, "frf"}
 """Words of what is wanted: without its unit it is not passed over in silence."""
 _OF_BASE = {"base", "clamp", "reference", "ref"}
 """Of a measured base: left out, its commanded level would stand in its place."""
-ANGULAR = ("omega", "angular", "circular", "kreisfrequenz", "pulsation")
+ANGULAR = ("omega", "angular", "circular")
 """First words of an axis of 2 pi times the frequencies."""
 ANGULAR_HZ = dict.fromkeys(("rad/s", "1/s", ""), 1 / (2 * np.pi))
 """Its units."""

@@ -15,6 +15,7 @@ from typing import NamedTuple
 from instrument.errors import BadInput
 from instrument.files.table import Rows
 from instrument.files.units import unit_of
+from instrument.interchange.naming import Naming
 from instrument.interchange.preamble import named_by_preamble, with_stated_units
 from instrument.interchange.unit_in_name import bracketed
 
@@ -43,8 +44,8 @@ class TextTable:
     """For people: where it was found."""
 
 
-def find_table(path: Path, text: str, columns: Sequence[str] | None = None) -> TextTable:
-    """The table of a text; `columns` are names in the place of its own.
+def find_table(path: Path, text: str, naming: Naming | None = None) -> TextTable:
+    """The table of a text; `naming` has names in the place of its own.
 
     Raises `BadInput` where there is none, or more than one.
     """
@@ -57,14 +58,15 @@ def find_table(path: Path, text: str, columns: Sequence[str] | None = None) -> T
     _check_above(path, fields[:first], fields[first])
     rows = fields[first:]
     above = [(n, line) for n, line in lines if n < rows[0][0]]
-    if columns is not None:
+    if naming is not None and naming.in_order:
         n, row = rows[0]
-        if len(columns) not in {len(row), _filled(rows)}:
+        names = list(naming.in_order)
+        if len(names) not in {len(row), _filled(rows)}:
             raise BadInput(
-                f"{path}: line {n}: {len(row)} columns, expected {len(columns)} as --columns has names"
+                f"{path}: line {n}: {len(row)} columns, expected {len(names)} as --columns has names"
             )
-        return _even(path, TextTable(list(columns), rows, separator, []))
-    return _even(path, _named(path, above, rows, separator))
+        return _even(path, TextTable(names, rows, separator, []))
+    return _even(path, _named(path, above, rows, separator, naming or Naming()))
 
 
 def is_number(text: str, *, comma: bool) -> bool:
@@ -152,7 +154,9 @@ def _check_above(path: Path, above: Sequence[tuple[int, list[str]]], first: tupl
 # Names
 
 
-def _named(path: Path, lines: Sequence[tuple[int, str]], rows: Rows, separator: str) -> TextTable:
+def _named(
+    path: Path, lines: Sequence[tuple[int, str]], rows: Rows, separator: str, naming: Naming
+) -> TextTable:
     """With the names, and the units, that stand above the rows; a comment's where there are no others."""
     preamble = [line for _, line in lines]
     widths = {len(rows[0][1]), _filled(rows)}
@@ -164,11 +168,12 @@ def _named(path: Path, lines: Sequence[tuple[int, str]], rows: Rows, separator: 
         at = near[-1 if names.lines > 1 else 0][0]
         left = sum(n < at for n, _ in lines)
         said = [f"names in line {at}, {left} lines above it passed over"] if left else []
-        made, stated = with_stated_units(names.names, preamble)
+        made, stated = with_stated_units(naming.named(str(path), names.names), preamble)
         return TextTable(made, rows, separator, said + stated)
     known = named_by_preamble(preamble, rows)
     if known is None:
         raise _nameless(path, lines, rows, separator)
+    known = naming.named(str(path), known)
     return TextTable(known, rows, separator, [f"names by its head of {len(preamble)} lines"])
 
 

@@ -4,25 +4,22 @@
 """
 
 import re
-import unicodedata
 from typing import Literal
 
 import numpy as np
 
 from fitting.arrays import Array
 from instrument.files.units import Unit, unit_of
+from instrument.interchange.words import plain, words_of
 
 Part = Literal["whole", "re", "im", "magnitude", "phase"]
 
 _PARTS: dict[str, Part] = {
-    **dict.fromkeys(("re", "real", "realteil", "reel", "reelle"), "re"),
-    **dict.fromkeys(("im", "imag", "imaginary", "imaginarteil", "imaginaire"), "im"),
-    **dict.fromkeys(
-        ("mag", "magnitude", "amp", "amplitude", "abs", "modulus", "betrag", "module"), "magnitude"
-    ),
+    **dict.fromkeys(("re", "real"), "re"),
+    **dict.fromkeys(("im", "imag", "imaginary"), "im"),
+    **dict.fromkeys(("mag", "magnitude", "amp", "amplitude", "abs", "modulus"), "magnitude"),
     **dict.fromkeys(("phase", "phi", "arg", "angle"), "phase"),
 }
-"""Accents are taken off before."""
 RATIOS = {"frf", "tf", "transfer", "ratio", "h", "h1", "h2", "hv"}
 """Words of one signal over another: velocity over acceleration is in seconds, as times are."""
 TRANSMISSIBILITY = "transmissibility"
@@ -55,7 +52,8 @@ _PEAKS = (
     (r"pk|peak|0 p", 1.0),
 )
 """How a sine's size is stated, and what makes its amplitude of it."""
-ANGLES = {"deg": np.pi / 180, "degree": np.pi / 180, "degrees": np.pi / 180, "°": np.pi / 180, "rad": 1.0}
+_DEGREES = ("deg", "degree", "degrees", "°", "grad", "degre", "degres")
+ANGLES = {**dict.fromkeys(_DEGREES, np.pi / 180), "rad": 1.0}
 """Units of phases, in rad."""
 UNWRAPPED = "unwrapped"
 """Of a phase, or of its name."""
@@ -74,32 +72,26 @@ _HALF_DECADE_DB = 20.0
 
 def bracketed(name: str) -> tuple[str, list[str]]:
     """The unit in brackets at a name's end, and the words before it."""
-    plain = name.strip()
-    match = re.search(r"\[([^\]]*)\]\s*$", plain) or _LAST_GROUP.search(plain)
-    if match and match[0].startswith("(") and plain[: match.start()].rstrip().endswith("/"):
+    whole = name.strip()
+    match = re.search(r"\[([^\]]*)\]\s*$", whole) or _LAST_GROUP.search(whole)
+    if match and match[0].startswith("(") and whole[: match.start()].rstrip().endswith("/"):
         # (m/s)/(m/s^2): the first of the two groups is part of the unit.
-        match = re.search(r"(\(.*)$", plain)
-    spelt = _SPELT.search(plain)
+        match = re.search(r"(\(.*)$", whole)
+    spelt = _SPELT.search(whole)
     if spelt and (unit_of(spelt[1]) or spelt[1].lower() in (*ANGLES, "hz", "khz", "rad/s")):
         match = spelt
-    before = plain[: match.start()] if match else plain
+    before = whole[: match.start()] if match else whole
     unit = match[1] if match else ""
-    if match is None and (amidst := _AMIDST.search(plain)) is not None:
+    if match is None and (amidst := _AMIDST.search(whole)) is not None:
         said = _with_stroke(amidst[1])
         if unit_of(said) is not None:
-            unit, before = said, plain[: amidst.start()] + " " + plain[amidst.end() :]
-    return unit, [w for w in re.split(r"[^a-z0-9]+", _plain(before)) if w]
+            unit, before = said, whole[: amidst.start()] + " " + whole[amidst.end() :]
+    return unit, words_of(before)
 
 
 def _with_stroke(unit: str) -> str:
     """`g per N` as `g/N`."""
     return re.sub(r"\s+per\s+", "/", unit, flags=re.I)
-
-
-def _plain(text: str) -> str:
-    """In small letters without accents, omega in full."""
-    text = text.replace("ω", "omega")
-    return "".join(c for c in unicodedata.normalize("NFKD", text.lower()) if not unicodedata.combining(c))
 
 
 def reference_of_db(name: str) -> float | None:
@@ -185,10 +177,10 @@ def part_in(name: str) -> Part:
 def stem_of(name: str) -> tuple[str, ...]:
     """What the parts of one quantity have in common."""
     bracket, words = bracketed(name)
-    lower = _plain(name.strip())
+    lower = plain(name.strip())
     if not bracket:
         tail = next((suffix for suffix, _ in _SUFFIXES if lower.endswith(suffix)), "")
-        words = [w for w in re.split(r"[^a-z0-9]+", lower.removesuffix(tail)) if w]
+        words = words_of(lower.removesuffix(tail))
     return tuple(w for w in words if w not in _PARTS and w not in ("deg", "rad", UNWRAPPED))
 
 

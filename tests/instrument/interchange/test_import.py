@@ -175,7 +175,7 @@ def refusals(folder):
         (uff("t.uff", time_set(np.ones(9), 12)), "without a force"),
         (uff("l.uff", time_set(np.ones(9), 13), time_set(np.ones(8), 12)), "beside a force"),
         (text("garbage.mat", "not one"), "garbage.mat"),
-        (folder / "new.mat", "-v7"),
+        (folder / "new.mat", "nothing to import"),
         (mat("none.mat", {"x": [1.0, 2.0]}), "nothing to import"),
         (mat("unit.mat", {"FRF": lms(RATIO, "Pa/V")}), "'Pa/V'"),
         (text("empty.csv", ""), "empty"),

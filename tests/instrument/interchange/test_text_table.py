@@ -8,7 +8,9 @@ import pytest
 from instrument.cli.main import run
 from instrument.errors import BadInput
 from instrument.files.sweep_file import read_sweep
+from instrument.interchange.naming import Naming
 from instrument.interchange.read_csv import read_csv
+from instrument.interchange.readers import read_foreign
 from instrument.interchange.text_table import find_table, is_number, number_of
 
 F = np.array([15.0, 18.5, 20.0, 41.25])
@@ -125,7 +127,7 @@ def test_what_is_in_doubt_is_asked_about(tmp_path, what):
     text, said = REFUSED[what]
     (tmp_path / "a.csv").write_text(text)
     with pytest.raises(BadInput, match=said):
-        read_csv(tmp_path / "a.csv")
+        read_foreign(tmp_path / "a.csv")
 
 
 def test_columns_say_what_a_file_does_not(tmp_path, capsys):
@@ -141,7 +143,7 @@ def test_columns_say_what_a_file_does_not(tmp_path, capsys):
 def test_columns_are_those_of_a_text(tmp_path, capsys):
     (tmp_path / "a.uff").write_text("x")
     assert run(["import", str(tmp_path / "a.uff"), "--columns", "f,v"]) == 2
-    assert "--columns names those of a table as text" in capsys.readouterr().err
+    assert "--columns is of arrays with names" in capsys.readouterr().err
 
 
 def test_a_number_is_one_number():
@@ -191,4 +193,4 @@ def test_a_typeset_minus_is_one(tmp_path):
 def test_names_given_for_another_number_of_columns_are_refused(tmp_path):
     (tmp_path / "a.csv").write_text("20,1,2\n21,2,3\n")
     with pytest.raises(BadInput, match="line 1: 3 columns, expected 2 as --columns has names"):
-        read_csv(tmp_path / "a.csv", ["Frequency [Hz]", "v [m/s]"])
+        read_csv(tmp_path / "a.csv", Naming.of("Frequency [Hz],v [m/s]"))

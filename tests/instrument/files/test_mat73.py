@@ -1,0 +1,97 @@
+"""MATLAB 7.3 files: numbers, complex ones, structs and text as the older format has them."""
+
+import h5py
+import numpy as np
+import pytest
+from scipy.io import savemat
+
+from instrument.errors import BadInput
+from instrument.files.mat import read_mat_variables
+from instrument.files.mat73 import read_mat73_variables
+from instrument.interchange.importing import import_file
+from instrument.interchange.naming import Naming
+
+F = np.linspace(20.0, 30.0, 11)
+H = np.exp(0.3j * F) / F
+
+
+def written(path, fill):
+    """As MATLAB writes it: a head of 512 bytes before the HDF5 file, rows and columns exchanged."""
+    with h5py.File(path, "w", userblock_size=512) as file:
+        fill(file)
+    with path.open("r+b") as file:
+        file.write(b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(124) + b"\x00\x02IM")
+    return path
+
+
+def complex_(x):
+    pairs = np.empty(x.shape, [("real", "f8"), ("imag", "f8")])
+    pairs["real"], pairs["imag"] = x.real, x.imag
+    return pairs
+
+
+def matlab(file, name, values, kind="double"):
+    file.create_dataset(name, data=values).attrs["MATLAB_class"] = np.bytes_(kind)
+
+
+def usual(file):
+    matlab(file, "f", F[None, :])
+    matlab(file, "H", complex_(H)[None, :])
+    matlab(file, "blows", np.arange(6.0).reshape(2, 3))
+    matlab(file, "note", np.array([[ord(c)] for c in "plate"], "u2"), "char")
+    run = file.create_group("run")
+    matlab(run, "fs", np.array([[1024.0]]))
+    file.create_group("#refs#")
+    file.create_dataset("cells", data=np.array([file.ref]), dtype=h5py.ref_dtype)
+
+
+def test_variables_are_as_the_older_format_has_them(tmp_path):
+    found = read_mat_variables(written(tmp_path / "a.mat", usual))
+    older = {"f": F, "H": H, "blows": np.arange(6.0).reshape(2, 3).T, "note": "plate", "run": {"fs": 1024.0}}
+    savemat(tmp_path / "b.mat", older)
+    expected = read_mat_variables(tmp_path / "b.mat")
+    assert found.keys() == expected.keys()
+    for name in ("f", "H", "blows"):
+        np.testing.assert_array_equal(found[name], expected[name])
+    assert found["note"] == expected["note"]
+    assert found["run"]["fs"] == expected["run"]["fs"]
+
+
+def test_they_are_imported(tmp_path):
+    path = written(tmp_path / "a.mat", usual)
+    import_file(path, tmp_path / "a.csv", Naming.of("f=Frequency [Hz],H=FRF [g/N]"))
+    rows = np.loadtxt(tmp_path / "a.csv", delimiter=",", skiprows=2)
+    np.testing.assert_allclose(rows[:, 1] + 1j * rows[:, 2], H * 9.80665)
+
+
+def test_what_is_empty_is_empty(tmp_path):
+    def fill(file):
+        matlab(file, "x", np.array([0, 0], "u8"))
+        file["x"].attrs["MATLAB_empty"] = 1
+
+    assert read_mat73_variables(written(tmp_path / "a.mat", fill))["x"].size == 0
+
+
+def test_a_file_that_links_to_itself_is_refused(tmp_path):
+    def fill(file):
+        file["a"] = file.create_group("b")
+        file["b"]["a"] = file["a"]
+
+    with pytest.raises(BadInput, match="structs within structs"):
+        read_mat_variables(written(tmp_path / "a.mat", fill))
+
+
+def test_other_files_are_not_followed(tmp_path):
+    matlab_file = written(tmp_path / "a.mat", usual)
+    with h5py.File(matlab_file, "r+") as file:
+        file["other"] = h5py.ExternalLink(str(tmp_path / "b.mat"), "/")
+        file["soft"] = h5py.SoftLink("/f")
+    assert {"other", "soft"}.isdisjoint(read_mat73_variables(matlab_file))
+
+
+@pytest.mark.parametrize("keep", [600, 700, 2000])
+def test_one_that_is_cut_off_is_refused(tmp_path, keep):
+    path = written(tmp_path / "a.mat", usual)
+    path.write_bytes(path.read_bytes()[:keep])
+    with pytest.raises(BadInput, match="that can be read"):
+        read_mat_variables(path)
