@@ -1,6 +1,7 @@
 """A sweep as CSV: columns with their units in the name, `#` comments, any order."""
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
@@ -39,8 +40,8 @@ _DECISIVE = (
     "base_accel_im_m_s2",
 )
 """Without them the same file gives another law."""
-_READS = re.compile(r"^#\s*velocity is (absolute|relative)\b", re.M)
-"""What a comment says that a laser sees: exports of sessions begin with it."""
+_READS = re.compile(r"velocity is (absolute|relative)\b|\b(absolute|relative) velocity\b", re.I)
+"""What exports of sessions, and people, say that a laser sees."""
 _READINGS = (("velocity", "m_s", 0), ("acceleration", "m_s2", -1), ("displacement", "m", 1))
 """Stem and unit of phasor columns, and the power of i omega that makes a velocity of them."""
 
@@ -137,14 +138,20 @@ def read_sweep(path: Path) -> SweepFile:
     unknown = {
         name: [row[k] for _, row in rows] for k, name in enumerate(header) if name and name not in known
     }
-    said = _READS.search(read_text(path))
-    return SweepFile(path, columns, unknown, cast(Reading, said[1]) if said else None)
+    comments = [line for line in read_text(path).splitlines() if line.lstrip().startswith("#")]
+    return SweepFile(path, columns, unknown, reading_said(comments))
 
 
-def sweep_of_columns(path: Path, columns: dict[str, Array]) -> SweepFile:
+def reading_said(lines: Iterable[str]) -> Reading | None:
+    """What a laser sees as some lines of text have it; None where none says it, or not all the same."""
+    found = {(said[1] or said[2]).lower() for line in lines if (said := _READS.search(line)) is not None}
+    return cast(Reading, found.pop()) if len(found) == 1 else None
+
+
+def sweep_of_columns(path: Path, columns: dict[str, Array], reads: Reading | None = None) -> SweepFile:
     """The same of columns from another program's file, NaN for what is not known of a row.
 
-    Shape (rows,) each. Raises `BadInput` naming file, row and column.
+    Shape (rows,) each; `reads`: as that file says. Raises `BadInput` naming file, row and column.
     """
     known = {column.name: column for column in understood()}
     own = {name: values for name, values in columns.items() if name in known}
@@ -155,7 +162,8 @@ def sweep_of_columns(path: Path, columns: dict[str, Array]) -> SweepFile:
     _check_phasors(path, rows, own)
     _check_twice(path, rows, own)
     others = {name: values.tolist() for name, values in columns.items() if name not in known}
-    return SweepFile(path, own, {n: ["" if v != v else repr(v) for v in some] for n, some in others.items()})
+    unknown = {n: ["" if v != v else repr(v) for v in some] for n, some in others.items()}
+    return SweepFile(path, own, unknown, reads)
 
 
 def _check_header(path: Path, header: list[str]) -> None:

@@ -9,6 +9,7 @@ from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.modal.frf import Frf, Motion
 from fitting.mode_tables.as_read import Read
+from fitting.specimen import Reading
 from instrument.errors import BadInput
 from instrument.files.impact_csv import MOTIONS
 from instrument.files.units import DERIVATIVE, Quantity
@@ -65,6 +66,8 @@ class Found:
     """Name, motion over force, coherence."""
     hits: list[Hit] = field(default_factory=list)
     modes: list[Modes] = field(default_factory=list)
+    reads: Reading | None = None
+    """What the laser of its sweeps sees, where the file says."""
     said: list[str] = field(default_factory=list)
     """What was found, and what was passed over and why: one line each."""
     _responses: list[tuple[str, Columns]] = field(default_factory=list)

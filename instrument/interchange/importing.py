@@ -16,7 +16,7 @@ from instrument.files.modal_table import read_modal_rows
 from instrument.files.point_columns import understood
 from instrument.files.sweep_file import read_sweep, sweep_of_columns
 from instrument.impact.record import Hit
-from instrument.interchange.found import Columns, Modes
+from instrument.interchange.found import Columns, Found, Modes
 from instrument.interchange.naming import Naming
 from instrument.interchange.provenance import one_line
 from instrument.interchange.readers import read_foreign
@@ -49,7 +49,7 @@ def import_file(path: Path, out: Path | None, naming: Naming | None = None) -> I
     if target.suffix.lower() != ".csv":
         raise BadInput(f"{target}: ending {target.suffix!r}, expected .csv")
     kinds: dict[str, list[Any]] = {
-        "sweep": [_sweep_text(found.sweeps)] if found.sweeps else [],
+        "sweep": [_sweep_text(found)] if found.sweeps else [],
         "frf": found.frfs,
         "hits": _alike(found.hits),
         "modes": [_modes_text(one) for one in found.modes],
@@ -75,7 +75,9 @@ def import_file(path: Path, out: Path | None, naming: Naming | None = None) -> I
             file.unlink(missing_ok=True)
     if found.sweeps:
         found.said.append(
-            "relative to the clamp or absolute velocity? [pickup] reads in the specimen says it"
+            f"velocity is {found.reads} as it says itself: [pickup] reads in the specimen has to say so too"
+            if found.reads
+            else "relative to the clamp or absolute velocity? [pickup] reads in the specimen says it"
         )
     return Imported(tuple(plan.values()), tuple(found.said))
 
@@ -156,9 +158,10 @@ def one_table(sweeps: list[Columns]) -> Columns:
     }
 
 
-def _sweep_text(sweeps: list[Columns]) -> str:
-    table = one_table(sweeps)
-    return _rows_text(table, {column.name for column in understood() if column.whole})
+def _sweep_text(found: Found) -> str:
+    table = one_table(found.sweeps)
+    said = f"# velocity is {found.reads}\n" if found.reads else ""
+    return said + _rows_text(table, {column.name for column in understood() if column.whole})
 
 
 def _rows_text(table: Columns, whole: Collection[str]) -> str:

@@ -64,7 +64,7 @@ def _otherwise_read(given: Given) -> str:
     if not given.reads or given.reads == given.specimen.reads:
         return ""
     frame = "absolute" if given.reads == "absolute" else "relative to the clamp"
-    return f'its comments say that velocities are {frame}: expected reads = "{given.reads}" in [pickup]'
+    return f'it says that velocities are {frame}: expected reads = "{given.reads}" in [pickup]'
 
 
 def question_modes(

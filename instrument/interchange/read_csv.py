@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from instrument.errors import BadInput
+from instrument.files.sweep_file import reading_said
 from instrument.files.table import Rows, rate_stated_in, shown
 from instrument.interchange.celsius import is_temperature
 from instrument.interchange.decoded import decoded
@@ -33,6 +34,7 @@ def read_csv(path: Path, naming: Naming | None = None) -> Found:
     text = decoded(path)
     found, stands = Found(), find_table(path, text, naming)
     table = _numbers(path, stands)
+    found.reads = reading_said(text.splitlines()[: stands.rows[0][0] - 1])
     rate = rate_stated_in(path, text)
     if rate is not None:
         table["sample_rate_hz"] = np.array([rate])

@@ -7,6 +7,7 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.modal.frf import Motion
 from instrument.errors import BadInput
+from instrument.files.sweep_file import reading_said
 from instrument.files.uff58 import COHERENCE, TIME, Function, read_uff58
 from instrument.files.units import DERIVATIVE
 from instrument.interchange.found import Found, Ratio, motion_of
@@ -29,6 +30,7 @@ def read_uff(path: Path) -> Found:
             turned = f"{turned}, {f.points}"
         ratio = Ratio(turned, f.x, f.values, f.unit.quantity, per, f.level_m_s2, f.place, f.points)
         found.add_ratio(ratio, None if own is None else own.values)
+    found.reads = reading_said([f.name for f in ratios])
     left = [c for c in coherences if not any(c is own for own in theirs)]
     found.said += [f"passed over: {c.name}: a coherence that no one FRF here belongs to" for c in left]
     found.said += [f"passed over: {name}: function type {kind}" for name, kind in universal.others]

@@ -138,6 +138,22 @@ def test_temperatures_known_of_some_rows_are_written_as_far_as_they_are(tmp_path
     assert read_sweep(tmp_path / "c.csv").temperature_c == 21.0
 
 
+@pytest.mark.parametrize("said", ["absolute", "relative"])
+def test_what_a_file_says_that_its_laser_sees_comes_along(tmp_path, said):
+    write_sets(tmp_path / "a.uff", frf_set(RATIO, 11, 12, id1=f"{said.capitalize()} velocity over base"))
+    assert file_of_foreign(tmp_path / "a.uff").reads == said
+    found = import_file(tmp_path / "a.uff", tmp_path / "b.csv")
+    assert found.said[-1].startswith(f"velocity is {said} as it says itself")
+    assert read_sweep(tmp_path / "b.csv").reads == said
+    assert file_of_foreign(tmp_path / "b.csv").reads == said
+
+
+def test_two_that_say_otherwise_say_nothing(tmp_path):
+    sets = [frf_set(RATIO, 11, 12, id1=f"{said} velocity") for said in ("absolute", "relative")]
+    write_sets(tmp_path / "a.uff", *sets)
+    assert file_of_foreign(tmp_path / "a.uff").reads is None
+
+
 def mat73(path):
     with h5py.File(path, "w", userblock_size=512) as file:
         file["x"] = [1.0]
