@@ -48,11 +48,22 @@ class Unit:
     per: Quantity | None = None
 
 
+_RATIOS = {
+    "s": Unit("velocity", 1.0, "acceleration"),
+    "1/kg": Unit("acceleration", 1.0, "force"),
+    "kg^-1": Unit("acceleration", 1.0, "force"),
+    "s/kg": Unit("velocity", 1.0, "force"),
+    "s^2/kg": Unit("displacement", 1.0, "force"),
+}
+"""In base units: what they measure is lost in them but for this program's few."""
+
+
 def unit_of(text: str) -> Unit | None:
     """What a unit says: `mm/s`, `m/s²`, `g/N`, `(m/s)/(m/s^2)`, `s`; None where it is not known."""
     plain = _plain(text)
-    if plain in ("s", "S"):
-        return Unit("velocity", 1.0, "acceleration")
+    ratio = _RATIOS.get(plain.lower())
+    if ratio is not None:
+        return ratio
     simple = _simple(plain)
     if simple is not None:
         return Unit(*simple)

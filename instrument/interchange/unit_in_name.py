@@ -4,6 +4,7 @@
 """
 
 import re
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -32,7 +33,8 @@ STEMS = {
     TRANSMISSIBILITY: "(m/s^2)/(m/s^2)",
 }
 """Ratios that a word says, in the unit it is defined by."""
-_NO_UNIT = ("", "-", "1")
+_NO_UNIT = {"": 1.0, "-": 1.0, "1": 1.0, "%": 0.01}
+"""Of a transmissibility."""
 _LENGTHS = ("cm", "mm", "um", "nm", "in", "ft", "m")
 _SUFFIXES = (
     *((f"_{length}_s2", f"{length}/s^2") for length in _LENGTHS),
@@ -78,7 +80,7 @@ def bracketed(name: str) -> tuple[str, list[str]]:
         # (m/s)/(m/s^2): the first of the two groups is part of the unit.
         match = re.search(r"(\(.*)$", whole)
     spelt = _SPELT.search(whole)
-    if spelt and (unit_of(spelt[1]) or spelt[1].lower() in (*ANGLES, "hz", "khz", "rad/s")):
+    if spelt and (unit_of(spelt[1]) or spelt[1].lower() in (*ANGLES, "hz", "khz", "rad/s", "%")):
         match = spelt
     before = whole[: match.start()] if match else whole
     unit = match[1] if match else ""
@@ -128,8 +130,10 @@ def unit_in(name: str) -> Unit | None:
     if unit.strip().lower() == "s" and not RATIOS & set(words):
         return None
     if _is_t(name, unit, words):
-        return unit_of(STEMS[TRANSMISSIBILITY])
-    if unit and not (unit.strip() in _NO_UNIT and TRANSMISSIBILITY in words):
+        return _transmissibility(unit)
+    if TRANSMISSIBILITY in words and unit.strip() in _NO_UNIT:
+        return _transmissibility(unit)
+    if unit:
         return unit_of(_without_size(_with_stroke(unit)))
     stem = next((STEMS[w] for w in words if w in STEMS), None)
     if stem is not None:
@@ -140,6 +144,12 @@ def unit_in(name: str) -> Unit | None:
         units = [next((u for suffix, u in _SUFFIXES if end.endswith(suffix)), "") for end in (over, under)]
         return unit_of("({})/({})".format(*units))
     return next((unit_of(u) for suffix, u in _SUFFIXES if under.endswith(suffix)), None)
+
+
+def _transmissibility(unit: str) -> Unit | None:
+    """In parts or in percent."""
+    like = unit_of(STEMS[TRANSMISSIBILITY])
+    return like if like is None else replace(like, factor=_NO_UNIT[unit.strip()])
 
 
 def _is_t(name: str, unit: str, words: list[str]) -> bool:

@@ -64,6 +64,12 @@ def test_a_unit_is_read_as_it_stands(name, unit):
     assert unit_in(name) == unit_of(unit)
 
 
+@pytest.mark.parametrize("name", ["Transmissibility [%]", "Transmissibility in %", "T real [%]"])
+def test_a_transmissibility_may_be_in_percent(name):
+    unit = unit_in(name)
+    assert (unit.quantity, unit.per, unit.factor) == ("acceleration", "acceleration", 0.01)
+
+
 @pytest.mark.parametrize("name", ["Time [s]", "Settling time (s)", "Velocity [furlong/s]", "colour"])
 def test_what_is_no_unit_of_a_signal_is_none(name):
     assert unit_in(name) is None
