@@ -6,8 +6,9 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.diagnosis.of_files import EACH, FILE, OfFiles, Place
-from fitting.effects.base import Effect, Points
+from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import Points
 
 _PAIR = 2
 """Files of which either may as well be the odd one."""

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.effects.base import Points
+from fitting.effects.given import Points
 from fitting.rational import RationalSweep
 from fitting.sweep import Sweep
 

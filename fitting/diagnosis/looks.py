@@ -14,7 +14,8 @@ from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
-from fitting.effects.base import Effect, Points
+from fitting.effects.base import Effect
+from fitting.effects.given import Points
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 

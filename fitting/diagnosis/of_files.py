@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
-from fitting.effects.base import CLAMP, BarePlateModes, Effect, EffectParameter, Points, Tie
+from fitting.effects.base import CLAMP, Effect, EffectParameter, Tie
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import BarePlateModes, Points
 
 FILE, PICKUP = "file", "pickup"
 _ALL = -1

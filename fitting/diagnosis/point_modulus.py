@@ -9,8 +9,9 @@ from fitting.diagnosis.plate_changes import PlateChanges
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.strains import Reference, Strains
 from fitting.diagnosis.unknowns import Unknowns
-from fitting.effects.base import Effect, ModulusAt, Strain
+from fitting.effects.base import Effect
 from fitting.effects.change import Change
+from fitting.effects.given import ModulusAt, Strain
 from fitting.effects.span import Span
 from fitting.laws import CoreLaw
 

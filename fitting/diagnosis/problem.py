@@ -14,8 +14,9 @@ from fitting.diagnosis.nodes import HZ_A_NODE, Nodes
 from fitting.diagnosis.plate_poles import PlatePoles, cuts_between
 from fitting.diagnosis.pole_following import KnownPoles
 from fitting.effects.added_mass import AddedMassEffect
-from fitting.effects.base import Effect, Points
+from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import CONDENSED, EnrichedReducedPlate
+from fitting.effects.given import Points
 from fitting.effects.span import Span
 from fitting.identification.adjusted import Adjusted, adjusted
 from fitting.laws import CoreLaw

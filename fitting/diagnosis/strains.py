@@ -11,9 +11,9 @@ from fitting.arrays import Array, Complex
 from fitting.diagnosis.plate_answer import Asked, StrainedCore
 from fitting.diagnosis.plate_poles import PLAIN
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.effects.base import Strain
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import Strain
 from fitting.effects.kraus import strained
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw

@@ -7,8 +7,9 @@ from importlib import import_module
 from pkgutil import iter_modules
 from typing import Any
 
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.change import Change
+from fitting.effects.given import Points
 from fitting.effects.span import Span
 from fitting.plugins import NoPlugin, Registry, derived_from
 from fitting.specimen import StatedSpecimen

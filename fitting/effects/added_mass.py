@@ -6,10 +6,11 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import ONE_PIECE, Effect, EffectParameter, Points
+from fitting.effects.base import ONE_PIECE, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.given import Points
 from fitting.effects.span import Span
 
 _TYPICAL_KG = 5e-3

@@ -7,10 +7,11 @@ import scipy.sparse as sp
 
 from fitting.air import StillAir, still_air
 from fitting.arrays import Array, Complex
-from fitting.effects.base import PLATE_AND_BEAM, BarePlateModes, Effect, EffectParameter, Points
+from fitting.effects.base import PLATE_AND_BEAM, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.given import BarePlateModes, Points
 from fitting.effects.span import Span
 
 

@@ -8,9 +8,10 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter, ModulusAt, Points, Strain
+from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
+from fitting.effects.given import ModulusAt, Points, Strain
 from fitting.effects.kraus import HALF, Kraus, strained
 from fitting.effects.span import Span
 from fitting.element import core_shear_stiffness

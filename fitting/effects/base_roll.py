@@ -5,10 +5,11 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import BASE, Effect, EffectParameter, Points
+from fitting.effects.base import BASE, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.given import Points
 from fitting.effects.span import Span
 from fitting.element import THETA_X, V_C, W
 

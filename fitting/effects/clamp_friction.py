@@ -5,10 +5,11 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.effects.base import CLAMP, PLATE_AND_BEAM, Effect, EffectParameter, Points
+from fitting.effects.base import CLAMP, PLATE_AND_BEAM, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.clamp_compliance import ClampComplianceEffect, springs
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import Points
 
 
 class ClampFrictionEffect(Effect):

@@ -5,9 +5,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import FORCE, PLATE_AND_BEAM, Effect, EffectParameter, ModulusAt, Points
+from fitting.effects.base import FORCE, PLATE_AND_BEAM, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import ModulusAt, Points
 
 _H = 1e-3
 """Step of ln omega for the modulus' slope."""

@@ -5,9 +5,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import BASE, PLATE_AND_BEAM, Effect, EffectParameter, Points
+from fitting.effects.base import BASE, PLATE_AND_BEAM, Effect, EffectParameter
 from fitting.effects.base_rocking import BaseRockingEffect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import Points
 from fitting.effects.span import Span
 
 _OUTSIDE = (0.6, 1.6)

@@ -2,8 +2,9 @@
 
 from collections.abc import Mapping
 
-from fitting.effects.base import Effect, Points
+from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import Points
 
 
 class FixtureTransferEffect(Effect):

@@ -5,7 +5,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter, Points
+from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter
+from fitting.effects.given import Points
 
 
 class GainErrorEffect(Effect):

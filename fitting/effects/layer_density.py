@@ -10,9 +10,10 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.effects.base import BarePlateModes, Effect, EffectParameter, Points
+from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import BarePlateModes, Points
 from fitting.effects.number_off import NumberOffEffect
 from fitting.effects.other_plates import changed_to
 from fitting.parts import coefficients

@@ -15,9 +15,10 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.effects.added_mass import PLACE, AddedMassEffect, MassOnBeamEffect, PointMass, near
-from fitting.effects.base import ONE_PIECE, Effect, EffectParameter, Points
+from fitting.effects.base import ONE_PIECE, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import Points
 from fitting.effects.span import Span
 
 _START_KG = 1e-3

@@ -5,8 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.chances import binomial_above
-from fitting.effects.base import EVERY_STRUCTURE, ChannelFinding, Effect, Points
+from fitting.effects.base import EVERY_STRUCTURE, ChannelFinding, Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import Points
 from fitting.hum import SPREAD_HZ, HumSeen, mains_hum
 from fitting.noise import Noise, noise_of
 from fitting.strays import strays

@@ -10,9 +10,10 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.effects.added_mass import PLACE, PointMass, near
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import Points
 from fitting.effects.span import Span
 
 _START_KG = 2e-3

@@ -6,10 +6,11 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import BarePlateModes, Effect, EffectParameter, Points
+from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.given import BarePlateModes, Points
 from fitting.effects.other_plates import mixed
 from fitting.effects.span import Span
 from fitting.element import U_B, V_B, Shape

@@ -6,10 +6,11 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import WHOLE, Effect, EffectParameter, Points
+from fitting.effects.base import WHOLE, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.given import Points
 from fitting.effects.span import Span
 from fitting.element import core_shear_stiffness
 from fitting.linear import times

@@ -5,8 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import Points
 
 
 class PhaseOffsetEffect(Effect):

@@ -10,8 +10,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import BASE, Effect, EffectParameter, Points
+from fitting.effects.base import BASE, Effect, EffectParameter
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import Points
 
 _DAMPING_RATIO = 0.03
 """Of wax and of bolted brackets, to begin with."""

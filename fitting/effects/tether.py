@@ -13,9 +13,10 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.effects.added_mass import PLACE, PointMass, near
-from fitting.effects.base import ONE_PIECE, Effect, EffectParameter, Points
+from fitting.effects.base import ONE_PIECE, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import Points
 from fitting.effects.span import Span
 
 _LOSS = 0.2

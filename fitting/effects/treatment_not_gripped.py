@@ -10,11 +10,12 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array
-from fitting.effects.base import CLAMP, CONSTRAINED, WHOLE, Effect, EffectParameter, Points
+from fitting.effects.base import CLAMP, CONSTRAINED, WHOLE, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.clamp_span import ClampSpan, on_a_rim
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
+from fitting.effects.given import Points
 from fitting.effects.released_rim import clamped_edges, on_edge
 from fitting.effects.released_root import along_root, on_root
 from fitting.effects.span import Span

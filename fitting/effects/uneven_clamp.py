@@ -6,12 +6,13 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array
-from fitting.effects.base import ROOT, Effect, EffectParameter, Points
+from fitting.effects.base import ROOT, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.clamp_compliance import ClampComplianceEffect, root_springs
 from fitting.effects.clamp_span import RootSpan
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
+from fitting.effects.given import Points
 from fitting.effects.released_root import along_root
 from fitting.element import THETA_Y, U_B, U_C, W
 

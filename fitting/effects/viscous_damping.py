@@ -3,9 +3,10 @@
 from collections.abc import Mapping
 
 from fitting.arrays import Array
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import Points
 
 
 class ViscousDampingEffect(Effect):

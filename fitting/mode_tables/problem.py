@@ -13,7 +13,8 @@ from fitting.diagnosis.member_laws import by_all, law_at
 from fitting.diagnosis.of_files import OfFiles
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.unknowns import STATED_NUMBER
-from fitting.effects.base import Effect, Points
+from fitting.effects.base import Effect
+from fitting.effects.given import Points
 from fitting.identification.adjusted import Adjusted, adjusted
 from fitting.laws import CoreLaw
 from fitting.mode_tables.build import with_own_error

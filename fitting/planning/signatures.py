@@ -11,7 +11,8 @@ from fitting.diagnosis.marginal import expected_size
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.responses import response_of
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import Effect, EffectParameter
+from fitting.effects.given import Points
 from fitting.laws import CoreLaw
 
 _FEW = 12

@@ -16,8 +16,9 @@ from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.looks import Start
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.response import SweepResponse
-from fitting.effects.base import Effect, Points
+from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import Points
 from fitting.identification.adjusted import Adjusted
 from fitting.laws import CoreLaw
 from fitting.nuisance import Nuisance

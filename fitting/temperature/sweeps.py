@@ -23,8 +23,9 @@ from fitting.diagnosis.search import Search
 from fitting.diagnosis.several import SeveralProblem
 from fitting.diagnosis.singles import Singles
 from fitting.diagnosis.thresholds import SEARCH
-from fitting.effects.base import Effect, Points
+from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import Points
 from fitting.identification.adjusted import Adjusted
 from fitting.laws import CoreLaw
 from fitting.noise import Noise

@@ -17,8 +17,9 @@ from fitting.diagnosis.refit import refit
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.thresholds import SEARCH
-from fitting.effects.base import Effect, Points
+from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import Points
 from fitting.errors import OutsideModel
 from fitting.identification.adjusted import Adjusted
 from fitting.laws import CoreLaw

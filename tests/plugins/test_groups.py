@@ -104,7 +104,7 @@ def test_a_law_of_another_package_is_one_of_the_laws(package, monkeypatch, left_
 
 def test_a_law_that_offers_itself_is_tried_last(package, monkeypatch):
     from fitting.effects import core_law
-    from fitting.effects.base import Points
+    from fitting.effects.given import Points
 
     package("law-one", LAW.format(kind="other"), laws={"other": "Law"})
     omega = 2 * np.pi * np.linspace(20.0, 300.0, 40)

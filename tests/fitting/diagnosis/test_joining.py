@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fitting.diagnosis.joining import joined, joined_points, side_by_side
-from fitting.effects.base import Points
+from fitting.effects.given import Points
 from fitting.rational import RationalSweep
 from fitting.sweep import Sweep
 

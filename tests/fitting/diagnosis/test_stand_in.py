@@ -7,7 +7,7 @@ import pytest
 
 from fitting.diagnosis.stand_in import asks_for_more, stands_in, too_large, unsized
 from fitting.effects import CATALOGUE
-from fitting.effects.base import Points
+from fitting.effects.given import Points
 
 SHEET = SimpleNamespace(thickness_m=2e-3, density_kg_m3=2700.0)
 LAYERS = SimpleNamespace(substrate=SHEET, core=None, constraining=None)

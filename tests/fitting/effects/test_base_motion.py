@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from fitting.effects.base import Points
 from fitting.effects.base_rocking import BaseRockingEffect
 from fitting.effects.fixture_resonance import FixtureResonanceEffect
+from fitting.effects.given import Points
 
 FIXTURE = FixtureResonanceEffect()
 OMEGA = 2 * np.pi * np.array([20.0, 90.0, 100.0, 110.0, 300.0])

@@ -7,8 +7,8 @@ from shear_pair_cases import LAW
 from fitting.diagnosis.among import among
 from fitting.diagnosis.between_files import BetweenFiles
 from fitting.effects import CATALOGUE
-from fitting.effects.base import ModulusAt, Points
 from fitting.effects.core_difference import CoreDifferenceEffect
+from fitting.effects.given import ModulusAt, Points
 
 EFFECT = CoreDifferenceEffect()
 OMEGA = 2 * np.pi * np.geomspace(20, 400, 7)

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from fitting.effects import CATALOGUE
-from fitting.effects.base import Points
+from fitting.effects.given import Points
 from fitting.laws.fractional_zener import FractionalZener
 
 OMEGA = 2 * np.pi * np.linspace(20.0, 300.0, 40)

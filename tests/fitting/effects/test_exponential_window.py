@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from solved_in_full import OMEGA, G
 
-from fitting.effects.base import ModulusAt
 from fitting.effects.exponential_window import ExponentialWindowEffect
+from fitting.effects.given import ModulusAt
 from fitting.laws.fractional_zener import FractionalZener
 
 WINDOW = ExponentialWindowEffect()

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitting.effects.base import Points
+from fitting.effects.given import Points
 from fitting.effects.sensor_mounting import SensorMountingEffect
 
 F_0, M, BRACKET = 900.0, 0.5, 0.4

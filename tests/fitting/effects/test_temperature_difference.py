@@ -5,7 +5,7 @@ import pytest
 from shear_pair_cases import LAW
 
 from fitting.effects import CATALOGUE
-from fitting.effects.base import ModulusAt, Points
+from fitting.effects.given import ModulusAt, Points
 from fitting.effects.temperature_difference import TemperatureDifferenceEffect
 
 EFFECT = TemperatureDifferenceEffect()

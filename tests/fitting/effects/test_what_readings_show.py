@@ -8,7 +8,7 @@ import pytest
 
 from fitting.effects.absolute_velocity import AbsoluteVelocityEffect
 from fitting.effects.amplitude_softening import AmplitudeSofteningEffect
-from fitting.effects.base import ModulusAt, Points
+from fitting.effects.given import ModulusAt, Points
 from fitting.effects.level_error import LevelErrorEffect
 from fitting.effects.mains_hum import MainsHumEffect
 from fitting.effects.temperature_drift import C_1, C_2_K, TemperatureDriftEffect

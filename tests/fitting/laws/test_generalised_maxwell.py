@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from fitting.bent_law import BentLaw
-from fitting.effects.base import Points
 from fitting.effects.core_law import OtherCoreLawEffect
+from fitting.effects.given import Points
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.laws.generalised_maxwell import GeneralisedMaxwell
 from fitting.laws.smooth import Smooth

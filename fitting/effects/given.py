@@ -1,0 +1,97 @@
+"""What an effect is given: the points of a sweep, law and strain there, the modes of a hammer test."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.arrays import Array, Complex
+from fitting.laws import CoreLaw
+from fitting.specimen import Drive, Face, Reading
+
+
+@dataclass(frozen=True)
+class Points:
+    """What is known of each point of a sweep apart from its reading. Shape (points,) each."""
+
+    omega: Array
+    acceleration_m_s2: Array
+    """Commanded amplitude; newtons where a force drives."""
+    time_s: Array
+    """Since the first point; by frequency, evenly, where no time is kept."""
+    timed: bool
+    has_phase: bool
+    reads: Reading
+    drive: Drive = "base"
+    force_n: Array | None = None
+    """Amplitude of the force that was measured, where one drives and its size is told."""
+    segment: NDArray[np.intp] | None = None
+    """Number of the segment each is of; None where nothing is known of segments."""
+    at_rest: NDArray[np.bool_] | None = None
+    """Which points have a base at rest, a force driving them; None where `drive` says it of all."""
+    mass_kg: float | None = None
+    """Of a shear pair: what its pads carry, as stated."""
+
+    @property
+    def levels(self) -> int:
+        """How many levels there are."""
+        return len(np.unique(np.round(self.acceleration_m_s2, 9)))
+
+    @property
+    def struck(self) -> NDArray[np.bool_]:
+        """Which points a force drives. Shape (points,)."""
+        return np.full(len(self.omega), self.drive == "force") if self.at_rest is None else self.at_rest
+
+    @property
+    def base_m_s(self) -> Complex | float:
+        """The base's own velocity, as far as it is read. Shape (points,), or zero."""
+        if self.reads == "relative":
+            return 0.0
+        moving = self.acceleration_m_s2 / (1j * self.omega)
+        return moving if self.at_rest is None else np.where(self.at_rest, 0.0, moving)
+
+
+class Strain(Protocol):
+    """The core's strain at every point, in shares of the largest at 1 g of a core as it is."""
+
+    def __call__(self, softened: Array, gained: Array | None = None) -> Array:
+        """Of a core that is softened by fractions of its modulus, its loss modulus being larger by `gained`.
+
+        In shares of sqrt(G' G'') before it softens. Shape (points,) each.
+        """
+
+    def __hash__(self) -> int:
+        """By which it is known again."""
+
+
+@dataclass(frozen=True)
+class ModulusAt:
+    """The law's modulus at every point of a sweep."""
+
+    law: CoreLaw
+    points: Points
+    strain: Strain
+    logs: Array | None = None
+    """Of many laws of its kind instead: the logarithms of their parameters. Shape (laws, parameters)."""
+
+    def __call__(self, frequency_scale: Array | float = 1.0) -> Complex:
+        """G* at omega times `frequency_scale`. Shape (points,), of many laws (laws, points)."""
+        omega = self.points.omega * frequency_scale
+        return np.asarray(self.law.modulus(omega) if self.logs is None else self.law.moduli(self.logs, omega))
+
+
+class BarePlateModes(Protocol):
+    """What effects may ask of the modes of a hammer test."""
+
+    @property
+    def lowering_per_density(self) -> Array:
+        """Fall of ln f for unit density of air. Shape (modes,)."""
+
+    @property
+    def stiffness(self) -> Complex:
+        """phi^T P_p phi for the parts of K_0 (`fitting.parts.STIFFNESS`). Shape (modes, parts)."""
+
+    @property
+    def substrate(self) -> Face:
+        """As stated."""
