@@ -15,6 +15,7 @@ from drivers.errors import DriverError
 from fitting.errors import FittingError
 from fitting.plugins import GROUPS, NoPlugin, Registry, others, package_of
 from instrument.cli.printable import printable
+from instrument.cli.stopping import ended_as_by_a_person
 from instrument.cli.summaries import SUMMARIES
 from instrument.errors import BadInput, RigStopped, StoppedByUser
 from instrument.models.background import VARIABLE as BACKGROUND
@@ -51,6 +52,12 @@ COMMANDS = (
     "bench",
 )
 """Each is a function of that name in the module of that name beside this file (or `import_`)."""
+
+
+_SUMS = frozenset(
+    ("plan", "predict", "damping", "identify", "diagnose", "batch", "compare", "report", "bench")
+)
+"""Those that take long and hold no instrument: SIGTERM ends them as Ctrl-C does, their processes too."""
 
 
 def _place(name: str) -> str:
@@ -137,8 +144,11 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     "--version", is_flag=True, is_eager=True, expose_value=False, callback=_version,
     help="Show the version, and what other packages add to it.",
 )  # fmt: skip
-def viscorig() -> None:
+@click.pass_context
+def viscorig(ctx: click.Context) -> None:
     """Measure damping materials: a core's complex shear modulus from a plate's response."""
+    if ctx.invoked_subcommand in _SUMS:
+        ctx.with_resource(ended_as_by_a_person())
 
 
 def main(arguments: list[str] | None = None) -> None:

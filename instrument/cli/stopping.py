@@ -5,6 +5,7 @@ stop counts: another would break off the silencing and the keeping that follow i
 """
 
 import signal
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from time import monotonic
@@ -73,9 +74,16 @@ def safe_stop(control: RunControl) -> Iterator[None]:
 
 @contextmanager
 def ended_as_by_a_person() -> Iterator[None]:
-    """While this is open SIGTERM and SIGHUP raise `KeyboardInterrupt`, as Ctrl-C does: the first counts."""
-    known = [getattr(signal, name) for name in _SIGNALS if hasattr(signal, name)]
-    before = {number: signal.getsignal(number) for number in known}
+    """While this is open SIGTERM and SIGHUP raise `KeyboardInterrupt`, as Ctrl-C does: the first counts.
+
+    What is ignored (SIGHUP under nohup) stays so; outside the main thread nothing changes.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    signals = [getattr(signal, name) for name in _SIGNALS if hasattr(signal, name)]
+    before = {number: signal.getsignal(number) for number in signals}
+    known = [number for number, handler in before.items() if handler != signal.SIG_IGN]
 
     def end(_: int, __: FrameType | None) -> None:
         for other in known:

@@ -2,11 +2,15 @@
 
 import os
 import signal
+import threading
 
 import pytest
 
-from instrument.cli.stopping import safe_stop
+from instrument.cli.main import run
+from instrument.cli.predict import predict
+from instrument.cli.stopping import ended_as_by_a_person, safe_stop
 from instrument.errors import RigStopped
+from instrument.paper_case import case_file
 from instrument.run.control import RunControl
 
 
@@ -54,3 +58,36 @@ def test_afterwards_signals_mean_what_they_meant():
     with safe_stop(RunControl()):
         assert signal.getsignal(signal.SIGINT) is not before[0]
     assert [signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)] == before
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_a_long_sum_ends_as_by_a_person(monkeypatch, capsys, number):
+    before = signal.getsignal(number)
+    monkeypatch.setattr(predict, "callback", lambda **_: signal.raise_signal(number))
+    specimen = str(case_file("zn1.toml"))
+    assert run(["predict", specimen, "--frequencies", "20"]) == 130
+    assert capsys.readouterr().err.strip() == "viscorig: stopped"
+    assert signal.getsignal(number) == before
+
+
+def test_what_is_ignored_stays_ignored(monkeypatch):
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with ended_as_by_a_person():
+            signal.raise_signal(signal.SIGHUP)
+            assert signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+
+def test_beside_the_main_thread_nothing_changes():
+    before, seen = signal.getsignal(signal.SIGTERM), []
+
+    def inside():
+        with ended_as_by_a_person():
+            seen.append(signal.getsignal(signal.SIGTERM))
+
+    thread = threading.Thread(target=inside)
+    thread.start()
+    thread.join()
+    assert seen == [before]
