@@ -79,7 +79,7 @@ def import_file(path: Path, out: Path | None, naming: Naming | None = None) -> I
             if found.reads
             else "relative to the clamp or absolute velocity? [pickup] reads in the specimen says it"
         )
-    return Imported(tuple(plan.values()), tuple(found.said))
+    return Imported(tuple(plan.values()), tuple(map(one_line, found.said)))
 
 
 def _prove(read: Callable[[Path], object], written: Path, named: Path) -> None:

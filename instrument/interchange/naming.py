@@ -10,6 +10,8 @@ OF_ARRAYS = (
     "'viscorig import' with --columns 'f=Frequency [Hz],H=FRF [(m/s^2)/N]' names what is called f and H"
 )
 """For people."""
+PASSED_OVER = "-"
+"""The name of what is left out."""
 _BETWEEN = re.compile(r",(?![^\[\]]*\])")
 """Names, not what stands in the brackets of a unit."""
 _SHOWN = 100
@@ -38,6 +40,10 @@ class Naming:
         for own in owns:
             if owns.count(own) > 1:
                 raise BadInput(f"--columns: {own} twice, expected each once")
+        names = [name for _, name in pairs if name != PASSED_OVER]
+        for name in names:
+            if names.count(name) > 1:
+                raise BadInput(f"--columns: {name} twice, expected a name for each")
         return cls((), dict(pairs))
 
     def named(self, where: str, owns: Iterable[str]) -> list[str]:

@@ -11,11 +11,12 @@ from fitting.arrays import Array
 from fitting.modal.frf import Motion
 from instrument.errors import BadInput
 from instrument.files.mat import read_mat_variables
+from instrument.files.mat73 import NOT_READ
 from instrument.files.rates import rate_of_step
 from instrument.files.uff58 import HERTZ, SECONDS
 from instrument.files.units import DERIVATIVE, KNOWN, Unit, unit_of
 from instrument.interchange.found import Found, Ratio, motion_of
-from instrument.interchange.naming import Naming
+from instrument.interchange.naming import PASSED_OVER, Naming
 from instrument.interchange.read_table import read_table
 from instrument.interchange.signals import Named
 
@@ -51,12 +52,15 @@ def _names(struct: dict[str, Any]) -> Iterator[str]:
 
 
 def _with_names(struct: dict[str, Any], by_own: dict[str, str]) -> dict[str, Any]:
-    return {
-        (name if isinstance(value, dict) else by_own.get(name, name)): (
-            _with_names(value, by_own) if isinstance(value, dict) else value
-        )
-        for name, value in struct.items()
-    }
+    found = dict[str, Any]()
+    for own, value in struct.items():
+        inner = isinstance(value, dict)
+        name = own if inner else by_own.get(own, own)
+        if name in found or (name != own and name in struct):
+            raise BadInput(f"--columns: {own} would be a second {name}, expected a name of its own")
+        if name != PASSED_OVER:
+            found[name] = _with_names(value, by_own) if inner else value
+    return found
 
 
 def _walk(path: Path, source: str, struct: dict[str, Any], found: Found, depth: int) -> None:
@@ -64,6 +68,9 @@ def _walk(path: Path, source: str, struct: dict[str, Any], found: Found, depth: 
     table: Named = {n: np.asarray(v) for n, v in struct.items() if _is_numeric(v)}
     if table and not read_table(source, table, found):
         found.said.append(f"passed over: {source}: {', '.join(table)[:100]}")
+    left = [n for n, v in struct.items() if _is_left(v)]
+    if left:
+        found.said.append(f"passed over: {source}: {', '.join(left)[:100]}: no array of numbers")
     for name, value in struct.items():
         if isinstance(value, dict) and not _is_function(value) and depth < _DEPTH:
             _walk(path, f"{source} {name}", value, found, depth + 1)
@@ -71,6 +78,14 @@ def _walk(path: Path, source: str, struct: dict[str, Any], found: Found, depth: 
 
 def _is_numeric(value: Any) -> bool:
     return np.asarray(value).dtype.kind in "fciub" and np.asarray(value).size > 0 and np.ndim(value) <= 2
+
+
+def _is_left(value: Any) -> bool:
+    """Whether it is a cell, a table, an object or an array of structs that are no functions of Test.Lab."""
+    if isinstance(value, dict | str) or np.asarray(value, dtype=object).size == 0:
+        return value is NOT_READ
+    each = np.asarray(value, dtype=object).ravel() if isinstance(value, list) else np.ravel(value)
+    return each.dtype.kind == "O" and not all(_is_function(one) for one in each)
 
 
 # LMS Test.Lab: a struct a function, with its axis in x_values and its ordinate, unit and all, in y_values.

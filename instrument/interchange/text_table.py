@@ -15,7 +15,7 @@ from typing import NamedTuple
 from instrument.errors import BadInput
 from instrument.files.table import Rows
 from instrument.files.units import unit_of
-from instrument.interchange.naming import Naming
+from instrument.interchange.naming import PASSED_OVER, Naming
 from instrument.interchange.preamble import named_by_preamble, with_stated_units
 from instrument.interchange.unit_in_name import bracketed
 
@@ -271,6 +271,6 @@ def _even(path: Path, table: TextTable) -> TextTable:
             raise BadInput(f"{path}: line {n}: {len(row)} columns, expected {width} as in {began}")
         rows.append((n, cut))
     for name in table.names:
-        if name and table.names.count(name) > 1:
+        if name not in ("", PASSED_OVER) and table.names.count(name) > 1:
             raise BadInput(f"{path}: header: column {name} twice, expected --columns with {width} names")
     return replace(table, rows=rows)
