@@ -40,7 +40,7 @@ _DECISIVE = (
     "base_accel_im_m_s2",
 )
 """Without them the same file gives another law."""
-_READS = re.compile(r"velocity is (absolute|relative)\b|\b(absolute|relative) velocity\b", re.I)
+_READS = re.compile(r"velocity is (absolute|relative)\b|^\W*(absolute|relative) velocity over\b", re.I)
 """What exports of sessions, and people, say that a laser sees."""
 _READINGS = (("velocity", "m_s", 0), ("acceleration", "m_s2", -1), ("displacement", "m", 1))
 """Stem and unit of phasor columns, and the power of i omega that makes a velocity of them."""

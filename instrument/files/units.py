@@ -81,9 +81,11 @@ def _simple(plain: str) -> tuple[Quantity, float] | None:
 
 def _plain(text: str) -> str:
     """One spelling of each."""
-    plain = re.sub(r"[\s\[\]]", "", text)
+    plain = re.sub(r"[\s\[\]]", "", text).replace("⁻", "^-").replace("¹", "1")
     for written, ours in (("²", "^2"), ("**2", "^2"), ("µ", "u"), ("μ", "u"), ("s2", "s^2"), ("S2", "S^2")):
         plain = plain.replace(written, ours)
+    # m s^-2, mm·s^-1: as programs write it that know no stroke.
+    plain = re.sub(r"[·⋅]?s\^-(1|\^?2)(?!\d)", lambda m: "/s" if m[1] == "1" else "/s^2", plain)
     return _bare(re.sub(r"/s/s(?![\w^])", "/s^2", plain))
 
 

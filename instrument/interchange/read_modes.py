@@ -1,6 +1,8 @@
 """Tables of modes as other laboratories write them: loss factors, damping ratios, Q, or half-power widths."""
 
+import re
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Literal
 
 import numpy as np
@@ -11,7 +13,7 @@ from instrument.interchange.celsius import OURS, is_temperature, with_celsius
 from instrument.interchange.found import Columns, Found, Modes
 from instrument.interchange.said_by_name import ANGULAR, ANGULAR_HZ, NotSaid
 from instrument.interchange.signals import Named
-from instrument.interchange.unit_in_name import bracketed, unit_in
+from instrument.interchange.unit_in_name import bracketed, part_in, unit_in
 
 Loss = Literal["loss factor", "damping ratio", "quality", "bandwidth", "decrement"]
 Kind = Literal["mode", "frequency", "spread", "damping"] | Loss
@@ -32,6 +34,10 @@ _NUMBER = frozenset(("mode", "n", "order"))
 _SPREAD = frozenset(("std", "sd", "sigma", "stdev", "deviation", "uncertainty", "se"))
 _GREEK = (("η", "eta"), ("ζ", "zeta"), ("Δf", "df"), ("δ", " delta"), ("σ", "sigma"))
 _HALF_POWER_DB = "3"
+_TIMES = re.compile(r"[x×*]\s*10|10\s*\^|\b1?[eE][-+]\d")
+"""A factor in a name."""
+_EXPANDED = re.compile(r"k\s*=\s*[2-9]|\d\s*%|expanded|erweitert", re.I)
+"""More than one standard deviation."""
 _AGREE = 0.05
 """Between two statements of one loss factor, written with few digits."""
 
@@ -43,7 +49,7 @@ def read_modes(source: str, table: Named, found: Found) -> bool:
     frequencies = [name for name, kind in kinds.items() if kind == "frequency"]
     frequencies = [name for name in frequencies if not _is_angular(name)] or frequencies
     numbers = [name for name, kind in kinds.items() if kind == "mode"]
-    if not stated or not frequencies:
+    if not stated or not frequencies or any(_is_phasor(name) for name in table):
         return False
     if not numbers:
         if not any(unit_in(name) is not None for name in table):
@@ -89,13 +95,18 @@ def _kind(name: str) -> Kind | None:
         return "loss factor"
     if words & {"zeta", "critical"} or words >= {"damping", "ratio"}:
         return "damping ratio"
-    if words & {"q", "quality", "qfactor"}:
+    if words & {"q", "quality", "qfactor"} and "%" not in name:
         return "quality"
     if "damping" in words:
         return "damping"
     if words & _FREQUENCY or _is_angular(name):
         return "frequency"
     return "mode" if ordered and ordered[0] in _NUMBER else None
+
+
+def _is_phasor(name: str) -> bool:
+    """Whether a column is a part of a phasor of something with a unit: modes have none beside them."""
+    return part_in(name) in ("re", "im") and unit_in(name) is not None
 
 
 def _is_angular(name: str) -> bool:
@@ -114,6 +125,12 @@ def _refuse_doubt(source: str, kinds: dict[str, Kind], frequencies: list[str]) -
             )
         if kind == "bandwidth" and "db" in words and _HALF_POWER_DB not in words:
             raise NotSaid(f"{source}: {name}: expected the width at half power, 3 dB below the peak")
+        if kind == "bandwidth" and ("half", "width") in pairwise(words):
+            raise NotSaid(f"{source}: {name}: half of a width? expected 'Half-power width' for all of it")
+        if kind in _LOSS_OF and _TIMES.search(name):
+            raise NotSaid(f"{source}: {name}: times a number? expected the number itself, or %")
+        if kind == "spread" and _EXPANDED.search(name):
+            raise NotSaid(f"{source}: {name}: expected one standard deviation")
 
 
 def _loss_factor(source: str, table: Named, stated: dict[str, Kind], f: Array) -> tuple[str, Array]:
@@ -155,7 +172,7 @@ def _factor(source: str, name: str, units: dict[str, float]) -> float:
     bracket, words = bracketed(name)
     unit = bracket.strip().lower()
     if not unit:
-        unit = next((w for w in words[-1:] if w in units), "")
+        unit = "%" if "%" in name else next((w for w in words[-1:] if w in units), "")
     known = "%" if unit.startswith("%") and "%" in units else unit
     if known not in units:
         expected = ", ".join(u for u in units if u)

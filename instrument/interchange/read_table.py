@@ -1,5 +1,6 @@
 """Named arrays side by side, of a CSV or a MATLAB struct, to what they are by their names."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -24,6 +25,8 @@ _FREQUENCIES = ("frequency", "freq", "f")
 _TIMES = ("time", "t")
 _COHERENCE = "coh"
 _LONGEST = 200
+_SAME_AXIS = 1e-6
+"""Relative: between two columns of one axis, written with as many digits."""
 _AXIS_HZ = {"Hz": 1.0, "kHz": 1e3, "rad/s": 1 / (2 * np.pi), "": 1.0}
 _AXIS_S = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "": 1.0}
 
@@ -41,29 +44,35 @@ def read_table(source: str, table: Named, found: Found) -> bool:
     if frequency is None:
         frequency = _axis(source, table, ANGULAR, ANGULAR_HZ)
     if frequency is not None:
-        used = _on_lines(source, table, frequency, signals, found)
+        used = _on_lines(source, table, frequency[1], signals, found)
     elif any(s.unit.quantity == "force" for s in signals):
         used = _records(source, _rate_hz(source, table), signals, table.get("accepted"), found)
     else:
         return False
-    _say_left(source, table, used, found)
+    _say_left(source, table, frequency, used, found)
     return bool(signals)
 
 
-def _say_left(source: str, table: Named, used: list[Signal], found: Found) -> None:
+def _say_left(
+    source: str, table: Named, frequency: tuple[str, Array] | None, used: list[Signal], found: Found
+) -> None:
     """Of what was not taken, its names: nobody else would miss them."""
     taken = {name for signal in used for name in signal.names}
     words = (*_RATES, "accepted", "hit", *_others(), *CARRIED)
-    left = [
-        n
-        for n in table
-        if n not in taken
-        and not any(n.lower().startswith(w) for w in words)
-        and bracketed(n)[1][:1] not in ([axis] for axis in (*_FREQUENCIES, *ANGULAR, *_TIMES))
-        and not _is_coherence(n)
-    ]
+    left = [n for n in table if n not in taken and not n.lower().startswith(words)]
+    left = [n for n in left if not _is_coherence(n) and bracketed(n)[1][:1] not in ([t] for t in _TIMES)]
+    if frequency is not None:
+        left = [n for n in left if not _says_the_same(table, n, *frequency)]
     if used and left:
         found.said.append(f"passed over: {source}: {', '.join(left)[:_LONGEST]}")
+
+
+def _says_the_same(table: Named, name: str, axis: str, f: Array) -> bool:
+    """Whether a column is the axis, or another one of the same frequencies."""
+    kinds = ((_FREQUENCIES, _AXIS_HZ), (ANGULAR, ANGULAR_HZ))
+    known = [one for kind, units in kinds for one in axis_of("", [name], kind, units, needed=False)]
+    own = (table[n] * factor for n, factor in known if table[n].shape == f.shape)
+    return name == axis or any(np.allclose(x, f, rtol=_SAME_AXIS) for x in own)
 
 
 # Axes
@@ -71,15 +80,19 @@ def _say_left(source: str, table: Named, used: list[Signal], found: Found) -> No
 
 def _axis(
     source: str, table: Named, words: tuple[str, ...], units: dict[str, float], *, needed: bool = True
-) -> Array | None:
-    """The column of an axis in its SI unit; where it is `needed` one in another unit is refused."""
+) -> tuple[str, Array] | None:
+    """Name and values of an axis, in its SI unit; where it is `needed` one in another unit is refused."""
     rows = [
         n
         for n, values in table.items()
         if values.ndim == 1 and values.size > 1 and not np.iscomplexobj(values) and unit_in(n) is None
     ]
     found = axis_of(source, rows, words, units, needed=needed)
-    return None if found is None else np.asarray(table[found[0]], float) * found[1]
+    each = [np.asarray(table[name], float) * factor for name, factor in found]
+    for (name, _), values in zip(found[1:], each[1:], strict=True):
+        if values.shape != each[0].shape or not np.allclose(values, each[0], rtol=_SAME_AXIS, equal_nan=True):
+            raise NotSaid(f"{source}: {found[0][0]} and {name}: which of them? expected one")
+    return (found[0][0], each[0]) if found else None
 
 
 def _rate_hz(source: str, table: Named) -> float:
@@ -89,7 +102,7 @@ def _rate_hz(source: str, table: Named) -> float:
     if t is None and not said:
         raise BadInput(f"{source}: no sample rate, expected sample_rate_hz or a column of times")
     if t is not None:
-        rate = rate_of_times(t)
+        rate = rate_of_times(t[1])
         if rate is None:
             raise BadInput(f"{source}: its times are not evenly spaced, expected a constant step")
         said.append(rate)
@@ -109,6 +122,7 @@ def _others() -> list[str]:
 
 def _on_lines(source: str, table: Named, f: Array, signals: list[Signal], found: Found) -> list[Signal]:
     """Those taken: ratios, or a velocity beside its base acceleration or its force."""
+    signals = [one for s in signals for one in _columns_apart(s, len(f))]
     for s in (s for s in signals if s.values.shape != f.shape):
         found.said.append(f"passed over: {source}: {s.name}: {s.values.shape} beside {len(f)} frequencies")
     signals = [s for s in signals if s.values.shape == f.shape]
@@ -124,6 +138,9 @@ def _on_lines(source: str, table: Named, f: Array, signals: list[Signal], found:
     readings, drives = [s for s in motions if not s.is_base], [s for s in motions if s.is_base] + forces
     ratios = [s for s in signals if s.unit.per is not None]
     if not readings:
+        moved = [s.name for s in drives if s.unit.quantity != "force"]
+        if moved and not ratios:
+            raise NotSaid(f"{source}: {', '.join(moved)}: of the base by name, expected a response beside it")
         return ratios
     if len(readings) > 1 or len(drives) > 1:
         raise NotSaid(
@@ -132,6 +149,14 @@ def _on_lines(source: str, table: Named, f: Array, signals: list[Signal], found:
         )
     found.sweeps.append(_sweep(source, table, f, readings[0], drives[0] if drives else None, found))
     return [*ratios, *readings, *drives]
+
+
+def _columns_apart(s: Signal, lines: int) -> list[Signal]:
+    """Of a ratio's matrix each column, or row: as many points as it has. Anything else as it is."""
+    if s.unit.per is None or s.values.ndim != 2 or lines not in s.values.shape:
+        return [s]
+    columns = s.values if s.values.shape[0] == lines else s.values.T
+    return [replace(s, name=f"{s.name} {k + 1}", values=columns[:, k]) for k in range(columns.shape[1])]
 
 
 def _ratio(source: str, s: Signal, f: Array) -> Ratio:

@@ -1,6 +1,8 @@
 """What is asked where the name of a column or an array does not say enough; axes and phases by name."""
 
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +21,7 @@ from instrument.interchange.unit_in_name import (
     in_db,
     part_in,
 )
+from instrument.interchange.words import plain, words_of
 
 BASE = {"base", "reference", "ref", "clamp", "excitation", "shaker", "input"}
 """Words of a motion of the base."""
@@ -28,6 +31,10 @@ _QUANTITIES: dict[str, Quantity] = {
     **dict.fromkeys(("displacement", "disp"), "displacement"),
     "force": "force",
 }
+_OTHER_THAN = {"relative", "relativ", "rel", "against", "gegenuber", "gegenueber", "minus"}
+"""Words before what a motion is told from: it is no motion of that."""
+_CHANNEL = "input"
+"""With a number it is one of a front-end's."""
 _MEASURED = {*_QUANTITIES, "frf"}
 """Words of what is wanted: without its unit it is not passed over in silence."""
 _OF_BASE = {"base", "clamp", "reference", "ref"}
@@ -46,8 +53,22 @@ _DENSITIES = frozenset(
 """Words of what is a power, or of a bandwidth that a sine does not have."""
 
 
+_OVER = re.compile(r"^[^\[(]*?(\w+)\s*(?:/|\bover\b)\s*[a-zA-Z]")
+"""One signal over another, before a unit in brackets."""
+
+
 class NotSaid(BadInput):
     """A name does not say enough, or nothing that is known."""
+
+
+def is_of_base(words: Sequence[str]) -> bool:
+    """Whether a name's words are of a motion of the base; `relative to clamp` and `Input 1` are not."""
+    if not _OTHER_THAN.isdisjoint(words):
+        return False
+    return any(
+        word in BASE and not (word == _CHANNEL and following.isdigit())
+        for word, following in pairwise([*words, ""])
+    )
 
 
 def radians(source: str, name: str, values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -56,7 +77,12 @@ def radians(source: str, name: str, values: NDArray[np.float64]) -> NDArray[np.f
     Raises `NotSaid` where that is in doubt.
     """
     unit, words = bracketed(name)
-    said = unit.strip().lower() or next((w for w in words if w in ANGLES), "")
+    pieces = [piece for piece in re.split(r"[,;\s]+", plain(unit)) if piece]
+    if UNWRAPPED in pieces:
+        words, pieces = [*words, UNWRAPPED], [piece for piece in pieces if piece != UNWRAPPED]
+    said = " ".join(pieces) or next((w for w in words if w in ANGLES), "")
+    if unit.strip() == "grad":
+        raise NotSaid(f"{source}: {name}: degrees or gradians? expected deg or rad")
     if said and said not in ANGLES:
         raise NotSaid(f"{source}: {name}: in {unit!r}, expected deg or rad")
     if not said and np.any(values) and _most(values) <= _MOST_RAD:
@@ -79,8 +105,8 @@ def _most(values: Array) -> float:
 
 def axis_of(
     source: str, names: Iterable[str], words: tuple[str, ...], units: dict[str, float], *, needed: bool = True
-) -> tuple[str, float] | None:
-    """The axis among some names and its factor, by its first word and unit; None where there is none.
+) -> list[tuple[str, float]]:
+    """Axes among some names and their factors, by first word and unit: those of the fewest words, or none.
 
     Raises `NotSaid` where one is `needed` and the only one is in another unit.
     """
@@ -100,7 +126,8 @@ def axis_of(
     if not found and unknown and needed:
         known = ", ".join(unit for unit in units if unit)
         raise NotSaid(f"{source}: {unknown}: in which unit? expected one of {known} in its name")
-    return min(found, key=lambda one: one[0])[1:] if found else None
+    fewest = min((count for count, *_ in found), default=0)
+    return [(name, factor) for count, name, factor in found if count == fewest]
 
 
 def _last_unit(words: list[str], units: dict[str, float]) -> str:
@@ -120,6 +147,9 @@ def refuse_contradiction(source: str, name: str, unit: Unit) -> None:
     stems = [u for word in words if word in STEMS and (u := unit_of(STEMS[word])) is not None]
     said = {_QUANTITIES[w] for word in words if (w := word.rstrip("0123456789")) in _QUANTITIES}
     is_other = unit.per is None and bool(said) and unit.quantity not in said
+    ratio = _OVER.match(name)
+    if unit.per is not None and ratio is not None and is_of_base(words_of(ratio[1])):
+        raise NotSaid(f"{source}: {name}: of the base over the response? expected the response over the base")
     if TRANSMISSIBILITY in words and unit.quantity == unit.per:
         return
     if is_other or any((u.quantity, u.per) != (unit.quantity, unit.per) for u in stems):
@@ -136,7 +166,7 @@ def refuse_unknown(source: str, name: str, unit: Unit | None) -> None:
         return
     decides = bool((_MEASURED | STEMS.keys()) & {word.rstrip("0123456789") for word in words})
     is_part = part_in(name) in ("re", "im", "magnitude")
-    part = is_part or bool(BASE & set(words))
+    part = is_part or is_of_base(words)
     base = bool(_OF_BASE & set(words)) and (is_part or (bool(said) and set(words) <= BASE))
     if in_db(name) is not None and (decides or part or STEMS.keys() & set(words)):
         raise NotSaid(f"{source}: {name}: dB of what? {EXPECTED_DB}")

@@ -9,7 +9,13 @@ from numpy.typing import NDArray
 
 from instrument.errors import BadInput
 from instrument.files.units import Unit
-from instrument.interchange.said_by_name import BASE, NotSaid, radians, refuse_contradiction, refuse_unknown
+from instrument.interchange.said_by_name import (
+    NotSaid,
+    is_of_base,
+    radians,
+    refuse_contradiction,
+    refuse_unknown,
+)
 from instrument.interchange.unit_in_name import (
     EXPECTED_DB,
     Part,
@@ -62,7 +68,10 @@ def signals_of(source: str, table: Named, others: Collection[str]) -> list[Signa
             continue
         if unit is not None:
             refuse_contradiction(source, name, unit)
-        parts.setdefault(stem_of(name), {})[part_in(name)] = name
+        mine, part = parts.setdefault(stem_of(name), {}), part_in(name)
+        if part in mine:
+            raise NotSaid(f"{source}: {mine[part]} and {name}: which of them? expected one, or other words")
+        mine[part] = name
     _lend_phase(source, table, parts)
     return [s for stem, by_part in parts.items() if (s := _signal(source, table, stem, by_part)) is not None]
 
@@ -80,13 +89,13 @@ def _lend_phase(source: str, table: Named, parts: dict[tuple[str, ...], dict[Par
         if set(names) in ({"whole"}, {"magnitude"})
         and not any(np.iscomplexobj(table[name]) for name in names.values())
     ]
-    bases = [stem for stem in sizes if BASE & set(stem)]
+    bases = [stem for stem in sizes if is_of_base(stem)]
     owners = {
-        of: bases if BASE & set(of) else [stem for stem in sizes if set(of) <= set(stem)] for of in alone
+        of: bases if is_of_base(of) else [stem for stem in sizes if set(of) <= set(stem)] for of in alone
     }
-    if len(alone) == 1 and not BASE & set(alone[0]):
+    if len(alone) == 1 and not is_of_base(alone[0]):
         (of,) = alone
-        readings = [s for s in parts if s != of and not BASE & set(s) and not _is_force(parts[s])]
+        readings = [s for s in parts if s != of and not is_of_base(s) and not _is_force(parts[s])]
         owners[of] = [stem for stem in owners[of] if [stem] == readings]
     found = [stem for (stem, *more) in owners.values() if not more] if all(owners.values()) else []
     if len(set(found)) == len(alone):
@@ -132,9 +141,7 @@ def _signal(source: str, table: Named, stem: tuple[str, ...], names: dict[Part, 
     peak = (
         1.0 if unit.per is not None else max(map(amplitude_factor, names.values()), key=lambda x: abs(x - 1))
     )
-    return Signal(
-        label, unit, bool(BASE & set(stem)), values * (unit.factor * peak), peak, tuple(names.values())
-    )
+    return Signal(label, unit, is_of_base(stem), values * (unit.factor * peak), peak, tuple(names.values()))
 
 
 def _from_parts(source: str, table: Named, re: str, im: str) -> NDArray[Any]:

@@ -48,10 +48,11 @@ _SUFFIXES = (
     ("_g", "g"),
 )
 """Units at the end of a name, longest first."""
+_PEAK = "p|pk|peak|spitze|crete"
 _PEAKS = (
-    (r"rms|eff", np.sqrt(2.0)),
-    (r"pp|p2p|pkpk|(?:p|pk|peak) (?:to )?(?:p|pk|peak)", 0.5),
-    (r"pk|peak|0 p", 1.0),
+    (r"rms|eff|root mean square|effektiv|effektivwert|efficace", np.sqrt(2.0)),
+    (rf"pp|p2p|pkpk|(?:{_PEAK}) (?:to |zu |a )?(?:{_PEAK})", 0.5),
+    (r"pk|peak|0 p|spitze|spitzenwert|scheitelwert|crete", 1.0),
 )
 """How a sine's size is stated, and what makes its amplitude of it."""
 _DEGREES = ("deg", "degree", "degrees", "°", "grad", "degre", "degres")
@@ -80,6 +81,8 @@ def bracketed(name: str) -> tuple[str, list[str]]:
         # (m/s)/(m/s^2): the first of the two groups is part of the unit.
         match = re.search(r"(\(.*)$", whole)
     spelt = _SPELT.search(whole)
+    if match and match[0].startswith("["):
+        spelt = None
     if spelt and (unit_of(spelt[1]) or spelt[1].lower() in (*ANGLES, "hz", "khz", "rad/s", "%")):
         match = spelt
     before = whole[: match.start()] if match else whole
@@ -202,7 +205,7 @@ def amplitude_factor(name: str) -> float:
 
 def stated_factor(name: str) -> float | None:
     """The same, None where the name does not say how the size is stated."""
-    said = " " + re.sub(r"[^a-z0-9]+", " ", name.lower()) + " "
+    said = " " + re.sub(r"[^a-z0-9]+", " ", plain(name)) + " "
     return next((float(factor) for words, factor in _PEAKS if re.search(rf" (?:{words}) ", said)), None)
 
 

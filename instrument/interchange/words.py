@@ -2,13 +2,14 @@
 
 import re
 import unicodedata
+from itertools import pairwise
 
 _ENGLISH = {
     # Axes
     "frequenz": "frequency",
     "frequence": "frequency",
-    "eigenfrequenz": "frequency",
-    "resonanzfrequenz": "frequency",
+    "eigenfrequenz": "eigenfrequency",
+    "resonanzfrequenz": "eigenfrequency",
     "kreisfrequenz": "omega",
     "pulsation": "omega",
     "zeit": "time",
@@ -43,15 +44,20 @@ _ENGLISH = {
     "frequenzgang": "frf",
     "transfert": "transfer",
     "admittanz": "mobility",
+    "mobilitat": "mobility",
     "mobilite": "mobility",
     "inertanz": "inertance",
     "transmissibilite": "transmissibility",
+    "transmissibilitat": "transmissibility",
     # Parts of a phasor
     "realteil": "real",
+    "reell": "real",
     "reel": "real",
     "reelle": "real",
     "imaginarteil": "imaginary",
     "imaginaerteil": "imaginary",
+    "imaginar": "imaginary",
+    "imaginaer": "imaginary",
     "imaginaire": "imaginary",
     "betrag": "magnitude",
     "module": "magnitude",
@@ -63,6 +69,8 @@ _ENGLISH = {
     "daempfung": "damping",
     "dampfung": "damping",
     "amortissement": "damping",
+    "daempfungsmass": "damping",
+    "dampfungsmass": "damping",
     "daempfungsgrad": "damping ratio",
     "dampfungsgrad": "damping ratio",
     "taux": "ratio",
@@ -70,29 +78,41 @@ _ENGLISH = {
     "facteur": "factor",
     "perte": "loss",
     "pertes": "loss",
-    "halbwertsbreite": "half bandwidth",
+    "halbwertsbreite": "half power bandwidth",
     "guete": "quality",
     "gute": "quality",
+    "guetefaktor": "quality",
+    "gutefaktor": "quality",
     "dekrement": "decrement",
     "standardabweichung": "std",
     "unsicherheit": "uncertainty",
-    "ecart": "std",
 }
 _COMPOUND = re.compile(r"(\w{4,})(schnelle|geschwindigkeit|beschleunigung|auslenkung|kraft)")
 """German puts a word for where before one for what: `Basisbeschleunigung`."""
+_THINGS = {"module"}
+_SPREAD = ("ecart-type", "std")
 _LINK = "s"
 """Between them: `Anregungskraft`."""
 
 
 def plain(text: str) -> str:
     """In small letters without accents, omega in full."""
-    text = text.replace("ω", "omega").replace("ß", "ss")
+    for letter, spelt in (("ω", "omega"), ("φ", "phi"), ("ß", "ss")):
+        text = text.replace(letter, spelt)
     return "".join(c for c in unicodedata.normalize("NFKD", text.lower()) if not unicodedata.combining(c))
 
 
 def words_of(text: str) -> list[str]:
-    """Of some text, in order: `Mobilité (partie réelle)` is mobility, partie, real."""
-    return [english for word in re.split(r"[^a-z0-9]+", plain(text)) if word for english in _in_english(word)]
+    """Of some text, in order: `Mobilité (partie réelle)` is mobility, partie, real.
+
+    What has a number may be a thing: `Module 1` is no modulus.
+    """
+    words = [word for word in re.split(r"[^a-z0-9]+", plain(text).replace(*_SPREAD)) if word]
+    return [
+        english
+        for word, following in pairwise([*words, ""])
+        for english in ([word] if word in _THINGS and following.isdigit() else _in_english(word))
+    ]
 
 
 def _in_english(word: str) -> list[str]:

@@ -96,3 +96,61 @@ def test_one_that_is_cut_off_is_refused(tmp_path, keep):
     path.write_bytes(path.read_bytes()[:keep])
     with pytest.raises(BadInput, match="that can be read"):
         read_mat_variables(path)
+
+
+def refused(path, said):
+    with pytest.raises(BadInput, match=said):
+        read_mat_variables(path)
+
+
+def test_structs_that_share_others_have_an_end(tmp_path):
+    def fill(file):
+        group = file.create_group("a")
+        matlab(group, "x", F)
+        for _ in range(6):
+            above = file.create_group(f"{group.name}b")
+            for k in range(10):
+                above[f"s{k}"] = group
+            group = above
+
+    refused(written(tmp_path / "a.mat", fill), "more than 10000 variables")
+
+
+def test_arrays_beyond_any_measurement_are_refused_before_they_are_read(tmp_path):
+    def fill(file):
+        for k in range(2):
+            file.create_dataset(f"x{k}", (80_000_000,), "f8", chunks=(1000,))
+
+    refused(written(tmp_path / "a.mat", fill), "more than 1 GB of arrays")
+
+
+def test_numbers_that_lie_in_other_files_are_left_out(tmp_path):
+    (tmp_path / "secret").write_bytes(bytes(80))
+
+    def fill(file):
+        matlab(file, "f", F)
+        file.create_dataset("out", (10,), "f8", external=[(str(tmp_path / "secret"), 0, 80)])
+        layout = h5py.VirtualLayout((10,), "f8")
+        layout[:] = h5py.VirtualSource(str(tmp_path / "b.mat"), "x", (10,))
+        file.create_virtual_dataset("seen", layout)
+
+    found = read_mat73_variables(written(tmp_path / "a.mat", fill))
+    assert found["out"] is found["seen"] is NOT_READ
+    np.testing.assert_array_equal(found["f"], F)
+
+
+def test_what_is_no_number_is_left_out_and_said(tmp_path):
+    def fill(file):
+        matlab(file, "f", F)
+        matlab(file, "frf_g_per_n", complex_(H))
+        file.create_dataset("cells", data=np.array([file.ref]), dtype=h5py.ref_dtype)
+        file.create_dataset("none", data=h5py.Empty("f8"))
+        matlab(file, "long", np.zeros(1_000_001, "u2"), "char")
+
+    found = import_file(written(tmp_path / "a.mat", fill), tmp_path / "a.csv")
+    assert "passed over: a.mat: cells, long, none: no array of numbers" in found.said
+
+
+def test_the_older_format_has_the_same_limit(tmp_path):
+    savemat(tmp_path / "a.mat", {"x": np.zeros((8000, 8000))}, do_compression=True)
+    refused(tmp_path / "a.mat", "more than 1 GB of arrays")

@@ -22,7 +22,12 @@ def test_in_order_or_by_their_own_names():
 
 @pytest.mark.parametrize(
     ("text", "said"),
-    [("f=Frequency,H", "'H', expected OWN=NAME"), ("f=", "'f=', expected"), ("f=a,f=b", "f twice")],
+    [
+        ("f=Frequency,H", "'H', expected OWN=NAME"),
+        ("f=", "'f=', expected"),
+        ("f=a,f=b", "f twice"),
+        ("f=a,g=a", "a twice"),
+    ],
 )
 def test_both_at_once_are_refused(text, said):
     with pytest.raises(BadInput, match=said):
@@ -66,3 +71,18 @@ def test_some_of_a_text_are_named_and_the_others_kept(tmp_path):
     import_file(tmp_path / "a.txt", tmp_path / "a.csv", Naming.of("Ch1=Force [N],Ch2=Acceleration [g]"))
     (hit,) = read_impact_csv(tmp_path / "a.csv")
     np.testing.assert_allclose(hit.force_n, np.sin(t * 300))
+
+
+def test_a_column_is_passed_over_by_a_dash(tmp_path):
+    rows = "".join(f"{f},{h.real},1,{h.imag},2\n" for f, h in zip(F, H, strict=True))
+    (tmp_path / "a.txt").write_text(rows)
+    import_file(tmp_path / "a.txt", tmp_path / "a.csv", Naming.of("f [Hz],v re [m/s],-,v im [m/s],-"))
+    np.testing.assert_allclose(read_sweep(tmp_path / "a.csv").columns["velocity_im_m_s"], H.imag)
+    savemat(tmp_path / "a.mat", {"f": F, "frf_g_per_n": H, "a": F, "b": F})
+    import_file(tmp_path / "a.mat", tmp_path / "b.csv", Naming.of("a=-,b=-"))
+
+
+def test_two_arrays_do_not_get_one_name(tmp_path):
+    savemat(tmp_path / "a.mat", {"f": F, "H": H})
+    with pytest.raises(BadInput, match="H would be a second f"):
+        import_file(tmp_path / "a.mat", tmp_path / "a.csv", Naming.of("H=f"))

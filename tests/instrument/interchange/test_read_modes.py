@@ -34,6 +34,8 @@ def table_of(tmp_path, text):
         ("Half-power bandwidth [Hz]", (4.16, 18.0)),
         ("Δf 3 dB [kHz]", (0.00416, 0.018)),
         ("Log decrement", (0.032 * np.pi, 0.05 * np.pi)),
+        ("Loss factor %", (3.2, 5.0)),
+        ("% of critical", (1.6, 2.5)),
     ],
 )
 def test_every_word_for_a_loss_comes_to_the_same(tmp_path, column, values):
@@ -93,6 +95,10 @@ def test_arrays_of_a_matlab_file(tmp_path):
             r"row 2: loss factor 0\.04 by zeta, 0\.1",
         ),
         ("Mode,Frequency [Hz],10 dB width [Hz]\n2,130,1\n3,360,2\n", "the width at half power"),
+        ("Mode,Frequency [Hz],Half width [Hz]\n2,130,1\n3,360,2\n", "half of a width"),
+        ("Mode,Frequency [Hz],Half-width at half power\n2,130,1\n3,360,2\n", "half of a width"),
+        ("Mode,Frequency [Hz],eta x 1000\n2,130,1\n3,360,2\n", "times a number"),
+        ("Mode,f [Hz],eta,f uncertainty (k=2)\n2,130,1,1\n3,360,2,1\n", "one standard deviation"),
         ("Mode,Frequency [rpm],eta\n2,130,1\n3,360,2\n", "in 'rpm', expected hz, khz, rad/s"),
         ("Mode,Frequency [Hz],eta,eta std [%]\n2,130,1,1\n3,360,2,1\n", "eta std .* in '%', expected"),
         ("Mode,Frequency [Hz],eta,std\n2,130,1,1\n3,360,2,1\n", "of what"),
@@ -122,4 +128,12 @@ def test_what_is_no_table_of_modes_is_left_alone():
     assert found.said == []
     assert not read_modes("a", {"frequency_hz": f, "eta": f}, found)
     assert found.said == ["a: eta: of which mode? expected a column of their numbers"]
+    assert found.modes == []
+
+
+def test_a_sweep_with_numbers_and_a_quality_of_its_rows_is_none():
+    f = np.linspace(20.0, 30.0, 5)
+    table = {"Order": np.arange(5.0), "Frequency [Hz]": f, "Velocity re [mm/s]": f, "Velocity im [mm/s]": f}
+    found = Found()
+    assert not read_modes("a", table | {"Q": f}, found)
     assert found.modes == []

@@ -131,9 +131,11 @@ def test_frequencies_in_another_unit_are_refused(name):
 
 
 def test_an_axis_is_the_plainest_of_its_kind_in_its_unit():
-    assert axis_of("a", ["frequency_std_hz", "frequency_hz"], ("frequency",), HERTZ) == ("frequency_hz", 1.0)
-    assert axis_of("a", ["frequency_rad_s"], ("frequency",), HERTZ) == ("frequency_rad_s", 0.5)
-    assert axis_of("a", ["frequency_rpm"], ("frequency",), HERTZ, needed=False) is None
+    assert axis_of("a", ["frequency_std_hz", "frequency_hz"], ("frequency",), HERTZ) == [
+        ("frequency_hz", 1.0)
+    ]
+    assert axis_of("a", ["frequency_rad_s"], ("frequency",), HERTZ) == [("frequency_rad_s", 0.5)]
+    assert axis_of("a", ["frequency_rpm"], ("frequency",), HERTZ, needed=False) == []
 
 
 def test_phases_are_in_the_unit_that_is_said_and_asked_about_where_none_is():
@@ -308,3 +310,62 @@ def test_radians_of_many_turns_are_asked_about_unless_they_are_unwrapped():
     turned = np.angle(V) - 20 * np.pi
     found = of({**size, "Velocity phase unwrapped [rad]": turned})
     np.testing.assert_allclose(found.sweeps[0]["velocity_re_m_s"], V.real, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ({"Speed [m/s]": V, "speed (mm/s)": V}, "which of them"),
+        (PARTS | {"Velocity re (mm/s)": F}, "which of them"),
+        ({"H base/plate [g/(mm/s)]": V}, "the response over the base"),
+        ({"Phase [grad]": F, "Mobility [(m/s)/N]": F}, "degrees or gradians"),
+        ({"Velocity of input real [mm/s]": F, "Velocity of input imag [mm/s]": F}, "of the base by name"),
+        (
+            {"Velocity relative to clamp [mm/s]": F, "Table acceleration [g]": F},
+            "which is the response",
+        ),
+        ({"Input 1 [mm/s]": F, "Input 2 [g]": F}, "which is the response"),
+    ],
+)
+def test_what_may_be_either_is_asked_about(table, said):
+    with pytest.raises(BadInput, match=said):
+        of(table)
+
+
+def test_two_axes_that_differ_are_asked_about():
+    table = {"Frequency setpoint [Hz]": F, "Frequency measured [Hz]": 1.01 * F}
+    with pytest.raises(BadInput, match="which of them"):
+        read_table("a", table | PARTS, Found())
+    assert read_table("a", table | {"Frequency measured [Hz]": F} | PARTS, Found())
+
+
+def test_what_is_told_from_the_clamp_is_no_motion_of_it():
+    found = of({"Velocity relative to clamp [mm/s]": F, "Base accel [g]": np.ones(len(F))})
+    np.testing.assert_allclose(found.sweeps[0]["velocity_m_s"], 1e-3 * F)
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"), [("v real [mm / s]", "mm/s"), ("H [m/s / g]", "(m/s)/g"), ("H [m·s⁻¹/N]", "(m/s)/N")]
+)
+def test_blanks_and_powers_belong_to_the_unit(name, unit):
+    assert unit_in(name) == unit_of(unit)
+
+
+@pytest.mark.parametrize(
+    ("name", "factor"),
+    [
+        ("Schnelle Effektivwert [mm/s]", 2**0.5),
+        ("Velocity root mean square [mm/s]", 2**0.5),
+        ("Schnelle Spitze-Spitze [mm/s]", 0.5),
+        ("Vitesse crête à crête (mm/s)", 0.5),
+        ("Schnelle Spitzenwert [mm/s]", 1.0),
+    ],
+)
+def test_a_sines_size_is_read_in_words_too(name, factor):
+    assert amplitude_factor(name) == pytest.approx(factor)
+
+
+def test_columns_of_a_matrix_of_ratios_are_spots():
+    found = of({"H [(m/s)/g]": np.column_stack([V, 2 * V])})
+    assert [len(s["frequency_hz"]) for s in found.sweeps] == [len(F), len(F)]
+    assert found.spots == ["H [(m/s)/g] 1", "H [(m/s)/g] 2"]

@@ -24,6 +24,9 @@ V = [0.1 + 0.2j, 0.3 - 0.1j, -0.2 + 0.05j]
         ("Dämpfungsgrad", ["damping", "ratio"]),
         ("base_accel_re_m_s2", ["base", "accel", "re", "m", "s2"]),
         ("weggang", ["weggang"]),
+        ("Module 1 velocity", ["module", "1", "velocity"]),
+        ("Module de la vitesse", ["magnitude", "de", "la", "velocity"]),
+        ("Écart-type fréquence", ["std", "frequency"]),
     ],
 )
 def test_words_of_a_name(text, words):
