@@ -267,6 +267,8 @@ def _array(group: Any, name: str, dimensions: int) -> Any:
     found = group.get(name) if isinstance(group, h5py.Group) else None
     if not isinstance(found, h5py.Dataset) or found.ndim != dimensions:
         raise ValueError(f"{name}: expected a data set with {dimensions} dimension{'s'[: dimensions - 1]}")
+    if found.external or found.is_virtual or not isinstance(group.get(name, getlink=True), h5py.HardLink):
+        raise ValueError(f"{name}: lies in another file")
     claimed, held = found.size * found.dtype.itemsize, found.id.get_storage_size()
     if claimed > _MOST_PACKED * held + _OVERHEAD_BYTES:
         raise ValueError(f"{name}: claims {claimed} bytes, holds {held}")

@@ -105,6 +105,28 @@ def test_a_damaged_session_is_refused_in_one_line(session, tmp_path, capsys, dam
         assert error.count("\n") == 1, (command, error)
 
 
+@pytest.mark.parametrize("how", ["stored", "linked", "virtual"])
+def test_samples_that_lie_in_another_file_are_not_read(session, tmp_path, how):
+    path, other = tmp_path / "session.h5", tmp_path / "other.h5"
+    shutil.copy(session, path)
+    with h5py.File(path, "r+") as file, h5py.File(other, "w") as beside:
+        part = next(p for p in file["parts"].values() if "samples" in p)
+        samples = part["samples"][()]
+        beside["samples"] = samples
+        del part["samples"]
+        if how == "linked":
+            part["samples"] = h5py.ExternalLink(str(other), "/samples")
+        elif how == "stored":
+            outside = [(str(other), 0, samples.nbytes)]
+            part.create_dataset("samples", samples.shape, samples.dtype, external=outside)
+        else:
+            layout = h5py.VirtualLayout(samples.shape, samples.dtype)
+            layout[:] = h5py.VirtualSource(str(other), "samples", samples.shape)
+            part.create_virtual_dataset("samples", layout)
+    with SessionFile(path) as opened, pytest.raises(BadInput, match="samples: lies in another file"):
+        list(opened.events())
+
+
 def test_what_cannot_be_opened_is_said_for_people(session, tmp_path):
     cut, folder, other = (tmp_path / name for name in ("cut.h5", "folder.h5", "other.h5"))
     shutil.copy(session, cut)
