@@ -72,10 +72,12 @@ def too_large(fitted: Refitted, plate: EnrichedReducedPlate) -> str:
 
 
 def asks_for_more(effect: Effect, u: Array, plate: EnrichedReducedPlate) -> bool:
-    """Whether a size ends at its plausible limit, away from where the effect is absent.
+    """Whether a size ends at its plausible limit, away from where the effect is absent, or is beyond it.
 
     `u` of shape (parameters,).
     """
+    if effect.is_beyond(u):
+        return True
     for q, value, low, high in zip(effect.parameters, u, *effect.limits(plate), strict=True):
         if q.neutral is None or q.fixed or q.complete:
             continue

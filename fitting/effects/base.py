@@ -216,6 +216,10 @@ class Effect:
         """
         return True
 
+    def is_beyond(self, u: Array) -> bool:
+        """Whether it is more than is plausible where no limit of one unknown says so. Shape (parameters,)."""
+        return False
+
     def scaled(self, u: Array, a: float) -> Array:
         """`u` with the effect `a` times as strong, by a linear guess. Shape (parameters,)."""
         found = u.copy()

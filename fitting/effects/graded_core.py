@@ -110,4 +110,21 @@ class GradedCoreOfBeamEffect(GradedCoreEffect):
     """Along a beam alone."""
 
     def variants(self) -> tuple[Effect, ...]:
-        return (self,)
+        return (self, BowedCoreEffect())
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return super().story(u).replace("plate's", "beam's")
+
+
+class BowedCoreEffect(GradedCoreOfBeamEffect):
+    """G times 1 + bow (4 s (1 - s) - 2/3), s from 0 to 1 along a beam: pressed thinner in its middle."""
+
+    source = "second order in the place; the core's shear alone"
+
+    def __init__(self) -> None:
+        super().__init__("bow")
+        self.parameters = (EffectParameter("bow", "1", -1.0, 1.0, 0.1, spread=0.2),)
+
+    def story(self, u: Mapping[str, float]) -> str:
+        side = "stiffer, or thinner," if u["bow"] > 0 else "softer, or thicker,"
+        return f"the core is {side} by {100 * abs(u['bow']):.0f} % in the middle of the beam than at its ends"

@@ -13,6 +13,9 @@ from fitting.effects.given import ModulusAt, Points
 C_1, C_2_K = 9.0, 120.0
 """Of a damping polymer well above its glass transition; another pair scales the kelvins found."""
 
+_FASTEST_K_S = 0.1
+"""Ten minutes' drift in one: faces and core of a millimetre take minutes to follow the air, and what is
+driven warms no faster. A choice."""
 _CYCLES = (
     EffectParameter("swing_sine", "K", -8.0, 8.0, 0.3, spread=1.0, mounting=1.4),
     EffectParameter("swing_cosine", "K", -8.0, 8.0, 0.3, spread=1.0, mounting=1.4),
@@ -72,9 +75,13 @@ class TemperatureDriftEffect(Effect):
         """Warmer than the temperature of the law. Shape of `time_s`."""
         return np.asarray(-u[0] * np.expm1(-time_s / u[1]))
 
+    def is_beyond(self, u: Array) -> bool:
+        return bool(abs(u[0]) > _FASTEST_K_S * u[1])
+
     def story(self, u: Mapping[str, float]) -> str:
-        warming, minutes = two_digits(u["warming"]), two_digits(u["time_constant"] / 60)
-        return f"the core warms by {warming} K in the end, within {minutes} min"
+        warming, minutes = two_digits(abs(u["warming"])), two_digits(u["time_constant"] / 60)
+        verb = "warms" if u["warming"] > 0 else "cools"
+        return f"the core {verb} by {warming} K in the end, within {minutes} min"
 
 
 class TemperatureCycleEffect(TemperatureDriftEffect):
@@ -114,6 +121,9 @@ class TemperatureCycleEffect(TemperatureDriftEffect):
         turned = 2 * np.pi * time_s / u[2]
         uneven = u[3] * np.sin(2 * turned) + u[4] * np.cos(2 * turned) if self.uneven else 0.0
         return np.asarray(u[0] * np.sin(turned) + u[1] * np.cos(turned) + uneven)
+
+    def is_beyond(self, u: Array) -> bool:
+        return bool(2 * np.pi * np.hypot(u[0], u[1]) > _FASTEST_K_S * u[2])
 
     def story(self, u: Mapping[str, float]) -> str:
         swing, minutes = np.hypot(u["swing_sine"], u["swing_cosine"]), u["period"] / 60

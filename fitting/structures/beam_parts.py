@@ -283,6 +283,8 @@ def _asked_for(section: BeamSection) -> dict[str, Array]:
     by_pieces = np.einsum("p,kpij->kij", section.coefficients[_SLIP], slip_by_pieces(section.ends))
     found |= {f"strips_x.{k:03d}": A for k, A in enumerate(by_pieces)}
     found["grading_x.K_1"] = _slip(section, x - 0.5)
+    # One more in the middle than at the ends, none in the mean.
+    found["grading_bow.K_1"] = _slip(section, 4 * x * (1 - x) - 2 / 3)
     return found
 
 
