@@ -107,24 +107,48 @@ class GradedCoreEffect(Effect):
 
 
 class GradedCoreOfBeamEffect(GradedCoreEffect):
-    """Along a beam alone."""
+    """Along a beam alone, where a core may be uneven in its thickness too."""
 
     def variants(self) -> tuple[Effect, ...]:
-        return (self, BowedCoreEffect())
+        return (self, UnevenCoreEffect("wedge"), UnevenCoreEffect("bow"))
 
     def story(self, u: Mapping[str, float]) -> str:
         return super().story(u).replace("plate's", "beam's")
 
 
-class BowedCoreEffect(GradedCoreOfBeamEffect):
-    """G times 1 + bow (4 s (1 - s) - 2/3), s from 0 to 1 along a beam: pressed thinner in its middle."""
+class Uneven(Span):
+    """What a beam's core does whose thickness is a line or a parabola."""
 
-    source = "second order in the place; the core's shear alone"
+    def __init__(self, shape: str) -> None:
+        self.name = f"uneven_{shape}"
 
-    def __init__(self) -> None:
-        super().__init__("bow")
-        self.parameters = (EffectParameter("bow", "1", -1.0, 1.0, 0.1, spread=0.2),)
+
+class UnevenCoreEffect(GradedCoreOfBeamEffect):
+    """Thickness times 1 + delta, s from 0 to 1 along a beam.
+
+    delta = wedge (s - 1/2), or bow (4 s (1 - s) - 2/3): a core pressed thinner at its ends, or in its middle.
+    """
+
+    source = "the core's slip, 1/(1 + delta) to third order, its mass, and an outer face that is not straight"
+
+    def __init__(self, shape: str) -> None:
+        super().__init__()
+        self.shape = shape
+        self.spans = (Uneven(shape),)
+        self.parameters = (EffectParameter(shape, "1", -0.6, 0.6, 0.1, spread=0.15),)
+
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
+        def of(key: str) -> Array:
+            return plate.matrix(f"uneven_{self.shape}.{key}")
+
+        slip = u[0] * of("K_1") + sum(u[0] ** n * of(f"inverse_{n}") for n in (1, 2, 3))
+        tilted = u[0] * of("tilted_1") + u[0] ** 2 * of("tilted_2")
+        load = u[0] * plate.vector(f"uneven_{self.shape}.load")
+        return Change(K=tilted, K_1=slip, M=u[0] * of("M"), load=load)
 
     def story(self, u: Mapping[str, float]) -> str:
-        side = "stiffer, or thinner," if u["bow"] > 0 else "softer, or thicker,"
-        return f"the core is {side} by {100 * abs(u['bow']):.0f} % in the middle of the beam than at its ends"
+        by = u[self.shape]
+        thicker = f"{100 * abs(by):.0f} % {'thicker' if by > 0 else 'thinner'}"
+        if self.shape == "bow":
+            return f"the core is {thicker} in the middle of the beam than at its ends"
+        return f"the core is {thicker} at the beam's far end than at its near one"

@@ -148,7 +148,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 def viscorig(ctx: click.Context) -> None:
     """Measure damping materials: a core's complex shear modulus from a plate's response."""
     if ctx.invoked_subcommand in _SUMS:
-        ctx.with_resource(ended_as_by_a_person())
+        ctx.with_resource(ended_as_by_a_person(even_ignored=False))
 
 
 def main(arguments: list[str] | None = None) -> None:

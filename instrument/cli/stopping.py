@@ -73,17 +73,17 @@ def safe_stop(control: RunControl) -> Iterator[None]:
 
 
 @contextmanager
-def ended_as_by_a_person() -> Iterator[None]:
+def ended_as_by_a_person(*, even_ignored: bool = True) -> Iterator[None]:
     """While this is open SIGTERM and SIGHUP raise `KeyboardInterrupt`, as Ctrl-C does: the first counts.
 
-    What is ignored (SIGHUP under nohup) stays so; outside the main thread nothing changes.
+    Not `even_ignored`: what is ignored (SIGHUP under nohup) stays so. Off the main thread nothing changes.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
     signals = [getattr(signal, name) for name in _SIGNALS if hasattr(signal, name)]
     before = {number: signal.getsignal(number) for number in signals}
-    known = [number for number, handler in before.items() if handler != signal.SIG_IGN]
+    known = [n for n, handler in before.items() if even_ignored or handler != signal.SIG_IGN]
 
     def end(_: int, __: FrameType | None) -> None:
         for other in known:

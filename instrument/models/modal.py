@@ -34,7 +34,7 @@ from fitting.structures import AnySpecimen
 from fitting.structures.beam import Beam
 from instrument.models.cache import cached
 from instrument.models.effect_names import refuse_unknown_effects
-from instrument.models.file_remarks import remarks_on_held_width
+from instrument.models.file_remarks import remarks_on_clamps
 from instrument.models.modal_reads import remark_on_reading
 from instrument.models.remarks import (
     remarks_on_damping,
@@ -243,7 +243,7 @@ def remarks_on_tables(tables: Sequence[ModalTable], specimens: Sequence[AnySpeci
             said += remarks_on_law(specimen.core.law, table.frequency_hz)
         if isinstance(specimen, Specimen):
             said += [*remarks_on_tolerances(specimen), *remarks_on_damping(specimen, tested=False)]
-        said += (*remarks_on_patches(specimen), *remarks_on_held_width(specimen))
+        said += (*remarks_on_patches(specimen), *remarks_on_clamps(specimen))
         said += remarks_on_errors([table])
         warm = table.temperature_c
         if warm is not None and float(warm.max() - warm.min()) > _WARMER:

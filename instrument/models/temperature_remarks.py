@@ -3,7 +3,7 @@
 from fitting.mode_tables.table import ModalTable
 from fitting.specimen import METAL_PER_K, Face, Specimen
 from fitting.structures import Beam
-from instrument.models.file_remarks import remarks_on_edges, remarks_on_held_width
+from instrument.models.file_remarks import remarks_on_clamps, remarks_on_edges
 from instrument.models.members import Members
 from instrument.models.modal import remarks_on_errors
 
@@ -17,7 +17,7 @@ def remarks_at_temperatures(members: Members) -> tuple[str, ...]:
     """Each once."""
     said: list[str] = []
     for specimen in members.specimens:
-        said += [*remarks_on_held_width(specimen), *remarks_on_edges(specimen)]
+        said += [*remarks_on_clamps(specimen), *remarks_on_edges(specimen)]
         if isinstance(specimen, Beam):
             said += _on_metal(members, specimen)
         elif isinstance(specimen, Specimen) and _kelvins(members) > _FAR_K:

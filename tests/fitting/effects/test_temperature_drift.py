@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from shear_pair_cases import LAW
 
+from fitting.diagnosis.stand_in import asks_for_more
 from fitting.effects import CATALOGUE
 from fitting.effects.given import ModulusAt, Points
 from fitting.effects.temperature_drift import TemperatureCycleEffect, time_scale
@@ -69,3 +70,21 @@ def test_each_file_has_a_course_of_its_own():
 def test_it_says_how_far_and_how_often():
     said = TemperatureCycleEffect().story({"swing_sine": 0.3, "swing_cosine": -0.4, "period": 900.0})
     assert said == "the core's temperature swings by 0.5 K about its mean, every 15 min"
+
+
+@pytest.mark.parametrize(
+    ("effect", "u", "beyond"),
+    [
+        (SETTLES, (-16.0, 20.0), True),
+        (SETTLES, (4.0, 100.0), False),
+        (CYCLES, (1.0, 1.0, 100.0), False),
+        (CYCLES, (8.0, 0.0, 100.0), True),
+    ],
+)
+def test_no_core_warms_by_ten_kelvin_in_a_minute(effect, u, beyond):
+    assert effect.is_beyond(np.array(u)) is beyond
+    assert asks_for_more(effect, np.array(u), None) is beyond
+
+
+def test_it_says_which_way_it_goes():
+    assert SETTLES.story({"warming": -3.0, "time_constant": 600.0}).startswith("the core cools by 3 K")
