@@ -17,7 +17,6 @@ from functools import lru_cache
 
 import numpy as np
 import scipy.linalg as la
-from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
@@ -32,6 +31,7 @@ from fitting.structures.beam_shapes import (
     slip_by_pieces,
     square,
 )
+from fitting.structures.beam_uneven import THICKER, loads_of_uneven, uneven, where_uneven
 from fitting.structures.beam_width import (
     PLACES,
     WEIGHT,
@@ -52,18 +52,14 @@ _NEGLIGIBLE = 1e-9
 """Of the basis' vectors, relative: what is in the others."""
 _APART = 1e-5
 """Of the faces' own stretching: what their modes have already."""
-_THICKER = {"wedge": Polynomial((-0.5, 1.0)), "bow": Polynomial((-2 / 3, 4.0, -4.0))}
-"""How thick an uneven core may be more than in the mean, over x from 0 to 1."""
-_UNEVEN = 1e-3
-"""Of how its outer face slides."""
 _PARTED = 1e-5
 """Of how far faces part by themselves."""
 
 
 PARTS = {"K_0": slice(0, 8), "K_1": slice(8, 22), "M": slice(22, 35)}
 """Where their coefficients are; that of the load is the last."""
-_SLIP, _MASSES = slice(8, 11), slice(22, 25)
-"""Those of the core's shear; of all its mass, and of the two faces'."""
+_SLIP = slice(8, 11)
+"""Those of the core's shear."""
 
 
 def _summed(section: BeamSection, which: str) -> Array:
@@ -178,6 +174,15 @@ def parts_of(section: BeamSection, pickup: float | None, force: float | None) ->
     )
 
 
+def _loads(section: BeamSection, V: Array, lifted: Array, *, by_base: bool) -> dict[str, Array]:
+    """How much more a base that moves drives, `V` the columns: air that goes along, an uneven core's mass.
+
+    Shape (k,) each; zero where a force drives.
+    """
+    found = {"air.load": _air_kg_m(section) * section.length_m * lifted} | loads_of_uneven(section, V)
+    return {name: load * by_base for name, load in found.items()}
+
+
 def carrying(
     parts: Parts, section: BeamSection, masses: Sequence[tuple[float, float]], *, by_base: bool
 ) -> Parts:
@@ -218,7 +223,7 @@ def _columns(section: BeamSection) -> tuple[NDArray[np.str_], Array, Array]:
     above = let_go[np.isin(let_go, np.arange(s.size)[s.place["c"]])]
     beside = [("faces", _faces_apart(section, own, size))]
     beside += [(name, np.diag(size)[:, at]) for name, at in (("root", let_go), ("treatment", above))]
-    beside += [(f"uneven_{name}", _where_uneven(section, own, size, p)) for name, p in _THICKER.items()]
+    beside += [(f"uneven_{name}", where_uneven(section, own, size, p)) for name, p in THICKER.items()]
     groups = np.concatenate([np.full(own.shape[1], "plate"), *(np.full(b.shape[1], n) for n, b in beside)])
     return groups.astype(str), np.hstack([own, *(b for _, b in beside)]), np.where(size > 0, size, 1.0)
 
@@ -258,24 +263,6 @@ def _own(section: BeamSection, size: Array) -> Array:
     return V
 
 
-def _where_uneven(section: BeamSection, own: Array, size: Array, shape: Polynomial) -> Array:
-    """How the outer face slides as far as it is higher where the beam is turned. Shape (size, any)."""
-    if not section.is_sandwich or section.is_doubled:
-        return np.zeros((len(own), 0))
-    s, (x, weight) = section.shapes, gauss(2 * ORDER)
-    at = np.arange(s.size)[s.place["c"]]
-    at = at[s.is_held[at]]
-    slides = shape(x)[:, None] * (s.rows("w", x, 1).T @ own)
-    root = np.sqrt(weight)[:, None]
-    above = np.zeros_like(own)
-    above[at] = np.linalg.lstsq(root * s.rows("c", x)[at].T, root * slides, rcond=None)[0]
-    scale = np.where(size > 0, size, 1.0)[:, None]
-    Q, Y = own / scale, above / scale
-    Y = Y / np.linalg.norm(Y, axis=0)
-    left, values, _ = np.linalg.svd(Y - Q @ (Q.T @ Y), full_matrices=False)
-    return np.asarray(scale * left[:, values > _UNEVEN])
-
-
 def _faces_apart(section: BeamSection, own: Array, size: Array) -> Array:
     """What the substrate's stretching by itself adds to its own columns. Shape (size, any)."""
     if not section.is_sandwich or section.is_doubled:
@@ -307,58 +294,15 @@ def _asked_for(section: BeamSection) -> dict[str, Array]:
     by_pieces = np.einsum("p,kpij->kij", section.coefficients[_SLIP], slip_by_pieces(section.ends))
     found |= {f"strips_x.{k:03d}": A for k, A in enumerate(by_pieces)}
     found["grading_x.K_1"] = _slip(section, x - 0.5)
-    for name, shape in _THICKER.items():
+    for name, shape in THICKER.items():
         found |= {f"uneven_{name}.{key}": A for key, A in uneven(section, shape).items()}
     return found
 
 
 def _slip(section: BeamSection, share: Array | float = 1.0) -> Array:
     """The core's shear for a modulus of one, times a share at every place of quadrature."""
-    return _sheared(section, section.coefficients[_SLIP], share)
-
-
-def _sheared(section: BeamSection, coefficients: Sequence[float] | Array, share: Array | float) -> Array:
     x, weight = gauss(2 * ORDER)
-    return np.tensordot(np.asarray(coefficients), section.shapes.slip(x, weight * share), axes=1)
-
-
-def uneven(section: BeamSection, shape: Polynomial) -> dict[str, Array]:
-    """Of a core H (1 + delta) thick, delta times a shape: what goes with H delta, and 1/(1 + delta) - 1.
-
-    With a = (h_b + h_c)/2 the slip is that of 1/H, (H + a)/H and (H + a)^2/H. The last in powers of delta, up
-    to the third. The outer face lies as high as the core is thick: it stretches by u_c' + H delta' w'
-    (`tilted`). Over all unknowns, shape (size, size) each.
-    """
-    (h_b, H, h_c), (x, weight) = section.thickness_m, gauss(2 * ORDER)
-    L, a, width = section.length_m, (h_b + h_c) / 2, section.copies * section.width_m
-    by_inverse = width * np.array([L / H, a / H, a**2 / H / L])
-    w, turned, stretched = (section.shapes.rows(*one) for one in (("w", x), ("w", x, 1), ("c", x, 1)))
-    thick, slope = shape(x), shape.deriv()(x)
-    crossed = (stretched * weight * slope) @ turned.T
-    found = {f"inverse_{n}": (-1) ** n * _sheared(section, by_inverse, thick**n) for n in (1, 2, 3)}
-    found["K_1"] = _sheared(section, width * np.array([0.0, 0.0, H / L]), thick)
-    outer = section.coefficients[1]
-    found["tilted_1"] = outer * H / L * (crossed + crossed.T)
-    found["tilted_2"] = outer * (H / L) ** 2 * np.asarray((turned * weight * slope**2) @ turned.T)
-    found["M"] = _core_mass(section) * np.asarray((w * weight * thick) @ w.T)
-    return found
-
-
-def _loads(section: BeamSection, V: Array, lifted: Array, *, by_base: bool) -> dict[str, Array]:
-    """How much more a base that moves drives, `V` the columns: air that goes along, an uneven core's mass.
-
-    Shape (k,) each; zero where a force drives.
-    """
-    x, weight = gauss(2 * ORDER)
-    moves = -_core_mass(section) * (V.T @ section.shapes.rows("w", x)) * weight
-    found = {"air.load": _air_kg_m(section) * section.length_m * lifted}
-    found |= {f"uneven_{name}.load": moves @ shape(x) for name, shape in _THICKER.items()}
-    return {name: load * by_base for name, load in found.items()}
-
-
-def _core_mass(section: BeamSection) -> float:
-    mass, *faces = section.coefficients[_MASSES]
-    return mass - sum(faces)
+    return np.tensordot(section.coefficients[_SLIP], section.shapes.slip(x, weight * share), axes=1)
 
 
 def _root_springs(section: BeamSection) -> dict[str, Array]:
