@@ -1,6 +1,7 @@
 """The core's modulus changes along the plate: cured, aged or warmed more at one end."""
 
 from collections.abc import Mapping
+from typing import ClassVar
 
 import numpy as np
 import scipy.sparse as sp
@@ -86,6 +87,9 @@ class GradedCoreEffect(Effect):
         "strips of the core tested one by one; the sweep repeated after hours at one temperature"
     )
 
+    whose: ClassVar[str] = "plate"
+    """Core, for people."""
+
     def __init__(self, along: str = "x") -> None:
         self.along = along
         self.spans = (Grading(along),)
@@ -103,17 +107,16 @@ class GradedCoreEffect(Effect):
     def story(self, u: Mapping[str, float]) -> str:
         along = "length, tip over root" if self.along == "x" else "width, far edge over near edge"
         grade = u[f"grade_{self.along}"]
-        return f"the core's modulus changes by {100 * grade:+.0f} % along the plate's {along}"
+        return f"the core's modulus changes by {100 * grade:+.0f} % along the {self.whose}'s {along}"
 
 
 class GradedCoreOfBeamEffect(GradedCoreEffect):
     """Along a beam alone, where a core may be uneven in its thickness too."""
 
+    whose = "beam"
+
     def variants(self) -> tuple[Effect, ...]:
         return (self, UnevenCoreEffect("wedge"), UnevenCoreEffect("bow"))
-
-    def story(self, u: Mapping[str, float]) -> str:
-        return super().story(u).replace("plate's", "beam's")
 
 
 class Uneven(Span):

@@ -126,3 +126,10 @@ def test_faces_of_another_stiffness_stretch_apart(length_m):
     change = effect.change(plate, np.array([1.35]))
     changed = replace(plate, K_0=plate.K_0 + change.K, K_1=plate.K_1 + change.K_1, M=plate.M + change.M)
     assert [m.frequency_hz for m in elastic_modes(changed, CORE.law, 4)] == pytest.approx(expected, rel=2e-5)
+
+
+def test_air_that_goes_along_drives_a_beam_whose_base_moves_and_no_other():
+    struck = replace(SANDWICH, force_m=0.05)
+    shaken, still = (widened_system_of(b, b.parts()).vector("air.load") for b in (SANDWICH, struck))
+    assert np.any(shaken)
+    assert not np.any(still)
