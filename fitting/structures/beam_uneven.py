@@ -11,6 +11,8 @@ THICKER = {"wedge": Polynomial((-0.5, 1.0)), "bow": Polynomial((-2 / 3, 4.0, -4.
 """How much thicker than in the mean, over x from 0 to 1."""
 _UNEVEN = 1e-3
 """Of how its outer face slides: less is in the other columns. A choice."""
+_TURNS = 1e-6
+"""Of the column that turns the beam most: less is rounding."""
 _MASSES = slice(22, 25)
 """Coefficients of all the mass, and of the two faces'."""
 
@@ -50,7 +52,10 @@ def where_uneven(section: BeamSection, own: Array, size: Array, shape: Polynomia
     above[at] = np.linalg.lstsq(root * s.rows("c", x)[at].T, root * slides, rcond=None)[0]
     scale = np.where(size > 0, size, 1.0)[:, None]
     Q, Y = own / scale, above / scale
-    Y = Y / np.linalg.norm(Y, axis=0)
+    far = np.linalg.norm(Y, axis=0)
+    # A column that turns nothing has no direction here.
+    turns = far > _TURNS * far.max()
+    Y = Y[:, turns] / far[turns]
     left, values, _ = np.linalg.svd(Y - Q @ (Q.T @ Y), full_matrices=False)
     return np.asarray(scale * left[:, values > _UNEVEN])
 
