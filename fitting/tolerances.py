@@ -1,7 +1,7 @@
 """What is stated is not known: every stated number with its tolerance, and a specimen with some moved.
 
 A tolerance is the standard deviation of a stated number about the truth: relative, in the number's
-logarithm, or in metres or seconds. Where a specimen names none, a careful laboratory's typical one stands
+logarithm, or in its SI unit. Where a specimen names none, a careful laboratory's typical one stands
 in (docs/specimen.md).
 """
 
@@ -13,7 +13,7 @@ from typing import Any, Literal
 from fitting.mesh import OF_PATCHES, is_turned, shift_of, shifts_of
 from fitting.specimen import Face, Orthotropy, Specimen
 
-Unit = Literal["1", "m", "s", "rad", "1/K"]
+Unit = Literal["1", "m", "s", "rad", "1/K", "Pa"]
 
 
 @dataclass(frozen=True)
@@ -53,6 +53,13 @@ _STATED = (
     StatedNumber("mass", "1", 0.02, "what sits on the plate, on a letter balance"),
     StatedNumber("place", "m", 5e-4, "where a mass sits, by a rule from the free end; each coordinate"),
     StatedNumber("area", "1", 0.01, "a disc's diameters by caliper"),
+    StatedNumber(
+        "axial",
+        "Pa",
+        2e6,
+        "two clamps pull a beam along: a kelvin against its frame, or a hundredth of a "
+        "millimetre as they are tightened",
+    ),
     StatedNumber("substrate_young_per_k", "1/K", 2e-4, "from steel to aluminium; stated, half of it"),
     StatedNumber("constraining_young_per_k", "1/K", 2e-4, "as the substrate's"),
     StatedNumber("substrate_young_y", "1", 0.03, "a laminate's or a rolled sheet's second axis"),

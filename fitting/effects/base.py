@@ -112,8 +112,8 @@ class Effect:
 
     needs: ClassVar[frozenset[str]] = frozenset()
     """What a specimen must offer: a `base` that moves, a `force` at a point, a `clamp`, a plate's `root`, one
-    side treated as a `whole`; of a beam a `constraining` layer, and to be `one piece`, not two halves about a
-    driven centre."""
+    side treated as a `whole`; of a beam a `constraining` layer, `two clamps`, and to be `one piece`, not two
+    halves about a driven centre."""
 
     chance: ClassVar[float] = 0.02
     """Prior probability that a laboratory's set-up has it, to be seen or not."""

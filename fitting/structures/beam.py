@@ -27,8 +27,8 @@ from fitting.structures.beam_error import (
     sandwich_error,
     shortened_m,
 )
-from fitting.structures.beam_parts import PARTS, carrying, parts_of
-from fitting.structures.beam_section import BeamSection
+from fitting.structures.beam_parts import carrying, parts_of
+from fitting.structures.beam_section import PARTS, BeamSection
 from fitting.structures.small import Parts
 from fitting.tolerances import OF_TEMPERATURE, STATED, STATED_PER_K
 
@@ -100,6 +100,8 @@ class Beam:
             found.add("clamp")
         if self.boundary != "centre-driven":
             found.add("one piece")
+        if self.boundary == "clamped-clamped":
+            found.add("two clamps")
         if self.constraining is not None:
             found |= {"constraining"} if self.both_sides else {"constraining", "whole"}
         return frozenset(found)
@@ -157,7 +159,8 @@ class Beam:
         lossy = () if self.states_loss else ("metal_loss",)
         carried = ("mass",) if self.masses else ()
         each = (f"{layer}_{n}" for layer, numbers in layers for n in numbers)
-        return (*each, "length", *wide, *held, *across, *lossy, *carried)
+        pulled = ("axial",) if "two clamps" in self.offers else ()
+        return (*each, "length", *wide, *held, *across, *pulled, *lossy, *carried)
 
     @property
     def states_loss(self) -> bool:
@@ -220,10 +223,10 @@ class Beam:
         return 2 if self.boundary == "centre-driven" else 1
 
     def coefficients(self, by: Mapping[str, float]) -> Complex:
-        """Of the parts of `beam_shapes.BeamMatrices`, of what it carries, and the loads. Shape (36 or more,).
+        """Of the parts of `beam_shapes.BeamMatrices`, of what it carries, and the loads. Shape (37 or more,).
 
-        Four of the faces' stiffness, as much of it as clamps hold, 14 of the core, 13 of inertia; a mass is
-        part of the inertia, and a load where the base drives.
+        Four of the faces' stiffness, as much of it as clamps hold, what pulls along, 14 of the core, 13 of
+        inertia; a mass is part of the inertia, and a load where the base drives.
         """
         b, c, v = (self._moved(name, by) for name in ("substrate", "constraining", "core"))
         span = self.span_m
@@ -278,7 +281,8 @@ class Beam:
         M = np.array([mass * L, m_b * L, m_c * L, *inertia, *(x * L for x in moved_apart)])
         load = width * mass * L if self.force_m is None else 1.0
         carried = np.array([m.mass_kg for m in self.masses]) * np.exp(by.get("mass", 0.0))
-        own = width * np.concatenate([K_0, held * K_0, slip, free, apart, M])
+        pull = [by.get("axial", 0.0) * (h_b + twice * h_c) / L]
+        own = width * np.concatenate([K_0, held * K_0, pull, slip, free, apart, M])
         loads = [load, *(carried if self.force_m is None else ())]
         return np.concatenate([own, carried, loads]).astype(complex)
 
@@ -395,6 +399,7 @@ class Beam:
         others |= {"length": (self.length_m, 1e3, "mm"), "width": (self.width_m, 1e3, "mm")}
         others |= {name: (x, 1e3, "mm") for name, x in self.places.items()}
         others["core_stretch"], others["metal_loss"] = (1.0, 1.0, "1"), (0.0, 1.0, "1")
+        others["axial"] = 0.0, 1e-6, "MPa"
         others["mass"] = sum(m.mass_kg for m in self.masses), 1e3, "g"
         others["held_width"] = (self.held_width_m if self.held_width else 0.0, 1e3, "mm")
         if kind in others:

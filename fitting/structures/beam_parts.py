@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from fitting.arrays import Array
 from fitting.structures.beam_apart import ODD, Squeezed, stretched
 from fitting.structures.beam_reading import ELEMENTS, deflection, read_otherwise, row_at
-from fitting.structures.beam_section import BeamSection
+from fitting.structures.beam_section import PARTS, SLIP, BeamSection
 from fitting.structures.beam_shapes import (
     ORDER,
     BeamMatrices,
@@ -56,12 +56,6 @@ _PARTED = 1e-5
 """Of how far faces part by themselves."""
 
 
-PARTS = {"K_0": slice(0, 8), "K_1": slice(8, 22), "M": slice(22, 35)}
-"""Where their coefficients are; that of the load is the last."""
-_SLIP = slice(8, 11)
-"""Those of the core's shear."""
-
-
 def _summed(section: BeamSection, which: str) -> Array:
     """K_0, K_1 or M over all unknowns, K_1 for a modulus of one. Shape (size, size)."""
     return np.tensordot(section.coefficients[PARTS[which]], getattr(sectioned(section), which), axes=1)
@@ -69,17 +63,18 @@ def _summed(section: BeamSection, which: str) -> Array:
 
 @lru_cache(maxsize=64)
 def sectioned(section: BeamSection) -> BeamMatrices:
-    """Those of its ends with what its width does, and of K_0 four more: how much more where that is held."""
+    """Those of its ends with what its width does; K_0 has what is more where that is held before the pull."""
     plain = matrices_of(section.ends, section.share)
+    faces, pull = plain.K_0[:4], plain.K_0[4:]
     if section.is_slender:
-        return replace(plain, K_0=np.concatenate([plain.K_0, np.zeros_like(plain.K_0)]))
+        return replace(plain, K_0=np.concatenate([faces, np.zeros_like(faces), pull]))
     free, held = (_across(section, held=held) for held in (False, True))
     L = section.length_m
-    K_0 = plain.K_0 + free
+    K_0 = faces + free
     for n, k, nu in _faces(section):
         bend = _bend(section, n)
         K_0[2 + n] -= sheared(bend, bend, give_of_face(section.thickness_m[k] / L, nu), section.ends)
-    return replace(plain, K_0=np.concatenate([K_0, held - free]), K_1=plain.K_1 + _core_across(section))
+    return replace(plain, K_0=np.concatenate([K_0, held - free, pull]), K_1=plain.K_1 + _core_across(section))
 
 
 def _core_across(section: BeamSection) -> Array:
@@ -291,7 +286,7 @@ def _asked_for(section: BeamSection) -> dict[str, Array]:
         found["treatment.hold"] = sides * width * ends @ ends.T
     if section.is_doubled:
         return found
-    by_pieces = np.einsum("p,kpij->kij", section.coefficients[_SLIP], slip_by_pieces(section.ends))
+    by_pieces = np.einsum("p,kpij->kij", section.coefficients[SLIP], slip_by_pieces(section.ends))
     found |= {f"strips_x.{k:03d}": A for k, A in enumerate(by_pieces)}
     found["grading_x.K_1"] = _slip(section, x - 0.5)
     for name, shape in THICKER.items():
@@ -302,7 +297,7 @@ def _asked_for(section: BeamSection) -> dict[str, Array]:
 def _slip(section: BeamSection, share: Array | float = 1.0) -> Array:
     """The core's shear for a modulus of one, times a share at every place of quadrature."""
     x, weight = gauss(2 * ORDER)
-    return np.tensordot(section.coefficients[_SLIP], section.shapes.slip(x, weight * share), axes=1)
+    return np.tensordot(section.coefficients[SLIP], section.shapes.slip(x, weight * share), axes=1)
 
 
 def _root_springs(section: BeamSection) -> dict[str, Array]:

@@ -8,6 +8,13 @@ from numpy.typing import NDArray
 from fitting.structures.beam_shapes import Shapes, shapes_of
 from fitting.structures.beam_width import reach
 
+PARTS = {"K_0": slice(0, 9), "K_1": slice(9, 23), "M": slice(23, 36)}
+"""Where coefficients of `beam_shapes.BeamMatrices` are; those of loads follow."""
+SLIP = slice(9, 12)
+"""Those of the core's shear."""
+MASSES = slice(23, 26)
+"""Those of all the mass, and of the two faces'."""
+
 
 @dataclass(frozen=True)
 class BeamSection:

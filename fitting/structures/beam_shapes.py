@@ -111,7 +111,7 @@ class BeamMatrices:
     """Over all unknowns. Shapes (parts, size, size), (size,)."""
 
     K_0: Array
-    """Stretching of u_b and u_c, and bending of both."""
+    """Stretching of u_b and u_c, bending of both, and what a pull along is to w."""
     K_1: Array
     """Three of slip, three of a free layer, three of what moving apart adds to slip, and stretch across."""
     M: Array
@@ -155,6 +155,7 @@ def matrices_of(ends: str, share: float = 0.0) -> BeamMatrices:
                 squared(s.rows("c", x, 1)),
                 squared(bend - share * bent_apart),
                 squared(bend + (1 - share) * bent_apart),
+                squared(slope),
             ]
         ),
         K_1=np.array(

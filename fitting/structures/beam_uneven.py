@@ -4,7 +4,7 @@ import numpy as np
 from numpy.polynomial import Polynomial
 
 from fitting.arrays import Array
-from fitting.structures.beam_section import BeamSection
+from fitting.structures.beam_section import MASSES, BeamSection
 from fitting.structures.beam_shapes import ORDER, gauss
 
 THICKER = {"wedge": Polynomial((-0.5, 1.0)), "bow": Polynomial((-2 / 3, 4.0, -4.0))}
@@ -13,8 +13,6 @@ _UNEVEN = 1e-3
 """Of how its outer face slides: less is in the other columns. A choice."""
 _TURNS = 1e-6
 """Of the column that turns the beam most: less is rounding."""
-_MASSES = slice(22, 25)
-"""Coefficients of all the mass, and of the two faces'."""
 
 
 def uneven(section: BeamSection, shape: Polynomial) -> dict[str, Array]:
@@ -73,5 +71,5 @@ def _sheared(section: BeamSection, coefficients: Array, share: Array | float) ->
 
 
 def _core_mass(section: BeamSection) -> float:
-    mass, *faces = section.coefficients[_MASSES]
+    mass, *faces = section.coefficients[MASSES]
     return mass - sum(faces)

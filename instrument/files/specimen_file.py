@@ -130,17 +130,18 @@ class TolerancesSection(TomlTable):
     mass_percent: NotNegative | None = None
     place_mm: NotNegative | None = None
     area_percent: NotNegative | None = None
+    axial_mpa: NotNegative | None = None
     exact: bool = False
 
 
 _OF_LAYERS = tuple(name for name in STATED if name.startswith(("substrate", "constraining")))
 _NOT_OF = {
-    "plate": ("area", *OF_TEMPERATURE),
+    "plate": ("area", "axial", *OF_TEMPERATURE),
     "beam": ("area", *OF_FEW),
-    "shear-pair": (*_OF_LAYERS, *OF_FEW, "length", "width", "pickup", "force", "place"),
+    "shear-pair": (*_OF_LAYERS, *OF_FEW, "length", "width", "pickup", "force", "place", "axial"),
 }
 """Stated numbers that a kind of specimen has not."""
-_UNITS = {"percent": 1e-2, "mm": 1e-3, "us": 1e-6, "deg": pi / 180}
+_UNITS = {"percent": 1e-2, "mm": 1e-3, "us": 1e-6, "deg": pi / 180, "mpa": 1e6}
 """Of the keys' endings, in what `fitting.tolerances` counts in."""
 _MOST_PERCENT = 50.0
 """A number that uncertain is not known: it should be left to the fit, not stated."""

@@ -13,10 +13,10 @@ from instrument.material.knowledge import known_curve_of
 
 _DIGITS = 16
 """Of the digest: enough to tell any two specimens of a batch apart."""
-_SET_ANEW = ("length", "pickup", "force", "place", "damping", "gain", "delay", "phase")
-"""Kinds of numbers that another measurement of one specimen sets anew: where the clamp bites and what it
-damps, where spots and loose masses are, and the channels. All others are the specimen's own, or of the theory
-of it."""
+_SET_ANEW = ("length", "axial", "pickup", "force", "place", "damping", "gain", "delay", "phase")
+"""Kinds of numbers that another measurement of one specimen sets anew: where clamps bite, what they
+damp and how they pull, where spots and loose masses are, and the channels. All others are the specimen's own,
+or of the theory of it."""
 
 
 class Stated(BaseModel):

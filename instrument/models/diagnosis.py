@@ -14,6 +14,7 @@ from fitting.errors import OutsideModel
 from fitting.specimen import Specimen, StatedSpecimen
 from fitting.sweep import Sweep
 from instrument.errors import BadInput
+from instrument.models.clamp_remarks import remarks_on_clamps
 from instrument.models.effect_names import refuse_unknown_effects
 from instrument.models.remarks import (
     remarks_on_damping,
@@ -132,6 +133,7 @@ def diagnose(
         *remarks_on_noise(sweep.take(why_aside == "")),
         *remarks_on_tolerances(specimen),
         *remarks_on_patches(specimen),
+        *remarks_on_clamps(specimen),
         *remarks_on_damping(specimen, tested=hammer is not None),
     )
     before = theory_remark(specimen, result.before.law, sweep.frequency_hz)

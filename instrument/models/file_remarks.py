@@ -12,6 +12,7 @@ from fitting.laws import CoreLaw
 from fitting.strays import strays
 from fitting.structures import AnySpecimen, Beam, ShearPair
 from fitting.structures.shear_pair import EDGE
+from instrument.models.clamp_remarks import remarks_on_clamps
 from instrument.models.files import File
 from instrument.models.remarks import remarks_on_law, remarks_on_noise, remarks_on_patches, remarks_on_strays
 
@@ -25,11 +26,6 @@ _OFF_PERCENT = 10.0
 """Of a reading, rms: more than any rig is off."""
 _TIMES_NOISE = 4.0
 """What a fit leaves over its noise, rms: clean files leave hardly more than their noise. A choice."""
-_PULLED = 12.30 / 4.730**4
-"""Of w^2, for N L^2/(E I): the first mode of a beam clamped at both ends (L^2 int phi'^2 over int phi^2;
-Blevins, Formulas for Natural Frequency and Mode Shape, table 8-1)."""
-_WORTH_SAYING_OF_A_BEAM = 1e-3
-"""Of a resonance."""
 
 
 def remarks_on_files(files: Sequence[File]) -> tuple[str, ...]:
@@ -131,36 +127,4 @@ def remarks_on_scale(specimen: AnySpecimen, law: CoreLaw, frequency_hz: Array) -
     return (
         f"the modulus is {ratio:.2g} times that of the law it begins with: if that is not expected, is the "
         "frequency in Hz, the mass in kg, area and thickness in mm, and how many discs are there?",
-    )
-
-
-def remarks_on_clamps(specimen: AnySpecimen) -> tuple[str, ...]:
-    """What clamps do to a beam that is not counted: they hold its width, and two of them pull."""
-    return (*_on_held_width(specimen), *_on_pull(specimen)) if isinstance(specimen, Beam) else ()
-
-
-def _on_pull(beam: Beam) -> tuple[str, ...]:
-    if beam.boundary != "clamped-clamped":
-        return ()
-    faces = [face for face in (beam.substrate, beam.constraining) if face is not None]
-    thickness = sum(face.thickness_m for face in faces)
-    rigidity = sum(face.young_pa * face.thickness_m**3 for face in faces) / 12
-    higher = _PULLED / 2 * 1e6 * thickness * beam.length_m**2 / rigidity
-    return (
-        "two clamps, and a kelvin between a beam and its frame, pull it or press it along: "
-        f"1 MPa in its faces makes the first resonance up to {two_digits(100 * higher)} % higher, which "
-        "is not counted and looks like a stiffer core with less loss; clamp one end alone if you can",
-    )
-
-
-def _on_held_width(specimen: Beam) -> tuple[str, ...]:
-    if specimen.held_width:
-        return ()
-    higher = 2 * specimen.held_width_m / specimen.span_m
-    if higher < _WORTH_SAYING_OF_A_BEAM:
-        return ()
-    as_if = f"as a span {1e3 * specimen.held_width_m:.2g} mm shorter would"
-    return (
-        f"a clamp that holds the beam's width makes resonances up to {100 * higher:.2g} % higher, {as_if}: "
-        "allowed for, not counted ([beam] held_width = true)",
     )

@@ -29,6 +29,7 @@ from fitting.specimen import Specimen
 from fitting.strays import strays
 from fitting.sweep import Sweep
 from fitting.theory_error import TheoryError
+from instrument.models.clamp_remarks import remarks_on_clamps
 from instrument.models.quick_look import remarks_on_reading
 from instrument.models.remarks import (
     remarks_on_bend,
@@ -112,7 +113,11 @@ def identify(
     setup = seconds = 0.0
     further += (*remarks_on_law(stated, sweep.frequency_hz), *remarks_on_noise(sweep))
     if method == "direct":
-        further += (*remarks_on_tolerances(specimen), *remarks_on_patches(specimen))
+        further += (
+            *remarks_on_tolerances(specimen),
+            *remarks_on_patches(specimen),
+            *remarks_on_clamps(specimen),
+        )
         further += remarks_on_damping(specimen, tested=hammer is not None)
     elif not specimen.exact:
         further += ("the paper's method takes what is stated for exact: tolerances are not in its band",)

@@ -33,8 +33,8 @@ from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
 from fitting.structures.beam import Beam
 from instrument.models.cache import cached
+from instrument.models.clamp_remarks import remarks_on_clamps
 from instrument.models.effect_names import refuse_unknown_effects
-from instrument.models.file_remarks import remarks_on_clamps
 from instrument.models.modal_reads import remark_on_reading
 from instrument.models.remarks import (
     remarks_on_damping,

@@ -3,7 +3,8 @@
 from fitting.mode_tables.table import ModalTable
 from fitting.specimen import METAL_PER_K, Face, Specimen
 from fitting.structures import Beam
-from instrument.models.file_remarks import remarks_on_clamps, remarks_on_edges
+from instrument.models.clamp_remarks import remarks_on_clamps
+from instrument.models.file_remarks import remarks_on_edges
 from instrument.models.members import Members
 from instrument.models.modal import remarks_on_errors
 

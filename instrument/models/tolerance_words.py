@@ -13,6 +13,7 @@ _UNITS = {
     "s": ("us", "µs", 1e6),
     "rad": ("deg", "°", 180 / pi),
     "1/K": ("percent", "%/K", 1e2),
+    "Pa": ("mpa", "MPa", 1e-6),
 }
 """Ending of the file's key, unit for people, factor."""
 _NOT_OF_A_SWEEP = ("mass", "place", "area")

@@ -70,7 +70,7 @@ def on_basis(
     free, stated = solid.free, solid.stated
     heave_pitch = solid.M @ solid.rigid
     w, u = (np.array([solid.row(p.x_m, 0.0, axis, below=p.below) for p in places]) for axis in (2, 0))
-    faces = [solid.stiffness(k) for k in range(len(stated.sheets)) if k not in stated.cores]
+    faces = [solid.face(k) for k in range(len(stated.sheets)) if k not in stated.cores]
     cores = [solid.core_times(factor) for factor in _strips(strips, stated.span_m)]
     M, K_0, core, root = (
         A[free][:, free] for A in (solid.M, sum(faces[1:], faces[0]), sum(cores[1:], cores[0]), solid.root)

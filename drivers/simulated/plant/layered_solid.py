@@ -77,6 +77,15 @@ class LayeredSolid:
                 out = out + sp.kron(part + laplace if i == j else part, place)
         return (self._times * out).tocsr()
 
+    def turned(self, sheet: int) -> sp.csr_array:
+        """What a unit of stress along x in a layer adds to its stiffness. Shape (size, size).
+
+        Integral of u_x^2 + v_x^2 + w_x^2: the second-order part of its strain along x.
+        """
+        plane = sp.kron(self.x.integral(1, 1), self.y.integral(0, 0))
+        through = self.z.integral(0, 0, self._within(sheet))
+        return (self._times * sp.kron(sp.kron(plane, through), np.eye(3))).tocsr()
+
     @cached_property
     def M(self) -> sp.csr_array:
         """Mass."""

@@ -41,6 +41,8 @@ class BeamStated:
     """Which of them are viscoelastic."""
     spot_x_m: float
     """From a clamped end, or from the centre."""
+    axial_pa: float = 0.0
+    """That the layers which are not viscoelastic are pulled along by."""
 
     @property
     def span_m(self) -> float:
@@ -108,6 +110,11 @@ class SolidBeam(LayeredSolid):
     def deflection(self, x_m: float) -> Array:
         """Row that reads w on the middle of the upper face. Shape (size,)."""
         return self.row(x_m, 0.0)
+
+    def face(self, sheet: int) -> sp.csr_array:
+        """Stiffness of a layer that is not viscoelastic, pulled along as it is. Shape (size, size)."""
+        own = self.stiffness(sheet)
+        return own + self.stated.axial_pa * self.turned(sheet) if self.stated.axial_pa else own
 
     @cached_property
     def core(self) -> sp.csr_array:

@@ -11,7 +11,7 @@ from fitting.sweep import Sweep
 from instrument.campaign.beams.geometry import BEAMS, TrueBeam, beam_named
 from instrument.campaign.beams.hidden import HIDDEN, HiddenInBeam, Setting
 from instrument.campaign.beams.simulate import BuiltBeam, built, level_unit, reading, resonances
-from instrument.campaign.beams.stated import beam_from, draw_stated, toml
+from instrument.campaign.beams.stated import AXIAL_PA, beam_from, draw_stated, toml
 from instrument.campaign.noise import NoiseFigures
 from instrument.campaign.plates.materials import PlateMaterialLaw, draw_law, fits
 from instrument.campaign.plates.noise import PlateNoise, draw_noise
@@ -122,6 +122,8 @@ def draw_case(kind: str, seed: int, exact: bool = False, *, beam: str | None = N
     chance, effect = rng("beam"), HIDDEN.get(kind)
     able = [b for b in BEAMS if effect is None or effect.able(b)]
     true = beam_named(beam) if beam else able[int(chance.integers(len(able)))]
+    if true.ends == "clamped-clamped" and not exact:
+        true = replace(true, axial_pa=AXIAL_PA * rng("axial").standard_normal())
     softens = kind == "amplitude_softening" and (true.force_m or chance.random() < _THREE_LEVELS_SHARE)
     levels, points = (_THREE_LEVELS, _POINTS_OF_THREE) if softens else ((1.0,), _POINTS)
     law, chosen = _law_and_resonances(rng("law"), true)

@@ -25,6 +25,8 @@ class TrueBeam:
     force_m: float | None = None
     """Where a hammer strikes, on the face away from the laser; None: the base drives."""
     both_sides: bool = False
+    axial_pa: float = 0.0
+    """That its clamps pull it along by, in its faces."""
     stiffer: float = 1.0
     """Times what a soft core's law says: a free layer is a stiff plastic."""
 
@@ -60,7 +62,9 @@ class TrueBeam:
         above = [core, *([_sheet(self.constraining)] if self.constraining else [])]
         sheets = [*(reversed(above) if self.both_sides else ()), _sheet(self.substrate), *above]
         cores = tuple(k for k, sheet in enumerate(sheets) if sheet is core)
-        return BeamStated(self.length_m, self.width_m, self.ends, tuple(sheets), cores, self.spot_m)
+        return BeamStated(
+            self.length_m, self.width_m, self.ends, tuple(sheets), cores, self.spot_m, self.axial_pa
+        )
 
 
 def _sheet(m: Metal) -> Sheet:

@@ -20,6 +20,8 @@ from instrument.files.beam_file import BeamDocument
 
 FORCE_M = 1e-3
 """A hammer aimed by hand at a mark."""
+AXIAL_PA = 2e6
+"""A kelvin between a beam and what clamps it, or bolts that are tightened."""
 
 
 def draw_stated(
@@ -74,7 +76,8 @@ def _tolerance_lines(beam: TrueBeam, tolerances: CampaignTolerances | None) -> l
     absent += ["constraining"] if beam.constraining is None else []
     said = [line for line in tolerances.lines() if not line.startswith(tuple(absent))]
     force = [f"force_mm = {1e3 * FORCE_M:g}"] if beam.force_m is not None else []
-    return ["[tolerances]", *said, *force]
+    axial = [f"axial_mpa = {1e-6 * AXIAL_PA:g}"] if beam.ends == "clamped-clamped" else []
+    return ["[tolerances]", *said, *force, *axial]
 
 
 def beam_from(text: str) -> Beam:

@@ -11,6 +11,7 @@ from fitting.effects import CATALOGUE
 from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Core, Face
 from fitting.structures import Beam
+from fitting.structures.beam_section import SLIP
 from fitting.structures.beam_shapes import slip_by_pieces
 from fitting.structures.beam_uneven import uneven
 from fitting.structures.small import widened_system_of
@@ -27,7 +28,7 @@ def test_a_core_of_uneven_thickness_is_that_of_pieces_each_as_thick_as_it_is(sha
     pieces, size = slip_by_pieces(beam.section.ends), 0.3
 
     def slip(core):
-        return np.array(replace(beam, core=core).section.coefficients[8:11])
+        return np.array(replace(beam, core=core).section.coefficients[SLIP])
 
     plain = slip(beam.core)
     made = sum(

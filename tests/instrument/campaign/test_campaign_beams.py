@@ -8,7 +8,8 @@ import scipy.linalg as la
 from click.testing import CliRunner
 
 from fitting.laws.constant import ConstantModulus
-from fitting.structures.small_modes import small_modes, small_velocity
+from fitting.structures.small import system_of
+from fitting.structures.small_modes import elastic_modes, small_velocity
 from instrument.campaign.beams import simulate
 from instrument.campaign.beams.cases import KINDS, NONE, draw_case
 from instrument.campaign.beams.geometry import BEAMS, beam_named
@@ -285,15 +286,20 @@ def test_a_core_that_softens_is_named_from_one_level():
     assert (said.verdict, said.effects) == ("effect", ("amplitude_softening",))
 
 
-@pytest.mark.parametrize("name", ["free", "long", "strip", "laminate"])
-def test_modes_of_the_theory_are_those_of_the_solid(name, monkeypatch):
+@pytest.mark.parametrize(
+    ("name", "axial_pa"),
+    [("free", 0.0), ("long", 0.0), ("strip", 0.0), ("laminate", 0.0), ("bridge", 12e6), ("bridge", -3e6)],
+)
+def test_modes_of_the_theory_are_those_of_the_solid(name, axial_pa, monkeypatch):
     monkeypatch.setattr(simulate, "PIECES", 20)
-    true = beam_named(name)
+    true = replace(beam_named(name), axial_pa=axial_pa)
     solid = built(true).basis
     G = 1.5e6 * (1 + 0.4j)
     values = la.eigvals(solid.K_faces.sum(axis=0) + G * solid.K_core.sum(axis=0), solid.M)
     values = values[np.argsort(values.real)][0 if true.clamped else 3 :]
-    modes = small_modes(beam_from(toml(true, None, 100.0, held_width=True)), ConstantModulus(1.5e6, 0.4), 3)
+    beam = beam_from(toml(true, None, 100.0, held_width=True))
+    pulled = system_of(beam, beam.parts(), {"axial": axial_pa})
+    modes = elastic_modes(pulled, ConstantModulus(1.5e6, 0.4), 3)
     for value, mode in zip(values, modes, strict=False):
         assert mode.frequency_hz == pytest.approx(np.sqrt(value.real) / (2 * np.pi), rel=1e-3)
         if value.imag / value.real > 0.04:

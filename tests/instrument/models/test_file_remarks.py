@@ -8,11 +8,10 @@ from shear_pair_cases import sweep
 
 from fitting.identification.validation import HeldOutSegment
 from fitting.laws.constant import ConstantModulus
-from fitting.specimen import Core, Face
-from fitting.structures import Beam, ShearPair
+from fitting.specimen import Core
+from fitting.structures import ShearPair
 from fitting.structures.shear_pair import EDGE
 from instrument.models.file_remarks import (
-    remarks_on_clamps,
     remarks_on_edges,
     remarks_on_files,
     remarks_on_one_specimen,
@@ -102,14 +101,3 @@ def test_a_fit_that_leaves_far_more_than_noise_says_so_though_tolerances_explain
     assert remarks_on_rest(0.7, held_out) == ()
     assert remarks_on_rest(1.6, ()) == ()
     assert remarks_on_rest(1.6, [HeldOutSegment(1, 3.1, float("nan"))]) == ()
-
-
-def test_what_two_clamps_pull_is_said_of_a_beam_between_them():
-    steel = Face(2e-3, 210e9, 0.3, 7850.0)
-    beam = Beam(0.25, 0.02, "clamped-clamped", steel)
-    (said,) = [one for one in remarks_on_clamps(beam) if "pull" in one]
-    # A bar with N L^2/(E I) = 12 sigma L^2/(E h^2): Blevins has (1 + 0.0246 times that)^(1/2).
-    percent = 100 * 0.0246 / 2 * 12 * 1e6 * 0.25**2 / (210e9 * 2e-3**2)
-    assert float(said.split("up to ")[1].split(" %")[0]) == pytest.approx(percent, rel=0.05)
-    assert not any("pull" in one for one in remarks_on_clamps(replace(beam, boundary="clamped-free")))
-    assert remarks_on_clamps(PAIR) == ()

@@ -13,6 +13,7 @@ _CLASSES: tuple[type[HiddenInBeam], ...] = (
     clamp.HiddenClampFriction,
     clamp.HiddenClampLine,
     clamp.HiddenTreatmentNotGripped,
+    clamp.HiddenAxialStress,
     base_motion.HiddenBaseRocking,
     base_motion.HiddenFixtureResonance,
     core.HiddenGradedCore,

@@ -107,3 +107,30 @@ class HiddenTreatmentNotGripped(HiddenInBeam):
 
     def build(self, build: BeamBuild, true: TrueBeam) -> BeamBuild:
         return replace(build, gripped_m=true.solid.heights_m(true.solid.substrate))
+
+
+@dataclass(frozen=True)
+class HiddenAxialStress(HiddenInBeam):
+    """Two clamps that pull a beam along or press it, far more than a kelvin does."""
+
+    name: ClassVar[str] = "axial_stress"
+    on_request: ClassVar[bool] = True
+
+    stress_pa: float
+
+    @classmethod
+    def able(cls, beam: TrueBeam) -> bool:
+        return beam.ends == "clamped-clamped"
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAxialStress":
+        # Shares of what its faces, each by itself, would buckle at.
+        beam = at.beam
+        faces = [beam.substrate] + ([beam.constraining] if beam.constraining is not None else [])
+        rigidity = sum(f.young_pa * f.thickness_m**3 for f in faces) / 12
+        buckles = 4 * np.pi**2 * rigidity / beam.length_m**2 / sum(f.thickness_m for f in faces)
+        share = log_uniform(rng, 0.5, 2.0) if rng.random() < 0.6 else -log_uniform(rng, 0.3, 0.6)
+        return cls(float(share * buckles))
+
+    def beam(self, true: TrueBeam) -> TrueBeam:
+        return replace(true, axial_pa=self.stress_pa)
