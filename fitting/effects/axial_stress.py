@@ -19,7 +19,7 @@ class AxialStressEffect(Effect):
     structures = frozenset({"beam"})
     needs = frozenset({"two clamps"})
     parameters = (EffectParameter("stress", "MPa", -50.0, 200.0, 3.0, spread=10.0, below=0.4, mounting=3.0),)
-    chance = 0.08
+    chance = 0.05
     discriminating_test = (
         "the same beam with one of its clamps loosened and tightened again, or clamped at one end"
     )

@@ -1,4 +1,4 @@
-"""The core warms during the sweep, or its temperature comes and goes with the room's: its times shorten."""
+"""The core warms during the sweep, or in a pause, or comes and goes with the room: its times shorten."""
 
 from collections.abc import Mapping
 
@@ -27,6 +27,8 @@ _UNEVEN = (
     EffectParameter("uneven_cosine", "K", -2.0, 2.0, 0.1, spread=0.2, mounting=0.3),
 )
 """Twice in a period: it warms in a third of it and cools in two, say. A choice."""
+_PAUSE_S = 300.0
+"""Without readings: shorter ones are those between segments. A choice."""
 _LEAST_CYCLES, _MOST_CYCLES, _STEP = 0.75, 12.0, 0.5
 """Looked for in a sweep: fewer are what settles; a step apart a linear one finds those between."""
 
@@ -57,7 +59,12 @@ class TemperatureDriftEffect(Effect):
     )
 
     def variants(self) -> tuple[Effect, ...]:
-        return TemperatureDriftEffect(), TemperatureCycleEffect(), TemperatureCycleEffect(uneven=True)
+        return (
+            TemperatureDriftEffect(),
+            TemperatureStepEffect(),
+            TemperatureCycleEffect(),
+            TemperatureCycleEffect(uneven=True),
+        )
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         if not points.timed and len(points.omega) > 30:
@@ -82,6 +89,43 @@ class TemperatureDriftEffect(Effect):
         warming, minutes = two_digits(abs(u["warming"])), two_digits(u["time_constant"] / 60)
         verb = "warms" if u["warming"] > 0 else "cools"
         return f"the core {verb} by {warming} K in the end, within {minutes} min"
+
+
+class TemperatureStepEffect(TemperatureDriftEffect):
+    """The same where the sweep went on after a pause, another day: T = 0 before it, `step` after it."""
+
+    discriminating_test = "the segments from before the pause measured once more, beside a thermometer"
+    parameters = (
+        EffectParameter("step", "K", -25.0, 25.0, 1.0, spread=3.0, mounting=3.0),
+        EffectParameter("after", "s", 0.0, np.inf, 0.0, neutral=None, fixed=True),
+    )
+
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
+        if not len(_pauses_s(points)):
+            return "the sweep has no pause"
+        return super().objection(points, plate)
+
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
+        return [np.array([1.0, s]) for s in _pauses_s(points)]
+
+    def kelvin(self, time_s: Array, u: Array) -> Array:
+        return np.asarray(np.where(time_s > u[1], u[0], 0.0))
+
+    def is_beyond(self, u: Array) -> bool:
+        return bool(abs(u[0]) > _FASTEST_K_S * _PAUSE_S)
+
+    def story(self, u: Mapping[str, float]) -> str:
+        step, than = two_digits(abs(u["step"])), "warmer" if u["step"] > 0 else "colder"
+        return f"the core is {step} K {than} after the pause at {two_digits(u['after'] / 60)} min"
+
+
+def _pauses_s(points: Points) -> Array:
+    """Middle of each. Shape (pauses,)."""
+    if not points.timed:
+        return np.zeros(0)
+    time_s = np.sort(points.time_s)
+    k = np.flatnonzero(np.diff(time_s) > _PAUSE_S)
+    return np.asarray((time_s[k] + time_s[k + 1]) / 2)
 
 
 class TemperatureCycleEffect(TemperatureDriftEffect):

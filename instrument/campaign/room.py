@@ -1,12 +1,13 @@
-"""A room whose air conditioning goes on and off, as campaigns hide it: no sine, nor evenly up and down."""
+"""Rooms as campaigns hide them: one whose air conditioning goes on and off, one that was left overnight."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
 
 from fitting.arrays import Array
-from instrument.campaign.draws import log_uniform
+from instrument.campaign.draws import either_sign, log_uniform
+from instrument.campaign.schedule import Schedule
 
 GAS_J_MOL_K = 8.314
 ROOM_K = 296.0
@@ -20,7 +21,10 @@ def arrhenius(kelvin: Array, activation_j_mol: float) -> Array:
 
 @dataclass(frozen=True)
 class RoomCycles:
-    """The core's temperature over time: up and down in straight lines, one longer than the other."""
+    """The core's temperature over time: up and down in straight lines, one longer than the other.
+
+    No sine, nor evenly up and down.
+    """
 
     swing_k: float
     """Half of the way from the coldest to the warmest."""
@@ -47,3 +51,34 @@ def draw_cycles(rng: np.random.Generator, duration_s: float) -> tuple[float, flo
     period = max(duration_s / log_uniform(rng, 1.2, 6.0), _SHORTEST_S)
     shape = float(rng.uniform(0, 1)), float(rng.uniform(0.3, 0.7))
     return (float(rng.uniform(0.4, 1.5)), period, *shape, float(rng.uniform(70e3, 130e3)))
+
+
+@dataclass(frozen=True)
+class RoomStep:
+    """A sweep that was gone on with another day, its room at another temperature."""
+
+    kelvin: float
+    after_pass: int
+    pause_s: float
+    """Longer than the passes before it took."""
+    activation_j_mol: float
+
+    name: ClassVar[str] = "room_step"
+    near: ClassVar[tuple[str, ...]] = ("temperature_drift",)
+    on_request: ClassVar[bool] = True
+
+    def paused(self, schedule: Schedule) -> Schedule:
+        """The same points, those of later passes after the pause."""
+        later = schedule.sweep > self.after_pass
+        return replace(schedule, time_s=schedule.time_s + np.where(later, self.pause_s, 0.0))
+
+    def warmed(self, time_s: Array) -> Array:
+        """Factor on the frequency at which the law is read. Shape of `time_s`."""
+        return arrhenius(np.where(time_s > self.pause_s, self.kelvin, 0.0), self.activation_j_mol)
+
+
+def draw_step(rng: np.random.Generator, duration_s: float, passes: int) -> tuple[float, int, float, float]:
+    """Numbers of `RoomStep` that matter."""
+    after = int(rng.integers(1, passes))
+    pause = max(duration_s, 600.0) * log_uniform(rng, 1.5, 60.0)
+    return either_sign(rng, 0.7, 3.5), after, pause, float(rng.uniform(70e3, 130e3))

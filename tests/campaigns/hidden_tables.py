@@ -43,7 +43,10 @@ _LEFT_OUT = (
     "tip_magnet",
 )
 """That a solid by itself does not have, and what changes with time."""
-KINDS = ("none", *(n for n, h in HIDDEN.items() if h.changes_solid and n not in (*_LEFT_OUT, "room_cycles")))
+KINDS = (
+    "none",
+    *(n for n, h in HIDDEN.items() if h.changes_solid and n not in (*_LEFT_OUT, "room_cycles", "room_step")),
+)
 COUNT, LARGEST_LOSS, SHOWS = 8, 0.35, 40.0
 
 

@@ -1,6 +1,7 @@
 """A case: a sweep of one of the beams as a lab would hand it in, and what was hidden in it."""
 
 from dataclasses import asdict, dataclass, replace
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -136,6 +137,7 @@ def draw_case(kind: str, seed: int, exact: bool = False, *, beam: str | None = N
     if hidden:
         # A lab measures around the peaks that it sees.
         schedule = draw_schedule(rng("schedule"), _moved(as_built, law, chosen), levels, points)
+    schedule = reduce(lambda s, h: h.paused(s), hidden, schedule)
     chance = rng("stated")
     off = chance.standard_normal(2)
     phase = CAREFUL.phase_rad * rng("phase").standard_normal()

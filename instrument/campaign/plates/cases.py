@@ -1,6 +1,7 @@
 """A case: a sweep of one of the plates as a lab would hand it in, and what was hidden in it."""
 
 from dataclasses import asdict, dataclass, replace
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -164,6 +165,7 @@ def draw_case(
         moved = [replace(r, frequency_hz=f) for r, f in zip(chosen, seen, strict=True)]
         schedule = draw_schedule(rng("schedule"), moved, levels)
         middle = _middles(schedule)
+    schedule = reduce(lambda s, h: h.paused(s), hidden, schedule)
     noise, chance = draw_noise(rng("noise figures")), rng("stated")
     if one_piece:
         noise = of_one_range(rng("floor"), noise)

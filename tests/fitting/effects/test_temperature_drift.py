@@ -9,7 +9,7 @@ from fitting.effects import CATALOGUE
 from fitting.effects.given import ModulusAt, Points
 from fitting.effects.temperature_drift import TemperatureCycleEffect, time_scale
 
-SETTLES, CYCLES, UNEVEN = CATALOGUE["temperature_drift"].variants()
+SETTLES, STEPS, CYCLES, UNEVEN = CATALOGUE["temperature_drift"].variants()
 TIME_S = np.linspace(0, 1200, 61)
 OMEGA = 2 * np.pi * np.geomspace(20, 400, 61)
 
@@ -63,8 +63,34 @@ def test_a_short_sweep_shows_no_cycle(seen, why):
 
 def test_each_file_has_a_course_of_its_own():
     assert SETTLES.anew
+    assert STEPS.anew
     assert CYCLES.anew
-    assert all(q.mounting is not None for form in (SETTLES, CYCLES, UNEVEN) for q in form.parameters)
+    each = [q for form in (SETTLES, STEPS, CYCLES, UNEVEN) for q in form.parameters if not q.fixed]
+    assert all(q.mounting is not None for q in each)
+
+
+PAUSED_S = TIME_S + np.where(TIME_S > 410, 3600.0, 0.0)
+
+
+def test_a_step_is_in_a_pause():
+    (u,) = STEPS.starts(None, points(PAUSED_S[::-1]))
+    assert PAUSED_S[20] < u[1] < PAUSED_S[21]
+    np.testing.assert_array_equal(
+        STEPS.kelvin(PAUSED_S, np.array([2.0, u[1]])), np.where(TIME_S > 410, 2.0, 0.0)
+    )
+    assert STEPS.objection(points(PAUSED_S), None) is None
+
+
+@pytest.mark.parametrize(
+    "seen", [points(), points(TIME_S * 14), points(PAUSED_S, timed=False)], ids=["short", "slow", "untimed"]
+)
+def test_without_a_pause_it_does_not_step(seen):
+    assert STEPS.objection(seen, None) == "the sweep has no pause"
+
+
+def test_a_step_says_when():
+    said = STEPS.story({"step": -1.53, "after": 2400.0})
+    assert said == "the core is 1.5 K colder after the pause at 40 min"
 
 
 def test_it_says_how_far_and_how_often():
@@ -77,6 +103,8 @@ def test_it_says_how_far_and_how_often():
     [
         (SETTLES, (-16.0, 20.0), True),
         (SETTLES, (4.0, 100.0), False),
+        (STEPS, (20.0, 600.0), False),
+        (STEPS, (-31.0, 600.0), True),
         (CYCLES, (1.0, 1.0, 100.0), False),
         (CYCLES, (8.0, 0.0, 100.0), True),
     ],

@@ -1,4 +1,4 @@
-"""A hidden room: up and down about its mean, asked for by name alone."""
+"""Hidden rooms: up and down about a mean, or another one after a pause; asked for by name alone."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,8 @@ import pytest
 from instrument.campaign.beams.run import ROTATION as BEAMS
 from instrument.campaign.plates.cases import KINDS
 from instrument.campaign.plates.run import ROTATION as PLATES
-from instrument.campaign.room import RoomCycles, arrhenius, draw_cycles
+from instrument.campaign.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
+from instrument.campaign.schedule import draw_schedule
 
 
 def test_it_goes_up_and_down_in_straight_lines_about_its_mean():
@@ -29,6 +30,20 @@ def test_a_drawn_room_cycles_at_least_once_in_the_sweep():
         assert 0.3 <= up <= 0.7
 
 
-def test_no_rotation_has_it():
-    assert "room_cycles" in KINDS
-    assert "room_cycles" not in (*BEAMS, *PLATES)
+def test_later_passes_come_after_the_pause_and_are_warmer():
+    sweep = draw_schedule(np.random.default_rng(1), (1.0,))
+    duration = float(sweep.time_s.max())
+    for seed in range(20):
+        room = RoomStep(*draw_step(np.random.default_rng(seed), duration, 3))
+        time_s, later = room.paused(sweep).time_s, sweep.sweep > room.after_pass
+        assert 0 < later.sum() < len(later)
+        assert room.pause_s > duration
+        assert time_s[~later] == pytest.approx(sweep.time_s[~later])
+        assert np.all(room.warmed(time_s)[~later] == 1)
+        assert np.all((room.warmed(time_s)[later] < 1) == (room.kelvin > 0))
+
+
+@pytest.mark.parametrize("name", ["room_cycles", "room_step"])
+def test_no_rotation_has_it(name):
+    assert name in KINDS
+    assert name not in (*BEAMS, *PLATES)

@@ -25,6 +25,7 @@ _CLASSES: tuple[type[HiddenInBeam], ...] = (
     layers.HiddenConstrainingStiffness,
     layers.HiddenConstrainingThickness,
     core.HiddenRoomCycles,
+    core.HiddenRoomStep,
 )
 HIDDEN: dict[str, type[HiddenInBeam]] = {h.name: h for h in _CLASSES}
 """Every effect by its name."""

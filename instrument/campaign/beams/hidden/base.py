@@ -11,6 +11,7 @@ import numpy as np
 from drivers.simulated.plant.solid_beam import BeamBuild
 from fitting.arrays import Array, Complex
 from instrument.campaign.beams.geometry import TrueBeam
+from instrument.campaign.schedule import Schedule
 
 
 @dataclass(frozen=True)
@@ -90,6 +91,10 @@ class HiddenInBeam:
     def hung(self, omega: Array, pitch: Complex, force_driven: bool) -> tuple[Hung, ...]:
         """What hangs there. `omega` of shape (points,), as `pitch`, in rad/m."""
         return ()
+
+    def paused(self, schedule: Schedule) -> Schedule:
+        """The sweep with a pause in it."""
+        return schedule
 
     def frequency_factor(self, time_s: Array) -> Array | None:
         """Factor on the frequency at which the law is read, at each point; None: one. Shape (points,)."""

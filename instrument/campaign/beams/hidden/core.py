@@ -14,7 +14,7 @@ from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting
 from instrument.campaign.draws import either_sign
 from instrument.campaign.plates.hidden.base import Softening, draw_softening
-from instrument.campaign.room import RoomCycles, arrhenius, draw_cycles
+from instrument.campaign.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
 
 
 def _times(build: BeamBuild, factor: Callable[[Array], Array]) -> BeamBuild:
@@ -110,6 +110,18 @@ class HiddenRoomCycles(RoomCycles, HiddenInBeam):
 
     def frequency_factor(self, time_s: Array) -> Array | None:
         return arrhenius(self.kelvin(time_s), self.activation_j_mol)
+
+
+@dataclass(frozen=True)
+class HiddenRoomStep(RoomStep, HiddenInBeam):
+    """All of the core is as warm as the room."""
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenRoomStep":
+        return cls(*draw_step(rng, at.duration_s, len(at.resonances_hz)))
+
+    def frequency_factor(self, time_s: Array) -> Array | None:
+        return self.warmed(time_s)
 
 
 @dataclass(frozen=True)

@@ -42,6 +42,7 @@ _CLASSES: tuple[type[Hidden], ...] = (
     strange.HiddenStiffener,
     strange.HiddenBlister,
     core.HiddenRoomCycles,
+    core.HiddenRoomStep,
 )
 HIDDEN: dict[str, type[Hidden]] = {h.name: h for h in _CLASSES}
 """Every effect by its name; those of the diagnosis's catalogue first."""

@@ -14,6 +14,7 @@ from instrument.campaign.draws import log_uniform
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.response import BaseMotion
 from instrument.campaign.plates.solid import Build, Field
+from instrument.campaign.schedule import Schedule
 
 
 def times(first: Field | None, second: Field) -> Field:
@@ -143,6 +144,10 @@ class Hidden:
     def ratios(self, ratios: Array) -> Array:
         """Remaining damping of the treated plate. Shape (modes,)."""
         return ratios
+
+    def paused(self, schedule: Schedule) -> Schedule:
+        """The sweep with a pause in it."""
+        return schedule
 
     def frequency_factor(self, time_s: Array, x: Array, length_m: float) -> Array | None:
         """Factor on the frequency at which the law is read, at each point and group of bricks; None: one.

@@ -18,7 +18,7 @@ from instrument.campaign.plates.hidden.base import (
     times,
 )
 from instrument.campaign.plates.solid import Build, Field
-from instrument.campaign.room import RoomCycles, arrhenius, draw_cycles
+from instrument.campaign.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
 
 
 @dataclass(frozen=True)
@@ -134,6 +134,20 @@ class HiddenRoomCycles(RoomCycles, Hidden):
 
     def frequency_factor(self, time_s: Array, x: Array, length_m: float) -> Array | None:
         return arrhenius(self.kelvin(time_s)[:, None] + 0 * x, self.activation_j_mol)
+
+
+@dataclass(frozen=True)
+class HiddenRoomStep(RoomStep, Hidden):
+    """All of the core is as warm as the room."""
+
+    place: ClassVar[str] = "core"
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenRoomStep":
+        return cls(*draw_step(rng, at.duration_s, len(at.resonances_hz)))
+
+    def frequency_factor(self, time_s: Array, x: Array, length_m: float) -> Array | None:
+        return self.warmed(time_s)[:, None] + 0 * x
 
 
 @dataclass(frozen=True)
