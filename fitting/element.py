@@ -174,6 +174,15 @@ def face_stiffness(shape: Shape, face: Face, u: int, v: int, over: Rectangles | 
     return K
 
 
+def pulled_stiffness(shape: Shape, along: str) -> Array:
+    """What a unit of force per width along x or y does to the deflection: of w_x or w_y. Shape (28, 28)."""
+    K = _square(shape)
+    for x, y, dA in gauss_points(shape):
+        slope = shape.deflection(x, y, dx=1) if along == "x" else shape.deflection(x, y, dy=1)
+        K += np.outer(slope, slope) * dA
+    return K
+
+
 def core_stiffness(
     shape: Shape, core: Core, substrate: Face, constraining: Face, over: Rectangles | None = None
 ) -> Array:

@@ -21,11 +21,13 @@ class ElementMatrices:
     K_1: Array
     K_glue: Complex | float = 0.0
     """Complex where it loses energy."""
+    K_pulled: Array | float = 0.0
+    """Of clamps on opposite edges that pull it along."""
 
     @property
     def K_0(self) -> Array:
-        """Both faces, loss factors left out."""
-        return self.K_substrate + self.K_constraining + np.asarray(self.K_glue).real
+        """Both faces and what pulls them, loss factors left out."""
+        return self.K_substrate + self.K_constraining + np.asarray(self.K_glue).real + self.K_pulled
 
 
 def element_matrices(specimen: Specimen, mesh: Mesh, cell: Cell | None = None) -> ElementMatrices:
@@ -33,10 +35,12 @@ def element_matrices(specimen: Specimen, mesh: Mesh, cell: Cell | None = None) -
     s, shape = specimen, mesh.shape
     M = element.face_mass(shape, s.substrate, U_B, V_B)
     K_b = element.face_stiffness(shape, s.substrate, U_B, V_B)
+    stresses = [(a, stress) for a, stress in zip("xy", s.axial_pa, strict=True) if stress]
+    K_pulled = sum(p * s.pulled_thickness_m * element.pulled_stiffness(shape, a) for a, p in stresses)
     over = cell.over if cell is not None else None
     if s.core is None or (over is not None and not over):
         nothing = np.zeros_like(K_b)
-        return ElementMatrices(M, K_b, nothing, nothing, nothing.astype(complex))
+        return ElementMatrices(M, K_b, nothing, nothing, nothing.astype(complex), K_pulled)
     assert s.constraining is not None
     sides = 2 if s.both_sides else 1
     M = M + sides * element.face_mass(shape, s.constraining, U_C, V_C, over)
@@ -46,4 +50,4 @@ def element_matrices(specimen: Specimen, mesh: Mesh, cell: Cell | None = None) -
     K_glue: Complex | float = 0.0
     if mesh.dofs == WITH_GLUE:
         K_glue = np.asarray(sides * s.core.glue_stiffness_pa_m * element.glue_stiffness(shape, over), complex)
-    return ElementMatrices(M, K_b, K_c, K_v, K_glue)
+    return ElementMatrices(M, K_b, K_c, K_v, K_glue, K_pulled)

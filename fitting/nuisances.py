@@ -28,6 +28,7 @@ _H = 1e-2
 _FELT = 0.3
 """Standard deviations from which a plate's derivatives to stated numbers are taken to vary."""
 _TREATMENT = ("constraining", "core", "glue", *OF_PATCHES)
+_OF_A_MOUNTING = ("length", "axial")
 Spot = Literal["pickup", "force"]
 
 
@@ -81,7 +82,7 @@ class Nuisances:
     @cached_property
     def of_bare_plate(self) -> list[int]:
         """Those that a hammer test of the bare plate feels."""
-        return [k for k in self._of_plate if not self.each[k].kind.startswith((*_TREATMENT, "length"))]
+        return [k for k in self._of_plate if not self.each[k].kind.startswith((*_TREATMENT, *_OF_A_MOUNTING))]
 
     @cached_property
     def _stated(self) -> Array:
@@ -112,11 +113,8 @@ class Nuisances:
 
     def bare_coefficients(self, z: Array) -> tuple[Complex, Array]:
         """Of the bare plate's stiffness and mass, its length as stated. Shapes of `STIFFNESS` and `MASS`."""
-        length = self._places.get("length")
-        at = z.copy()
-        if length is not None:
-            # A hammer test is a mounting of its own.
-            at[length] = 0.0
+        # A hammer test is a mounting of its own.
+        at = np.where([n.kind in _OF_A_MOUNTING for n in self.each], 0.0, z)
         c = coefficients(self.moved_specimen(at).bare, self.specimen.bare)
         return c.K_0, c.M
 

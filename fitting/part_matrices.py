@@ -31,6 +31,7 @@ from fitting.parts import (
     OFF_AXIS,
     PATCHED,
     PATCHED_OFF_AXIS,
+    PULLED,
     STIFFNESS,
     W_TREATED,
     Names,
@@ -39,7 +40,7 @@ from fitting.parts import (
 )
 from fitting.plate import Plate
 from fitting.specimen import Specimen
-from fitting.tolerances import STATED, moved
+from fitting.tolerances import STATED, kind_of, moved
 
 Rows = dict[str, Array]
 _STRETCH_C = tuple(name for name in STIFFNESS if name.startswith("stretch c"))
@@ -83,6 +84,9 @@ def _all_over(shape: Shape, names: Names, turned: bool) -> tuple[Array, Array, A
         M[: len(MASS)] += dA * np.array(_inertia(r))
         if turned:
             K_0[few:most] += dA * np.array(_turned(r))
+        for a, name in PULLED.items():
+            if name in names.K_0:
+                K_0[names.K_0.index(name)] += dA * _square(r[f"w_{a}"])
     return K_0, K_1, M
 
 
@@ -209,9 +213,8 @@ def stated_steps(reference: Specimen, names: Sequence[str]) -> tuple[Complex, Ar
     """
     found = []
     for name in names:
-        up, down = (
-            coefficients(moved(reference, [name], [s * STATED[name].typical]), reference) for s in (1, -1)
-        )
+        step = STATED[kind_of(name)].typical
+        up, down = (coefficients(moved(reference, [name], [s * step]), reference) for s in (1, -1))
         found.append([(getattr(up, m) - getattr(down, m)) / 2 for m in ("K_0", "K_1", "M")])
     K_0, K_1, M = (
         np.tensordot(np.array(c), parts, axes=1)

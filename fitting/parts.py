@@ -41,6 +41,8 @@ PATCHED = tuple(f"bend c {t}" for t in _BENDING)
 PATCHED_OFF_AXIS = tuple(f"bend c {t}" for t in _BENDING_TURNED)
 """Where not all of the plate is treated: `bend` is then the substrate's alone."""
 W_TREATED, GLUE = "w treated", "glue"
+PULLED = {"x": "pull x", "y": "pull y"}
+"""Along clamps on opposite edges."""
 _AXES = ("young_y_pa", "shear_pa", "angle_rad")
 _GLUE = ("thickness_m", "shear_pa", "density_kg_m3", "loss_factor")
 _PATCH = ("from_x_m", "to_x_m", "from_y_m", "to_y_m")
@@ -75,6 +77,7 @@ def names_of(specimen: Specimen) -> Names:
     if specimen.has_glue:
         K_0 += (GLUE,)
         M += (GLUE,)
+    K_0 += tuple(PULLED[a] for a in specimen.pulled_along)
     shifts = tuple(shift.name for shift in shifts_of(specimen))
     return Names(K_0 + shifts, CORE + shifts, M + shifts)
 
@@ -125,6 +128,8 @@ def coefficients(specimen: Specimen, reference: Specimen) -> Coefficients:
         K_0 += [off[1] * turned] if is_turned(reference) else []
     if reference.has_glue and v is not None:
         K_0 += [np.array([sides * v.glue_stiffness_pa_m])]
+    pulled = zip(specimen.axial_pa, (rx, ry), strict=True)
+    K_0 += [np.array([p * specimen.pulled_thickness_m * r**2]) for p, r in pulled if p is not None]
     found = area * np.concatenate(K_0)
     m_b, m_c = (f.density_kg_m3 * f.thickness_m if f is not None else 0.0 for f in (b, c))
     if v is None or c is None:
@@ -176,13 +181,13 @@ def layers_of(specimen: Specimen) -> Array:
 
     Zero where a layer is missing or has no such number. Shape (3, 5). What few plates have besides is behind:
     own axes of a face in three columns more, then rows of two layers of glue, of whether both sides are
-    treated, and of patches. Shape (6 + patches, 8).
+    treated and how clamps pull, and of patches. Shape (6 + patches, 8).
     """
     s = specimen
     each = (s.substrate, s.constraining, s.core)
     plain = np.array([[getattr(layer, name, 0.0) for name in _LAYER] for layer in each])
     axes = [face.rolled for face in (s.substrate, s.constraining) if face is not None]
-    if not (any(axes) or s.patches or s.both_sides or s.has_glue):
+    if not (any(axes) or s.patches or s.both_sides or s.has_glue or s.pulled_along):
         return plain
     found = np.zeros((_ROWS + len(s.patches), len(_LAYER) + len(_AXES)))
     found[: len(each), : len(_LAYER)] = plain
@@ -192,6 +197,8 @@ def layers_of(specimen: Specimen) -> Array:
     for row, glue in enumerate(s.core.glue if s.core is not None else (), len(each)):
         found[row, : len(_GLUE)] = [getattr(glue, name) for name in _GLUE]
     found[_ROWS - 1, 0] = s.both_sides
+    found[_ROWS - 1, 1:3] = ["x" in s.pulled_along, "y" in s.pulled_along]
+    found[_ROWS - 1, 3:5] = [stress or 0.0 for stress in s.axial_pa]
     for row, patch in enumerate(s.patches, _ROWS):
         found[row, : len(_PATCH)] = [getattr(patch, name) for name in _PATCH]
     return found
@@ -209,7 +216,9 @@ def specimen_of(size: Array, layers: Array) -> Specimen:
     )
     thickness, _, poisson, density, _ = layers[2, :n].tolist()
     length, width, n_x, n_y = size.tolist()
-    plain = Specimen(length, width, "free", substrate, elements=(int(n_x), int(n_y)))
+    x, y = layers[_ROWS - 1, [[1, 3], [2, 4]]].tolist() if len(layers) >= _ROWS else ([0, 0], [0, 0])
+    axial = x[1] if x[0] else None, y[1] if y[0] else None
+    plain = Specimen(length, width, "free", substrate, elements=(int(n_x), int(n_y)), axial_pa=axial)
     if not thickness:
         return plain
     glue = tuple(Glue(*row[: len(_GLUE)]) for row in layers[3:5].tolist() if row[0])

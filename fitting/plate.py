@@ -123,6 +123,8 @@ class Plate:
             faces = faces + 1j * (loss_b * self.K_substrate + loss_c * self.K_constraining)
         if s.has_glue:
             faces = faces + _sum([self.scatter(np.asarray(e.K_glue), of) for of, e in each])
+        if any(s.axial_pa):
+            faces = faces + _sum([self.scatter(np.asarray(e.K_pulled), of) for of, e in each])
         if s.lacks_edge_twist:
             faces = faces - self.edge_twist
         self.K_0 = faces.tocsc()

@@ -24,6 +24,7 @@ from fitting.linear import times
 from fitting.part_matrices import moving_part, on_motions, projected_parts, stated_steps
 from fitting.plate import Plate
 from fitting.resonance_parts import Answers
+from fitting.specimen import Specimen
 
 Point = tuple[float, complex]
 
@@ -39,6 +40,11 @@ _FACES = tuple(f"{layer}_{n}" for layer in ("substrate", "constraining") for n i
 """What the basis does not follow by itself: it spans moduli of the core and frequencies."""
 _SPREAD, _STIRRED = 8, 6
 """Points over the domain that a basis begins with, and those of them where stated numbers are followed."""
+
+
+def _followed(specimen: Specimen) -> tuple[str, ...]:
+    """Stated numbers whose tolerances move it as moduli and frequencies do not."""
+    return (*_FACES, *(f"axial_{a}" for a in specimen.pulled_along))
 
 
 @dataclass(frozen=True)
@@ -200,7 +206,7 @@ class _Builder:
         self._keep(_GIVEN, self.given)
         self._keep(_DAMPED, self.damping.U)
         self.training = domain.grid(40, 7, (0.02, 0.2, 1.0))
-        self.steps, self.everywhere = stated_steps(plate.specimen, _FACES), Assembly(plate)
+        self.steps, self.everywhere = stated_steps(plate.specimen, _followed(plate.specimen)), Assembly(plate)
         self.kept: dict[Point, Callable[[Array | Complex], Complex]] = {}
 
     def solver(self, point: Point) -> Callable[[Array | Complex], Complex]:

@@ -232,9 +232,15 @@ class Specimen:
     """Where core and constraining layer are; none: everywhere."""
     both_sides: bool = False
     """The same treatment on the other side too: in bending the substrate's middle then does not stretch."""
+    axial_pa: tuple[float | None, float | None] = (None, None)
+    """Stress in its faces along x and along y; zero is filled in where clamps on opposite edges may pull."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "boundary", named(self.boundary))
+        held = [edge == "clamped" for edge in self.edges]
+        between = zip(self.axial_pa, held[:2], held[2:], strict=True)
+        pulled = tuple(0.0 if stress is None and a and b else stress for stress, a, b in between)
+        object.__setattr__(self, "axial_pa", pulled)
         if self.force_m is not None:
             # Its edges are at rest: one reading is the other.
             object.__setattr__(self, "reads", "relative")
@@ -276,11 +282,25 @@ class Specimen:
             found.add("clamp")
         if self.boundary == "cantilever" and self.mirrored:
             found.add("root")
+        if self.pulled_along:
+            found.add("two clamps")
         if not self.patches and not self.both_sides:
             found.add("whole")
         if self.substrate.rolled is None:
             found.add("isotropic substrate")
         return frozenset(found)
+
+    @property
+    def pulled_along(self) -> tuple[Literal["x", "y"], ...]:
+        """Where clamps on opposite edges may pull it."""
+        along: tuple[Literal["x", "y"], ...] = ("x", "y")
+        return tuple(a for a, stress in zip(along, self.axial_pa, strict=True) if stress is not None)
+
+    @property
+    def pulled_thickness_m(self) -> float:
+        """Of what the stress is in: its faces, of a plate with patches the substrate."""
+        c, own = self.constraining, self.substrate.thickness_m
+        return own if c is None or self.patches else own + (2 if self.both_sides else 1) * c.thickness_m
 
     @property
     def mirrored(self) -> bool:

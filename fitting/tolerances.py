@@ -100,7 +100,7 @@ STATED_PER_K = 0.5
 """Of the typical standard deviation of a metal's change for a kelvin, where the file states it."""
 OF_FEW = tuple(s.name for s in _STATED[-10:])
 """Numbers that only orthotropic faces, glue and patches have."""
-PLATE = (*(s.name for s in _STATED[:13]), *OF_FEW)
+PLATE = (*(s.name for s in _STATED[:13]), *OF_FEW, "axial")
 """Those that change a plate's matrices."""
 _FIELDS = {
     "young": "young_pa",
@@ -122,7 +122,9 @@ def plate_numbers(specimen: Specimen) -> list[tuple[str, str]]:
     found: list[tuple[str, str]] = []
     for kind in PLATE:
         layer, _, quantity = kind.partition("_")
-        if kind in OF_PATCHES:
+        if kind == "axial":
+            found += [(f"axial_{a}", kind) for a in specimen.pulled_along]
+        elif kind in OF_PATCHES:
             found += [(shift.name, kind) for shift in shifts_of(specimen) if shift.kind == kind]
         elif layer == "glue":
             found += [(kind, kind)] if specimen.has_glue else []
@@ -171,6 +173,10 @@ def moved(specimen: Specimen, names: Sequence[str], by: Sequence[float]) -> Spec
             sides |= {f"{name}_m": getattr(specimen, f"{name}_m") + step, "elements": specimen.mesh}
             continue
         layer_name, quantity = name.split("_", 1)
+        if layer_name == "axial":
+            x, y = sides.get("axial_pa", specimen.axial_pa)
+            sides["axial_pa"] = (x + step, y) if quantity == "x" else (x, y + step)
+            continue
         if layer_name in OF_PATCHES and not specimen.patches:
             continue
         if layer_name in OF_PATCHES:

@@ -20,7 +20,7 @@ OF_EACH_CHAIN = ("phase",)
 """Of one accelerometer, or one hammer, against one laser: alike in all files that are driven alike."""
 OF_EACH_FILE = ("force",)
 """And in every file, its spots sharing them."""
-OF_EACH_PLATE = ("mass", "place", "damping", "length", "width")
+OF_EACH_PLATE = ("mass", "place", "damping", "length", "width", "axial")
 """And in every file, but of one plate that is struck, there or elsewhere: it was not mounted anew."""
 _SAME = 1e-3
 """Of the frequencies of two files' resonances, within which they are the same one."""

@@ -80,6 +80,8 @@ def stated_number(specimen: StatedSpecimen, n: Nuisance) -> tuple[float, float, 
     if n.kind == "place":
         mass = specimen.masses[int(n.name.split("_")[1]) - 1]
         return getattr(mass, f"{n.name[-1]}_m"), 1e3, "mm"
+    if n.kind == "axial":
+        return specimen.axial_pa["xy".index(n.name[-1])] or 0.0, 1e-6, "MPa"
     if n.kind == "gain":
         return 1.0, 1.0, "1"
     if n.kind == "delay":

@@ -12,7 +12,7 @@ import numpy as np
 from fitting.digits import two_digits
 from fitting.temperature.causes import REFUSED, Cause, explains
 from fitting.temperature.shifted_fit import ShiftedFit
-from fitting.temperature.thermometers import misread, rising
+from fitting.temperature.thermometers import Misread, misread, rising
 
 _POINTS = 25
 """Over a sweep's band: the wicket plot is compared at them."""
@@ -30,6 +30,8 @@ class Verdict:
     """Largest distance of eta from the joint law's, at one G', over all temperatures."""
     wicket_at_c: float
     words: str
+    wrong: Misread | None = None
+    """The one temperature that does not go with the others."""
 
 
 def in_doubt(fit: ShiftedFit) -> bool:
@@ -96,7 +98,9 @@ def _judged(
         )
     other = next((c for c in causes if explains(c.fit)), None)
     if apart is not None and not in_doubt(apart):
-        return Verdict(False, best.p_value, *_wicket(apart), _temperatures_refused(fit, apart, names))
+        wrong = misread(fit.shift, apart)
+        words = _temperatures_refused(fit, apart, wrong, names)
+        return Verdict(False, best.p_value, *_wicket(apart), words, wrong)
     if apart is not None and explains(fit):
         off, at = _wicket(apart)
     if explains(fit):
@@ -143,13 +147,14 @@ def _refusal(fit: ShiftedFit, difference: str) -> str:
     )
 
 
-def _temperatures_refused(fit: ShiftedFit, apart: ShiftedFit, names: Sequence[str]) -> str:
+def _temperatures_refused(
+    fit: ShiftedFit, apart: ShiftedFit, wrong: Misread | None, names: Sequence[str]
+) -> str:
     how = {"wlf": "WLF", "arrhenius": "Arrhenius", "free": "one factor a temperature"}[fit.shift.kind]
     words = (
         f"the temperatures as stated do not go with {how} ({_gain(fit)}), the material with one law does, "
         f"each of the data shifted by a factor of its own ({_gain(apart)}): "
     )
-    wrong = misread(fit.shift, apart)
     if wrong is not None:
         others = f"its readings are those of {wrong.read_c:.1f} degC by the others, check it"
         unlike = "its readings go with no temperature by the others, check it"
@@ -157,7 +162,10 @@ def _temperatures_refused(fit: ShiftedFit, apart: ShiftedFit, names: Sequence[st
         name = names[wrong.sweep] if names else f"sweep {wrong.sweep + 1}"
         if wrong.further:
             name += f", as {wrong.further} more,"
-        return words + f"{name} is stated at {wrong.stated_c:g} degC, {said}"
+        return words + (
+            f"{name} is stated at {wrong.stated_c:g} degC, {said}; until then this law, which is of all "
+            "temperatures as stated, is not to be used"
+        )
     if fit.shift.kind == "free":
         return words + "data stated at one temperature were not at one, check them"
     upwards = rising(fit.shift, apart.log_shift)

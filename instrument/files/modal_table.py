@@ -98,31 +98,43 @@ def read_modal_table(path: Path) -> ModalTable:
 def read_modal_tables(path: Path) -> list[ModalTable]:
     """A table of several temperatures, those of one temperature apart, the coldest first.
 
-    The row order says nothing; where a mode was measured more than once at one temperature each time is a
-    table. Raises `BadInput`, also where a row has no temperature.
+    The row order says nothing; a mode that was measured more than once at one temperature has the mean of its
+    readings. Raises `BadInput`, also where a row has no temperature.
     """
     columns = _columns(path)
     if "temperature_c" not in columns:
-        raise BadInput(f"{path}: no temperature, expected a column temperature_c")
+        raise BadInput(f"{path}: no temperature, expected a column temperature_c; {IMPORT_READS}")
     found = []
-    for rows in _at_one_temperature(columns["mode"], columns["temperature_c"]):
-        some = {name: values[rows] for name, values in columns.items()}
+    for rows in _at_one_temperature(columns["temperature_c"]):
+        some = _each_mode_once({name: values[rows] for name, values in columns.items()})
         where = f" at {some['temperature_c'].mean():g} degC"
         _check_modes(path, some, "", where)
         found.append(_table(path, some))
     return found
 
 
-def _at_one_temperature(mode: Array, temperature_c: Array) -> list[NDArray[np.intp]]:
-    """Rows that belong together: within `_ONE_K` of the coldest, every mode once."""
-    left, found = list(np.argsort(temperature_c, kind="stable")), []
-    while left:
-        near = [k for k in left if temperature_c[k] - temperature_c[left[0]] <= _ONE_K]
-        # A mode's first reading goes with the first of the others.
-        _, first = np.unique(mode[near], return_index=True)
-        rows = [near[k] for k in sorted(first)]
-        found.append(np.array(rows, dtype=np.intp))
-        left = [k for k in left if k not in rows]
+def _at_one_temperature(temperature_c: Array) -> list[NDArray[np.intp]]:
+    """Rows that belong together: within `_ONE_K` of the coldest."""
+    left, found = np.argsort(temperature_c, kind="stable"), []
+    while left.size:
+        near = temperature_c[left] - temperature_c[left[0]] <= _ONE_K
+        found.append(left[near])
+        left = left[~near]
+    return found
+
+
+def _each_mode_once(columns: dict[str, Array]) -> dict[str, Array]:
+    """The same with means of what was measured again; a row copied to the last digit is no measurement."""
+    rows = np.unique(np.array([columns[name] for name in columns]), axis=1)
+    given = dict(zip(columns, rows, strict=True))
+    found = {"mode": np.unique(given["mode"])}
+    its = [given["mode"] == mode for mode in found["mode"]]
+    for name, std in (("frequency_hz", "frequency_std_hz"), ("loss_factor", "loss_factor_std")):
+        weight = given[std] ** -2 if std in given else np.ones(len(given["mode"]))
+        found[name] = np.array([np.average(given[name][k], weights=weight[k]) for k in its])
+        if std in given:
+            found[std] = np.array([weight[k].sum() ** -0.5 for k in its])
+    found["temperature_c"] = np.array([given["temperature_c"][k].mean() for k in its])
     return found
 
 
@@ -178,13 +190,13 @@ def _table(path: Path, columns: dict[str, Array]) -> ModalTable:
         columns.get("loss_factor_std"),
         columns.get("temperature_c"),
         path.name,
-        _read(path),
+        read_said(path, read_text(path)),
     )
 
 
-def _read(path: Path) -> Read | None:
-    """What a line '# read: ...' says. Raises `BadInput`."""
-    said = {one.lower() for one in _SAID.findall(read_text(path))}
+def read_said(path: Path, text: str) -> Read | None:
+    """What a line '# read: ...' of a file's text says. Raises `BadInput`."""
+    said = {one.lower() for one in _SAID.findall(text)}
     if not said:
         return None
     if len(said) > 1 or not said <= set(READS):

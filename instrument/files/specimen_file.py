@@ -136,7 +136,7 @@ class TolerancesSection(TomlTable):
 
 _OF_LAYERS = tuple(name for name in STATED if name.startswith(("substrate", "constraining")))
 _NOT_OF = {
-    "plate": ("area", "axial", *OF_TEMPERATURE),
+    "plate": ("area", *OF_TEMPERATURE),
     "beam": ("area", *OF_FEW),
     "shear-pair": (*_OF_LAYERS, *OF_FEW, "length", "width", "pickup", "force", "place", "axial"),
 }

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from instrument.errors import BadInput
+from instrument.files.modal_table import read_said
 from instrument.files.sweep_file import reading_said
 from instrument.files.table import Rows, rate_stated_in, shown
 from instrument.interchange.celsius import is_temperature
@@ -45,6 +47,9 @@ def read_csv(path: Path, naming: Naming | None = None) -> Found:
     for name, part in _hits_apart(path, table):
         if not read_table(name, part, found):
             raise NotSaid(_nothing(path, stands.names))
+    if found.modes:
+        read = read_said(path, text)
+        found.modes = [replace(one, read=one.read or read) for one in found.modes]
     return found
 
 

@@ -81,7 +81,8 @@ class Shifted:
                 f"{len(np.unique(T))} temperatures fix {_FORMS[fit.shift.kind]} without one to spare: "
                 "nothing checks a temperature, and a wrong one makes another form; measure at one more"
             )
-        if fit.temperature_chance < _SCATTERED:
+        # Where one is known to be wrong, others are bent by it.
+        if fit.temperature_chance < _SCATTERED and self.verdict.wrong is None:
             k = int(np.argmax(np.abs(fit.joint.off)))
             said.append(
                 f"temperatures lie farther from the form than {fit.shift.error_k:g} K allows, {T[k]:g} degC "

@@ -80,6 +80,13 @@ def test_standard_deviations_and_temperatures_come_along(tmp_path):
     assert warm.temperature_c == pytest.approx([30])
 
 
+@pytest.mark.parametrize("read", ["poles", "half-power", "model", None])
+def test_how_modes_were_read_comes_along(tmp_path, read):
+    said = f"# read: {read}\n" if read else ""
+    table = table_of(tmp_path, f"{said}Mode,Frequency [Hz],eta\n2,130,.1\n3,360,.2\n")
+    assert table.read == read
+
+
 def test_arrays_of_a_matlab_file(tmp_path):
     savemat(tmp_path / "a.mat", {"mode": [1, 2], "f_n_hz": [20.0, 130.0], "eta": [0.1, 0.2]})
     import_file(tmp_path / "a.mat", tmp_path / "ours.csv")

@@ -174,8 +174,12 @@ def test_temperatures_a_little_off_are_no_fault_of_the_material(plate):
 
 def test_one_wrong_temperature_is_named_and_the_material_is_not_blamed(plate):
     made = stated_otherwise(sweeps(plate, [OneProcess(a) for a in wlf()]), [0, 0, 0, 15.0, 0])
-    words = identify_shifted(made, plate, "wlf", REFERENCE).verdict.words
+    found = identify_shifted(made, plate, "wlf", REFERENCE)
+    words = found.verdict.words
     assert "28.csv is stated at 43 degC, its readings are those of 28." in words
+    assert words.endswith("is not to be used")
+    # Which of the others would be bent by it, is no cure.
+    assert not any("farther from the form" in one for one in found.warnings)
     assert "loss factor" not in words
     free = identify_shifted(made, plate, "free", REFERENCE)
     assert any("the factor of 43 degC is above that of 36 degC" in one for one in free.warnings)
