@@ -51,13 +51,20 @@ def judge(
     apart: ShiftedFit | None = None,
     names: Sequence[str] = (),
     scale_known: bool = True,
+    odd: Sequence[str] = (),
 ) -> Verdict:
     """What the checks say together; `causes` are those looked at where `in_doubt`.
 
     `apart` is one law with a factor for every sweep: where it serves, temperatures or form are refused and
     not the material. `names` of the sweeps; their numbers otherwise. Without `scale_known` the size of errors
-    is a guess: by it one law may serve, and none is refused.
+    is a guess: by it one law may serve, and none is refused. `odd` readings are said to be wrong before
+    anything else is.
     """
+    if odd and in_doubt(fit):
+        said = (
+            f"whether one shifted law serves cannot be told ({_gain(fit)}) before this is: {'; '.join(odd)}"
+        )
+        return Verdict(None, fit.p_value, *_wicket(fit), said)
     found = _judged(fit, causes, apart, names)
     if scale_known or found.simple is not False:
         return found

@@ -5,6 +5,8 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
+import numpy as np
+
 from fitting.diagnosis.begin import begin
 from fitting.diagnosis.several import SeveralProblem
 from fitting.effects.base import Effect
@@ -12,8 +14,9 @@ from fitting.effects.enriching import reach_over
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 from fitting.mode_tables.build import member_of
-from fitting.mode_tables.fit import start_of
+from fitting.mode_tables.fit import BegunModal, start_of
 from fitting.mode_tables.member import Member
+from fitting.mode_tables.misread import misread
 from fitting.mode_tables.standing import standing
 from fitting.mode_tables.table import ModalTable
 from fitting.noise import noise_of
@@ -24,10 +27,12 @@ from fitting.sweep import Sweep
 from fitting.temperature.members import Alone, Joined
 from fitting.temperature.sweeps import AloneSweep, Sweeps
 from fitting.temperature.tables import Tables, alone
+from instrument.errors import BadInput
 from instrument.models.diagnosis import effects_among
 from instrument.models.files import File
 from instrument.models.files_at_work import FilesAtWork
-from instrument.models.modal import widened
+from instrument.models.modal import remark_on_misread, widened
+from instrument.models.modal_look import numbering_doubt
 from instrument.models.remarks import remarks_on_strays
 from instrument.models.set_up import Hammer, set_up
 from instrument.progress import quiet
@@ -87,6 +92,26 @@ class Members:
             found.append(fit(one, with_effects=with_effects))
             report((k + 1) / len(self.every))
         return found
+
+    def odd_rows(self, alone: Sequence[Alone]) -> list[str]:
+        """Of tables, each by itself: a mode that does not go with the others, for people.
+
+        Raises `BadInput` where no numbering of modes can be as stated.
+        """
+        if not self.are_tables:
+            return []
+        told, ratios = list[str](), []
+        for one, its in zip(self.every, alone, strict=True):
+            assert isinstance(one.data, ModalTable)
+            near = its.begun.none.velocity_m_s.real
+            ratios.append(near - np.log(one.data.frequency_hz))
+            odd = misread(its.begun) if isinstance(its.begun, BegunModal) else None
+            if odd is not None:
+                told.append(f"at {one.temperature_c:g} degC {remark_on_misread(odd, [one.data])}")
+        doubt = numbering_doubt(ratios)
+        if doubt:
+            raise BadInput(f"{', '.join(dict.fromkeys(one.name for one in self.every))}: {doubt}")
+        return told
 
     def joined(self, begun: Sequence[Any]) -> Joined:
         """Fits of each by itself, side by side."""

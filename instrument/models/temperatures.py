@@ -144,10 +144,12 @@ def identify_shifted(
         alone, task, fit = asked.fitted(with_effects=False)
         if in_doubt(fit) and explains(fit):
             fit = asked.freer(task, fit)
-        apart = asked.each_apart(alone) if in_doubt(fit) else None
-        told = apart is not None and not in_doubt(apart)
+        # A row that is wrong is no temperature's fault, nor a cause that all have.
+        odd = members.odd_rows(alone) if in_doubt(fit) else []
+        apart = asked.each_apart(alone) if in_doubt(fit) and not odd else None
+        told = bool(odd) or (apart is not None and not in_doubt(apart))
         causes = asked.common_causes(alone, task, fit) if in_doubt(fit) and not told else []
-    verdict = judge(fit, causes, apart, [one.name for one in every], members.scale_known)
+    verdict = judge(fit, causes, apart, [one.name for one in every], members.scale_known, odd)
     cause = next(iter(serving(causes)), None)
     fit = cause.fit if cause is not None else fit
     remarks = (*members.remarks, *remarks_at_temperatures(members), *_theories(members, fit))

@@ -87,6 +87,30 @@ def test_one_wrong_thermometer_is_named_and_the_material_is_not_blamed(more):
     assert "loss factor" not in words
 
 
+def with_row(made, at, place, **columns):
+    """The members with one reading of the one at a temperature changed."""
+
+    def changed(one):
+        values = {name: getattr(one.data, name).copy() for name in columns}
+        for name, times in columns.items():
+            values[name][place] *= times
+        return replace(one, data=replace(one.data, **values))
+
+    return [changed(one) if one.temperature_c == at else one for one in made]
+
+
+def test_one_wrong_row_is_named_before_material_or_temperatures_are_blamed(more):
+    words = identify_shifted(with_row(more, 20.0, 2, loss_factor=2.0), beam(), "wlf", REFERENCE).verdict.words
+    assert words.startswith("whether one shifted law serves cannot be told")
+    assert "at 20 degC mode 3 does not go with the others" in words
+
+
+def test_modes_that_are_numbered_wrongly_are_asked_about_at_once(more):
+    lost = [replace(one, data=replace(one.data, mode=one.data.mode + (one.data.mode > 1))) for one in more]
+    with pytest.raises(BadInput, match=r"beam 1\.csv: no core of its own .* expected another specimen"):
+        identify_shifted(lost, beam(), "wlf", REFERENCE)
+
+
 @pytest.mark.long
 def test_errors_that_nobody_states_refuse_no_material(more):
     unsaid = [
