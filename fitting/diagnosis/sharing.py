@@ -20,7 +20,9 @@ OF_EACH_CHAIN = ("phase",)
 """Of one accelerometer, or one hammer, against one laser: alike in all files that are driven alike."""
 OF_EACH_FILE = ("force",)
 """And in every file, its spots sharing them."""
-OF_EACH_PLATE = ("mass", "place", "damping", "length", "width", "axial")
+OF_EACH_KELVIN = ("axial",)
+"""The same, though the specimen stays where it is: what clamps pull goes with the temperature."""
+OF_EACH_PLATE = ("mass", "place", "damping", "length", "width")
 """And in every file, but of one plate that is struck, there or elsewhere: it was not mounted anew."""
 _SAME = 1e-3
 """Of the frequencies of two files' resonances, within which they are the same one."""
@@ -55,6 +57,8 @@ def shared(
                 key = (n.name, there[k])
             elif n.kind in OF_EACH_PLATE:
                 key = (n.name, there[mounted[k]].file)
+            elif n.kind in OF_EACH_KELVIN:
+                key = (n.name, of[k].file)
             elif n.kind in OF_EACH_FILE:
                 key = (n.name, there[k].file)
             if key not in keys:

@@ -12,6 +12,7 @@ from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.member_laws import by_all, law_at
 from fitting.diagnosis.of_files import OfFiles
 from fitting.diagnosis.response import SweepResponse
+from fitting.diagnosis.sharing import OF_EACH_KELVIN
 from fitting.diagnosis.unknowns import STATED_NUMBER
 from fitting.effects.base import Effect
 from fitting.effects.given import Points
@@ -23,7 +24,7 @@ from fitting.nuisance import Nuisance
 from fitting.nuisances import Nuisances
 
 OF_EACH_TABLE = ("mass", "length", "width", "damping")
-"""Kinds of stated numbers that are another one in every table, though they are stated alike."""
+"""Kinds of stated numbers that are another one in every specimen's table, though they are stated alike."""
 _STEP = 1e-4
 """Of differences, of an unknown's typical size."""
 
@@ -48,15 +49,19 @@ class ModalProblem:
         each: list[Nuisance] = []
         keys: dict[tuple[object, ...], int] = {}
         places = []
-        for m, number in zip(members, numbers, strict=True):
+        for table, (m, specimen) in enumerate(zip(members, numbers, strict=True), 1):
             at = []
             for n in m.stated.each:
-                apart = n.kind in OF_EACH_TABLE and len(set(numbers)) > 1
-                stated = _as_stated(m, n).stated
-                key: tuple[object, ...] = (n.name, number) if apart else (n.name, n.sigma, stated)
+                whose = None
+                if n.kind in OF_EACH_TABLE and len(set(numbers)) > 1:
+                    whose = specimen
+                elif n.kind in OF_EACH_KELVIN and len(members) > 1:
+                    whose = table
+                alike = (n.name, n.sigma, _as_stated(m, n).stated)
+                key = alike if whose is None else (n.name, whose)
                 if key not in keys:
                     keys[key] = len(each)
-                    each.append(replace(n, name=f"{n.name} [{number}]") if apart else n)
+                    each.append(n if whose is None else replace(n, name=f"{n.name} [{whose}]"))
                 at.append(keys[key])
             places.append(np.array(at, dtype=np.intp))
         return cls(tuple(members), tuple(each), tuple(places))

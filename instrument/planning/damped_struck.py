@@ -13,7 +13,7 @@ import numpy as np
 from fitting.diagnosis.of_files import OfFiles
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.sharing import CHANNELS, OF_EACH_FILE, OF_EACH_PLATE, OF_EACH_SPOT
+from fitting.diagnosis.sharing import CHANNELS, OF_EACH_FILE, OF_EACH_KELVIN, OF_EACH_PLATE, OF_EACH_SPOT
 from fitting.effects import CATALOGUE
 from fitting.effects.base import BASE, CLAMP, Effect
 from fitting.laws import CoreLaw
@@ -105,7 +105,7 @@ def _hung_free(
         replace(n, sigma=max(n.sigma, GAIN)) if n.kind == "gain" else n for n in there.nuisances.each
     )
     there = replace(there, nuisances=Nuisances(free, each))
-    new = frozenset({*OF_EACH_SPOT, *OF_EACH_FILE, *OF_EACH_PLATE})
+    new = frozenset({*OF_EACH_SPOT, *OF_EACH_FILE, *OF_EACH_KELVIN, *OF_EACH_PLATE})
     gone = frozenset(n for n, e in CATALOGUE.items() if _of_the_mounting(e))
     assert free.force_m is not None
     assert free.pickup_m is not None

@@ -8,7 +8,7 @@ import numpy as np
 from fitting.arrays import Array, Mask
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.sharing import OF_EACH_FILE, OF_EACH_PLATE, OF_EACH_SPOT
+from fitting.diagnosis.sharing import OF_EACH_FILE, OF_EACH_KELVIN, OF_EACH_PLATE, OF_EACH_SPOT
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.planning.candidates import resonances_hz
 from fitting.planning.elsewhere import read_elsewhere
@@ -43,7 +43,7 @@ _PAUSE_S = 60.0
 """Between two sweeps."""
 _BETWEEN = "Where nothing was read yet each explanation goes its own way."
 OF_THE_SPOT = frozenset({"spot_offset"})
-_OF_A_MOUNTING = frozenset({*OF_EACH_SPOT, *OF_EACH_FILE, *OF_EACH_PLATE})
+_OF_A_MOUNTING = frozenset({*OF_EACH_SPOT, *OF_EACH_FILE, *OF_EACH_KELVIN, *OF_EACH_PLATE})
 """Stated numbers that are other ones in a file of its own, as the joint fit has them."""
 _LEAST_HZ, _MOST_HZ = 5.0, 2000.0
 Place = tuple[float, float]

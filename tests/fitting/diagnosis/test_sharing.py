@@ -35,6 +35,13 @@ def test_mounted_anew_a_plate_has_another_length_in_each_file():
     assert said == ["gain [1]", "length [1]", "gain [2]", "length [2]"]
 
 
+def test_what_clamps_pull_is_of_each_file_though_the_specimen_stays():
+    one = member(numbers=(Nuisance("axial_x", "axial", 2e6), Nuisance("length", "length", 1e-3)))
+    object.__setattr__(one.specimen, "axial_pa", (0.0, None))
+    said = names([one, one, one], [Place(1), Place(2, 0), Place(2, 1)], (0, 0, 0))
+    assert said == ["axial_x [1]", "length", "axial_x [2]"]
+
+
 def test_spots_of_one_file_share_its_plate_and_not_their_gain():
     two = [member(), member()]
     numbers, places, owners = shared(two, [Place(1, 0), Place(1, 1)], (0, 0))

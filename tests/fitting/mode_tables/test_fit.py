@@ -8,6 +8,7 @@ from fitting.errors import OutsideModel, TooFewPoints
 from fitting.laws import LAWS
 from fitting.mode_tables.build import member_of, tapped, with_own_error
 from fitting.mode_tables.fit import fit_modes
+from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.table import ModalTable
 from fitting.plate import Plate
 from fitting.specimen import Core, Face, Specimen
@@ -54,6 +55,16 @@ def test_two_lengths_share_a_core_and_not_a_length():
     names = [one.name for one in found.adjusted]
     assert names.count("core_thickness") == 1
     assert {"length [1]", "length [2]"} <= set(names)
+
+
+def test_what_clamps_pull_is_of_each_table_though_the_beam_stays():
+    held = replace(beam(), boundary="clamped-clamped")
+    member = member_of(table(held, 3, np.random.default_rng(5)), held)
+    both = ModalProblem.of([member, member], [1, 1])
+    names = [n.name for n in both.each]
+    assert [n for n in names if n.startswith("axial")] == ["axial [1]", "axial [2]"]
+    assert names.count("length") == 1
+    assert [n.name for n in ModalProblem.of([member]).each if n.kind == "axial"] == ["axial"]
 
 
 def test_what_a_metal_may_lose_is_in_the_band_of_a_core_that_loses_little():
