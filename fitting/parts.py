@@ -216,8 +216,8 @@ def specimen_of(size: Array, layers: Array) -> Specimen:
     )
     thickness, _, poisson, density, _ = layers[2, :n].tolist()
     length, width, n_x, n_y = size.tolist()
-    x, y = layers[_ROWS - 1, [[1, 3], [2, 4]]].tolist() if len(layers) >= _ROWS else ([0, 0], [0, 0])
-    axial = x[1] if x[0] else None, y[1] if y[0] else None
+    both, by_x, by_y, x_pa, y_pa = layers[_ROWS - 1, :5].tolist() if len(layers) >= _ROWS else [0.0] * 5
+    axial = x_pa if by_x else None, y_pa if by_y else None
     plain = Specimen(length, width, "free", substrate, elements=(int(n_x), int(n_y)), axial_pa=axial)
     if not thickness:
         return plain
@@ -227,7 +227,7 @@ def specimen_of(size: Array, layers: Array) -> Specimen:
         plain,
         constraining=constraining,
         core=core,
-        both_sides=len(layers) >= _ROWS and bool(layers[_ROWS - 1, 0]),
+        both_sides=bool(both),
         patches=tuple(Patch(*row[: len(_PATCH)]) for row in layers[_ROWS:].tolist()),
     )
 
