@@ -93,11 +93,6 @@ class BeamDocument(TomlTable):
             raise ValueError("both_sides = true, expected [core]: a layer on either side")
         if self.beam.held_width and self.beam.boundary == "free-free":
             raise ValueError('held_width = true with boundary = "free-free", expected a held end')
-        pulled = self.tolerances is not None and self.tolerances.axial_mpa is not None
-        if pulled and self.beam.boundary != "clamped-clamped":
-            raise ValueError(
-                'tolerances.axial_mpa, expected boundary = "clamped-clamped": one clamp does not pull'
-            )
         self._driven()
         reach = self.beam.length_mm / (2 if self.beam.boundary == "centre-driven" else 1)
         if self.mass and self.beam.boundary == "centre-driven":

@@ -300,7 +300,13 @@ def test_effects_stand_where_there_is_what_they_need(coarse):
     names = {k: {n for n, e in CATALOGUE.items() if e.standing_on(s)} for k, s in plates.items()}
     base = {"absolute_velocity", "base_rocking", "base_roll", "fixture_resonance"}
     clamp = {"clamp_compliance", "clamp_friction", "clamp_line", "uneven_clamp", "treatment_not_gripped"}
-    elsewhere = {"fixture_transfer", "exponential_window", "outside_damping", "sensor_mounting"}
+    elsewhere = {
+        "fixture_transfer",
+        "exponential_window",
+        "outside_damping",
+        "sensor_mounting",
+        "axial_stress",
+    }
     assert names["coarse"] == set(CATALOGUE) - elsewhere
     assert names["struck"] - names["coarse"] == {"exponential_window"}
     assert names["coarse"] - names["struck"] == base | {"level_error"}

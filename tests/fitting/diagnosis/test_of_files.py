@@ -25,9 +25,9 @@ def test_a_clamp_may_be_another_one_in_each_file():
 
 def test_what_goes_with_time_goes_otherwise_in_every_file():
     forms = among(CATALOGUE["temperature_drift"], 2, ()).variants()
-    # What settles, what cycles, and what cycles unevenly.
-    assert [f.file for f in forms] == [f for f in (0, 1, 2, EACH) for _ in range(3)]
-    each = forms[-3]
+    # What settles, what steps in a pause, what cycles, and what cycles unevenly.
+    assert [f.file for f in forms] == [f for f in (0, 1, 2, EACH) for _ in range(4)]
+    each = forms[-4]
     assert [q.key for q in each.parameters] == [
         "warming",
         "time_constant",

@@ -155,7 +155,7 @@ def test_softening_settles_brick_by_brick():
 def test_an_effect_of_base_or_channels_shows(name):
     schedule, channel = few_points(), ChannelError()
     effect = HIDDEN[name].draw(np.random.default_rng(1), setting())
-    seen, clean = (clean_reading(h, schedule, channel) for h in ((effect,), ()))
+    seen, clean = (clean_reading(h, effect.paused(schedule), channel) for h in ((effect,), ()))
     off_axis = name == "base_roll"
     assert off_axis or np.abs(seen / clean - 1).max() > 2e-3
 

@@ -103,7 +103,6 @@ def test_what_it_carries_is_stated_as_of_a_plate(tmp_path):
             "",
             "area_percent: a beam has no such",
         ),
-        ("[tolerances]\naxial_mpa = 1.0\n", "clamped-free", "", "one clamp does not pull"),
         (
             '[[pickup]]\nx_mm = 10.0\n[[pickup]]\nx_mm = 20.0\nreads = "absolute"\n',
             *("clamped-free", "", "pickups that read relative and absolute"),
