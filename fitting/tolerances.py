@@ -57,7 +57,7 @@ _STATED = (
         "axial",
         "Pa",
         2e6,
-        "two clamps pull a beam along: a kelvin against its frame, or a hundredth of a "
+        "clamps on both sides pull it along: a kelvin against its frame, or a hundredth of a "
         "millimetre as they are tightened",
     ),
     StatedNumber("substrate_young_per_k", "1/K", 2e-4, "from steel to aluminium; stated, half of it"),

@@ -1,7 +1,6 @@
 """Clamps pull a beam or a plate along, or press it, by more than their tolerance."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 from fitting.arrays import Array, Complex
 from fitting.digits import two_digits
@@ -14,6 +13,7 @@ from fitting.effects.number_off import moved
 from fitting.effects.other_plates import changed_to, forces
 from fitting.effects.span import Span
 from fitting.specimen import Specimen
+from fitting.tolerances import moved as restated
 
 _STRESSES_PA = (-3e6, 20e6)
 """Whose motions are spanned. A choice."""
@@ -31,12 +31,7 @@ class Pulled(Span):
 
 def with_stress(specimen: Specimen, along: str, more_pa: float) -> Specimen:
     """The plate pulled by so much more, where clamps on opposite edges may pull it."""
-    x, y = specimen.axial_pa
-    if x is not None and along == "x":
-        x += more_pa
-    if y is not None and along == "y":
-        y += more_pa
-    return replace(specimen, axial_pa=(x, y))
+    return restated(specimen, [f"axial_{along}"], [more_pa]) if along in specimen.pulled_along else specimen
 
 
 def _stress(key: str) -> EffectParameter:

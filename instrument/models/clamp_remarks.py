@@ -1,8 +1,9 @@
 """What is to be said of how a specimen is held: clamps hold a beam's width, and two of them pull."""
 
 from fitting.digits import two_digits
-from fitting.specimen import Face, Specimen
+from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen, Beam
+from fitting.tolerances import tolerance
 
 _PULLED = 12.30 / 4.730**4
 """Of w^2, for N L^2/(E I): the first mode of a beam clamped at both ends (L^2 int phi'^2 over int phi^2;
@@ -21,33 +22,30 @@ def remarks_on_clamps(specimen: AnySpecimen) -> tuple[str, ...]:
 def _on_pulled_beam(beam: Beam) -> tuple[str, ...]:
     if "two clamps" not in beam.offers:
         return ()
-    within = "nothing, it is exact" if beam.exact else f"{two_digits(1e-6 * beam.tolerance('axial'))} MPa"
-    return (
-        _pulled("two clamps, and a kelvin between a beam and its frame, pull it", _faces(beam), beam.length_m)
-        + f"; allowed for is {within} (axial_mpa); clamp one end alone if you can",
-    )
+    return (_pulled("two clamps", beam, beam.length_m, beam.tolerance("axial")),)
 
 
 def _on_pulled_plate(plate: Specimen) -> tuple[str, ...]:
     """Where opposite edges are clamped, of the shorter way between them."""
-    x_0, y_0, x_1, y_1 = (edge == "clamped" for edge in plate.edges)
-    ways = [m for m, both in ((plate.length_m, x_0 and x_1), (plate.width_m, y_0 and y_1)) if both]
-    by_what = "clamps on opposite edges, and a kelvin between a plate and its frame, pull it"
-    return (f"{_pulled(by_what, _faces(plate), min(ways))}; that is not counted",) if ways else ()
+    sides = {"x": plate.length_m, "y": plate.width_m}
+    if not plate.pulled_along:
+        return ()
+    shorter = min(sides[along] for along in plate.pulled_along)
+    return (_pulled("clamps on opposite edges", plate, shorter, tolerance(plate, "axial")),)
 
 
-def _pulled(by_what: str, faces: list[Face], length_m: float) -> str:
+def _pulled(by_what: str, specimen: Beam | Specimen, length_m: float, tolerance_pa: float) -> str:
+    faces = [face for face in (specimen.substrate, specimen.constraining) if face is not None]
     thickness = sum(face.thickness_m for face in faces)
     rigidity = sum(face.young_pa * face.thickness_m**3 for face in faces) / 12
     higher = _PULLED / 2 * 1e6 * thickness * length_m**2 / rigidity
+    within = "nothing, it is exact" if specimen.exact else f"{two_digits(1e-6 * tolerance_pa)} MPa"
     return (
-        f"{by_what} or press it along: 1 MPa in its faces makes the first resonance up to "
-        f"{two_digits(100 * higher)} % higher, and looks like a stiffer core with less loss"
+        f"{by_what}, and a kelvin between a {specimen.kind} and its frame, pull it or press it "
+        f"along: 1 MPa in its faces makes the first resonance up to {two_digits(100 * higher)} % higher, and "
+        f"looks like a stiffer core with less loss; allowed for is {within} (axial_mpa); "
+        "clamp one end alone if you can"
     )
-
-
-def _faces(specimen: Beam | Specimen) -> list[Face]:
-    return [face for face in (specimen.substrate, specimen.constraining) if face is not None]
 
 
 def _on_held_width(beam: Beam) -> tuple[str, ...]:
