@@ -23,7 +23,7 @@ from fitting.placed import Masses, Placed, Points
 from fitting.specimen import PlacedMass, Specimen
 from fitting.tolerances import PLATE, moved
 
-_H = 1e-2
+STEP = 1e-2
 """Step of differences, in standard deviations."""
 _FELT = 0.3
 """Standard deviations from which a plate's derivatives to stated numbers are taken to vary."""
@@ -169,8 +169,8 @@ class Nuisances:
         by = {}
         for k in self._of_plate:
             up, down = z.copy(), z.copy()
-            up[k], down[k] = z[k] + _H, z[k] - _H
-            by[k] = (self._coefficients(up) - self._coefficients(down)) / (2 * _H)
+            up[k], down[k] = z[k] + STEP, z[k] - STEP
+            by[k] = (self._coefficients(up) - self._coefficients(down)) / (2 * STEP)
         # A loss makes some complex.
         found = np.zeros((len(self), len(self._stated)), np.result_type(self._stated, *by.values()))
         for k, row in by.items():

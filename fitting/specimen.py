@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from math import sin
 from typing import Literal, Protocol
 
+from fitting.arrays import Array
 from fitting.edges import Edges, edges_of, named
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
@@ -67,10 +68,10 @@ class Face:
     young_at_c: float = METAL_AT_C
     """The temperature that it is stated for."""
 
-    def warmed(self, temperature_c: float | None, by_per_k: float = 0.0) -> float:
+    def warmed(self, temperature_c: float | None, by_per_k: Array | float = 0.0) -> Array | float:
         """Factor on Young's modulus at a temperature, its change for a kelvin moved by so much.
 
-        None: as stated.
+        None: as stated. Shape of `by_per_k`.
         """
         if temperature_c is None:
             return 1.0

@@ -12,17 +12,22 @@ import scipy.sparse as sp
 from fitting.arrays import Array
 from fitting.effects.base import CLAMP, CONSTRAINED, WHOLE, Effect, EffectParameter
 from fitting.effects.change import Change
+from fitting.effects.clamp_compliance import YieldingRoot
 from fitting.effects.clamp_span import ClampSpan, on_a_rim
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.given import Points
+from fitting.effects.number_off import moved
 from fitting.effects.released_rim import clamped_edges, on_edge
 from fitting.effects.released_root import along_root, on_root
 from fitting.effects.span import Span
 from fitting.element import DOFS, U_C, V_C
+from fitting.specimen import StatedSpecimen
 
 _SPANNED = (1e6, 1e8, 4e8, 3e9)
 """N/m^2, from nearly free to nearly gripped."""
+_LEAST_M, _MOST = 1e-4, 0.1
+"""What a treatment may end short of a clamp by, in m and of the free length. Choices."""
 
 
 class FreeTreatment(ClampSpan):
@@ -69,6 +74,12 @@ class TreatmentNotGrippedEffect(Effect):
     def on(self, kind: str) -> Effect | None:
         return TreatmentOfBeamEffect() if kind == "beam" else super().on(kind)
 
+    def standing_on(self, specimen: StatedSpecimen) -> Effect | None:
+        form = super().standing_on(specimen)
+        if isinstance(form, TreatmentOfBeamEffect) and "two clamps" in specimen.offers:
+            return TreatmentOfBeamEffect(clamps=2)
+        return form
+
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return None if "treatment" in plate.group else "the plate has no clamp"
 
@@ -83,6 +94,53 @@ class TreatmentNotGrippedEffect(Effect):
 
 
 class TreatmentOfBeamEffect(TreatmentNotGrippedEffect):
-    """Of a sandwich beam: on one side, or alike on both."""
+    """Of a sandwich beam: on one side, or alike on both. It may end short of its clamps."""
 
     needs = CLAMP | CONSTRAINED
+
+    def __init__(self, clamps: int = 1) -> None:
+        self.clamps = clamps
+
+    def variants(self) -> tuple[Effect, ...]:
+        return (self, TreatmentEndsShortEffect(self.clamps))
+
+
+class TreatmentEndsShortEffect(TreatmentOfBeamEffect):
+    """A bare strip of the substrate holds the sandwich at every clamp (`structures.beam_strip`).
+
+    The sandwich is shorter by it, its constraining layer free. A thick one takes no bending right at its end
+    either: what is found is then longer than what is bare.
+    """
+
+    source = "consistent matrices of an Euler-Bernoulli strip, e.g. Cook et al., Concepts of Finite Elements"
+    parameters = (EffectParameter("gap", "m", 0.0, 0.03, 3e-3, spread=5e-3),)
+    spans = (YieldingRoot(),)
+
+    def variants(self) -> tuple[Effect, ...]:
+        return (self,)
+
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
+        return [np.array([g]) for g in (1e-3, 5e-3)]
+
+    def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
+        lower, upper = super().limits(plate)
+        return np.maximum(lower, _LEAST_M), np.minimum(upper, _MOST * plate.length_m)
+
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
+        g = float(u[0])
+        shorter = 1 - self.clamps * g / plate.length_m
+
+        def of(key: str) -> Array:
+            return plate.matrix(f"root.strip_{key}")
+
+        # Turns are slopes of the beam as long as it is stated.
+        spring = of("spring_3") / g**3 + of("spring_2") / g**2 / shorter + of("spring_1") / g / shorter**2
+        mass = g * of("mass_1") + g**2 * of("mass_2") / shorter + g**3 * of("mass_3") / shorter**2
+        lift = g * plate.vector("root.strip_lift_1") + g**2 * plate.vector("root.strip_lift_2") / shorter
+        x, y = plate.pickup
+        observe = plate.row((x - g) / shorter, y) - plate.pickup_row
+        own = moved(plate, {"span": -self.clamps * g})
+        return own.and_then(Change(K=spring + of("slide") / g, M=mass, load=lift, observe=observe))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"core and constraining layer end {1e3 * u['gap']:.1f} mm short of the clamp"

@@ -73,24 +73,31 @@ def problem_of(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -
 
 
 def begin_modal(
-    problem: ModalProblem, start: CoreLaw, *, scale_known: bool = True, however_few: bool = False
+    problem: ModalProblem,
+    start: CoreLaw,
+    *,
+    scale_known: bool = True,
+    however_few: bool = False,
+    per_dof: float = np.inf,
 ) -> BegunModal:
     """The best law without any effect. Raises `TooFewPoints`, `OutsideModel`.
 
     `however_few`: modes that do not carry a law by themselves too, what they leave open as in `start`, which
-    is near.
+    is near. Ends early where a chi-square per degree of `per_dof` is out of reach.
     """
     count = 2 * len(problem.frequency_hz)
     if count <= len(start.plain.names) and not however_few:
         raise TooFewPoints(_too_few(problem, start))
     u = np.zeros(len(problem.each))
     none, problem = _roughly(problem, start, u, (1.0,) if however_few else _SOFTER_AND_STIFFER)
+    # Numbers and bend of what is right ask for about one each.
+    goal = per_dof * max(none.data - none.parameter_count, 1) + len(u) + none.law.bend_count
     for _ in range(_ROUNDS):
         evidence = problem.evidence(scale_known=scale_known)
         before = none.law.modulus(2 * np.pi * problem.frequency_hz)
-        none = refit(problem.response(), evidence, none.law, none.u)
+        none = refit(problem.response(), evidence, none.law, none.u, goal=goal)
         after = none.law.modulus(2 * np.pi * problem.frequency_hz)
-        if none.converged and np.max(np.abs(after / before - 1)) < ROUGH:
+        if (none.converged and np.max(np.abs(after / before - 1)) < ROUGH) or not none.may_reach(goal):
             break
         problem = problem.around(none.law)
     return BegunModal(problem, evidence, none, start)

@@ -11,7 +11,7 @@ What is stated, and what it makes of the matrices' coefficients; the matrices th
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -29,13 +29,18 @@ from fitting.structures.beam_error import (
 )
 from fitting.structures.beam_parts import carrying, parts_of
 from fitting.structures.beam_section import PARTS, BeamSection
-from fitting.structures.small import Parts
+from fitting.structures.small import Parts, as_coefficients
 from fitting.tolerances import OF_TEMPERATURE, STATED, STATED_PER_K
 
 Ends = Literal["clamped-free", "free-free", "clamped-clamped", "centre-driven"]
 
 _HELD_ENDS = {"clamped-free": 1, "free-free": 0, "clamped-clamped": 2, "centre-driven": 1}
 """Of one piece."""
+Number = Any
+"""Of one beam, or of many at once: real or complex."""
+Layer = dict[str, Number]
+"""What is stated of one, moved."""
+
 _BY_PLACE = 4.0
 """What a share of the span off is to a mass, relative: twice the slope of a cantilever's first modes at its
 tip, 1.4 and 4.8."""
@@ -222,11 +227,12 @@ class Beam:
         """How many pieces move alike."""
         return 2 if self.boundary == "centre-driven" else 1
 
-    def coefficients(self, by: Mapping[str, float]) -> Complex:
+    def coefficients(self, by: Mapping[str, Number]) -> Complex:
         """Of the parts of `beam_shapes.BeamMatrices`, of what it carries, and the loads. Shape (37 or more,).
 
-        Four of the faces' stiffness, as much of it as clamps hold, what pulls along, 14 of the core, 13 of
-        inertia; a mass is part of the inertia, and a load where the base drives.
+        Of many beams at once (37 or more, beams), `by` of shape (beams,) each. Four of the faces' stiffness,
+        as much of it as clamps hold, what pulls along, 14 of the core, 13 of inertia; a mass is part of the
+        inertia, and a load where the base drives.
         """
         b, c, v = (self._moved(name, by) for name in ("substrate", "constraining", "core"))
         span = self.span_m
@@ -241,24 +247,20 @@ class Beam:
         # Bending of a beam alike on both sides: its middle does not stretch, and every coating counts twice.
         twice = 2 if self.is_doubled else 1
         m_c, m_v = twice * m_c, (twice if c else 1) * m_v
-        bending = np.array([E_b * h_b**3, twice * E_c * h_c**3]) / 12 / L**3
-        K_0 = np.array([E_b * h_b / L, twice * E_c * h_c / L, *bending])
-        slip, free, apart, moved_apart = np.zeros(3), np.zeros(3), np.zeros(8), [0.0] * 7
+        K_0 = [E_b * h_b / L, twice * E_c * h_c / L]
+        K_0 += [E_b * h_b**3 / 12 / L**3, twice * E_c * h_c**3 / 12 / L**3]
+        slip, free, apart, moved_apart = ([0.0] * n for n in (3, 3, 8, 7))
         d, e = H + (h_b + h_c) / 2, (h_c - h_b) / 2
         if v and c:
-            slip = twice * np.array([L / H, d / H, d**2 / H / L])
+            slip = [twice * L / H, twice * d / H, twice * d**2 / H / L]
             # What w_b = w - share a and w_c = w + (1 - share) a add to it: the mean, and the change across.
             share = self._share
             more = (h_c + H) / 2 * (1 - share) - (h_b + H) / 2 * share
             stretch = L / H * np.exp(-by.get("core_stretch", 0.0))
-            apart = twice * np.array(
-                [
-                    *(more / H, more * d / H / L, (more**2 / H + H / 12) / L),
-                    # m rises as a parabola between the faces: two thirds on the average, 8/15 its square.
-                    *(2 / 3, 2 / 3 * d / L, 2 / 3 * more / L, 8 / 15 * H / L),
-                    0 if self.slender else stretch,
-                ]
-            )
+            by_slip = [more / H, more * d / H / L, (more**2 / H + H / 12) / L]
+            # m rises as a parabola between the faces: two thirds on the average, 8/15 its square.
+            by_rising = [2 / 3, 2 / 3 * d / L, 2 / 3 * more / L, 8 / 15 * H / L]
+            apart = [twice * x for x in (*by_slip, *by_rising, 0.0 if self.slender else stretch)]
             # What its two faces differ by turns it.
             turned = 0.0 if self.slender else m_v / 12
             turning = m_v / 4 * e**2 + turned * (d - H) ** 2 + self._turning(b, c, v)
@@ -274,19 +276,20 @@ class Beam:
             sides = 2 if self.both_sides else 1
             low, high = h_b / 2, h_b / 2 + H
             first = 0.0 if self.both_sides else (high**2 - low**2) / 2
-            moments = np.array([sides * H, first, sides * (high**3 - low**3) / 3])
-            free = self._young_per_shear * moments / np.array([L, L**2, L**3])
+            moments = (sides * H, first, sides * (high**3 - low**3) / 3)
+            free = [self._young_per_shear * x / L**n for n, x in enumerate(moments, 1)]
             inertia = [0.0, 0.0, self._turning(b, c, v) / L]
             mass = m_b + sides * m_v
-        M = np.array([mass * L, m_b * L, m_c * L, *inertia, *(x * L for x in moved_apart)])
+        M = [mass * L, m_b * L, m_c * L, *inertia, *(x * L for x in moved_apart)]
         load = width * mass * L if self.force_m is None else 1.0
-        carried = np.array([m.mass_kg for m in self.masses]) * np.exp(by.get("mass", 0.0))
-        pull = [by.get("axial", 0.0) * (h_b + twice * h_c) / L]
-        own = width * np.concatenate([K_0, held * K_0, pull, slip, free, apart, M])
+        heavier = np.exp(by.get("mass", 0.0))
+        carried = [m.mass_kg * heavier for m in self.masses]
+        pull = by.get("axial", 0.0) * (h_b + twice * h_c) / L
+        own = [*K_0, *(held * k for k in K_0), pull, *slip, *free, *apart, *M]
         loads = [load, *(carried if self.force_m is None else ())]
-        return np.concatenate([own, carried, loads]).astype(complex)
+        return as_coefficients([*(width * x for x in own), *carried, *loads])
 
-    def _turning(self, b: dict[str, float], c: dict[str, float], v: dict[str, float]) -> float:
+    def _turning(self, b: Layer, c: Layer, v: Layer) -> Number:
         """Inertia of what turns with the sections, per area: of layers about their own middles, in kg."""
         if self.slender:
             return 0.0
@@ -295,8 +298,8 @@ class Beam:
         found = sum(n * x["density"] * x["thickness"] ** 3 / 12 for n, x in own)
         if v and not c:
             low, high = b["thickness"] / 2, b["thickness"] / 2 + v["thickness"]
-            found += sides * v["density"] * (high**3 - low**3) / 3
-        return float(found)
+            found = found + sides * v["density"] * (high**3 - low**3) / 3
+        return found
 
     @property
     def _young_per_shear(self) -> float:
@@ -352,7 +355,7 @@ class Beam:
         bending = (K_0[2] + K_0[3]) * L**3 + G * K_1[5] * L**3 - (G * K_1[4] * L**2) ** 2 / axial
         return free_layer_error(bending, mass, self._poisson * self.width_m, frequency_hz)
 
-    def _moved(self, name: str, by: Mapping[str, float]) -> dict[str, float]:
+    def _moved(self, name: str, by: Mapping[str, float | Array]) -> Layer:
         layer = getattr(self, name)
         if layer is None:
             return {}
@@ -361,9 +364,10 @@ class Beam:
             "thickness": layer.thickness_m,
             "density": layer.density_kg_m3,
         }
-        found = {key: value * float(np.exp(by.get(f"{name}_{key}", 0.0))) for key, value in values.items()}
+        found: Layer = {k: value * np.exp(by.get(f"{name}_{k}", 0.0)) for k, value in values.items()}
         if isinstance(layer, Face):
-            found["young"] *= layer.warmed(self.temperature_c, by.get(f"{name}_young_per_k", 0.0))
+            warmed = layer.warmed(self.temperature_c, by.get(f"{name}_young_per_k", 0.0))
+            found["young"] = found["young"] * warmed
             found["loss"] = layer.loss_factor + by.get("metal_loss", 0.0)
         return found | {"poisson": layer.poisson}
 
@@ -416,9 +420,9 @@ class Beam:
         return getattr(getattr(self, layer), name), factor, unit
 
 
-def _of_face(face: dict[str, float]) -> tuple[complex, float, float]:
+def _of_face(face: Layer) -> tuple[Number, Number, Number]:
     """E (1 + i eta), h and mass per area; zero for none."""
     if not face:
         return 0.0, 0.0, 0.0
-    young = face["young"] * (1 + 1j * face["loss"]) if face["loss"] else face["young"]
+    young = face["young"] * (1 + 1j * face["loss"]) if np.any(face["loss"]) else face["young"]
     return young, face["thickness"], face["density"] * face["thickness"]

@@ -31,6 +31,7 @@ from fitting.structures.beam_shapes import (
     slip_by_pieces,
     square,
 )
+from fitting.structures.beam_strip import loads_of_strip, strip
 from fitting.structures.beam_uneven import THICKER, loads_of_uneven, uneven, where_uneven
 from fitting.structures.beam_width import (
     PLACES,
@@ -170,11 +171,13 @@ def parts_of(section: BeamSection, pickup: float | None, force: float | None) ->
 
 
 def _loads(section: BeamSection, V: Array, lifted: Array, *, by_base: bool) -> dict[str, Array]:
-    """How much more a base that moves drives, `V` the columns: air that goes along, an uneven core's mass.
+    """How much more a base drives, `V` the columns: air that goes along, an uneven core's mass, a strip's.
 
     Shape (k,) each; zero where a force drives.
     """
     found = {"air.load": _air_kg_m(section) * section.length_m * lifted} | loads_of_uneven(section, V)
+    if section.is_sandwich and section.shapes.held_ends:
+        found |= {f"root.strip_{name}": load for name, load in loads_of_strip(section, V).items()}
     return {name: load * by_base for name, load in found.items()}
 
 
@@ -284,6 +287,7 @@ def _asked_for(section: BeamSection) -> dict[str, Array]:
     if s.held_ends:
         ends = s.rows("c", np.array(s.held_ends))
         found["treatment.hold"] = sides * width * ends @ ends.T
+        found |= {f"root.strip_{key}": A for key, A in strip(section).items()}
     if section.is_doubled:
         return found
     by_pieces = np.einsum("p,kpij->kij", section.coefficients[SLIP], slip_by_pieces(section.ends))

@@ -21,7 +21,7 @@ from numpy.polynomial import Legendre
 from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import BaseDriven, Core, Reading
-from fitting.structures.small import Parts
+from fitting.structures.small import Parts, as_coefficients
 from fitting.tolerances import STATED
 
 ORDER = 6
@@ -116,16 +116,16 @@ class ShearPair(BaseDriven):
             pickup_m=(0.0, 0.0),
         )
 
-    def coefficients(self, by: Mapping[str, float]) -> Complex:
-        """N A/t over the bending's share; mass and rubber; both again as loads. Shape (5,)."""
+    def coefficients(self, by: Mapping[str, float | Array]) -> Complex:
+        """N A/t over the bending's share; mass and rubber; both again as loads. Shape (5,), or (5, pairs)."""
         area = self.discs * self.area_m2 * np.exp(by.get("area", 0.0))
         t = self.core.thickness_m * np.exp(by.get("core_thickness", 0.0))
         mass = self.mass_kg * np.exp(by.get("mass", 0.0))
         rubber = self.core.density_kg_m3 * np.exp(by.get("core_density", 0.0)) * area * t
         stiff = 1 - self.softer_by_edges * np.exp(by.get("core_thickness", 0.0)) if self.edges else 1.0
-        stiff *= np.exp(by.get("free_edges", 0.0))
+        stiff = stiff * np.exp(by.get("free_edges", 0.0))
         softer = self.softer_by_bending * np.exp(2 * by.get("core_thickness", 0.0)) if self.bending else 0.0
-        return np.array([stiff * area / t / (1 + softer), mass, rubber, mass, rubber], complex)
+        return as_coefficients([stiff * area / t / (1 + softer), mass, rubber, mass, rubber])
 
     def tolerance(self, name: str) -> float:
         """Named, else typical; of `free_edges` what is not counted of them, or what the count leaves open."""

@@ -7,7 +7,7 @@ same kind of object as the widened reduced plate (`fitting.effects.enriched_plat
 unknowns themselves, in groups where some are for an effect alone.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Protocol
@@ -20,7 +20,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate, Names
 from fitting.errors import OutsideModel
 from fitting.model_error import ModelError
 from fitting.nuisance import Nuisance, channels_felt
-from fitting.nuisances import Nuisances, Spot
+from fitting.nuisances import STEP, Nuisances, Spot
 from fitting.placed import Placed
 from fitting.specimen import StatedSpecimen
 
@@ -74,10 +74,11 @@ class SmallSpecimen(StatedSpecimen, Protocol):
     def parts(self) -> Parts:
         """Its matrices for unit coefficients."""
 
-    def coefficients(self, by: Mapping[str, float]) -> Complex:
+    def coefficients(self, by: Mapping[str, float | Array]) -> Complex:
         """Of the parts of K_0, K_1, M and the load in this order, its numbers moved. Shape (parts,).
 
-        `by` gives changes of the numbers, relative ones in the logarithm.
+        `by` gives changes of the numbers, relative ones in the logarithm; of many structures at once shape
+        (many,) each, and (parts, many) is returned.
         """
 
     def tolerance(self, name: str) -> float:
@@ -128,6 +129,17 @@ class SmallNuisances(Nuisances):
         """As `by_coefficients_there`: they are cheap. Shape (count, parts + 1)."""
         return self.by_coefficients_there(z)
 
+    def _differences(self, z: Array) -> Array:
+        # All at once: one by one they took a fifth of a beam's diagnosis.
+        count = len(self._of_plate)
+        by = {self.each[k].name: np.full(2 * count, self._sigma[k] * z[k]) for k in self._of_plate}
+        for n, k in enumerate(self._of_plate):
+            by[self.each[k].name][[n, count + n]] += self._sigma[k] * STEP * np.array([1.0, -1.0])
+        c = np.asarray(_real_where_it_is(self.specimen.coefficients(by)))
+        found = np.zeros((len(self), len(c)), np.result_type(c))
+        found[self._of_plate] = (c[:, :count] - c[:, count:]).T / (2 * STEP)
+        return found
+
     def _load(self, plate: EnrichedReducedPlate, c: Array) -> Array:
         # Their sign is in the parts.
         return np.asarray(c[sum(self.counts) :].real @ plate.load_part)
@@ -157,6 +169,14 @@ class SmallNuisances(Nuisances):
 
     def _spot(self, spot: Spot, z: Array) -> Placed:
         return self._points.at((self.specimen.places[spot], 0.0), spot, z)
+
+
+def as_coefficients(rows: Sequence[Array | complex]) -> Complex:
+    """Of one structure, numbers to (parts,); of many at once, (many,) each or one for all, (parts, many)."""
+    found = np.empty((len(rows), *np.broadcast_shapes(*(np.shape(row) for row in rows))), complex)
+    for k, row in enumerate(rows):
+        found[k] = row
+    return found
 
 
 def _real_where_it_is(c: Complex) -> Complex | Array:

@@ -11,7 +11,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fitting.errors import FittingError
-from fitting.mode_tables.fit import fit_modes
+from fitting.mode_tables.fit import begin_modal, problem_of, start_of
 from fitting.mode_tables.table import ModalTable
 from fitting.structures import AnySpecimen
 from instrument.progress import Progress, quiet
@@ -43,9 +43,13 @@ def table_doubt(
     gross = chi2_per_dof > _GROSS
     with progress("reading the modes otherwise"), threadpool_limits(1, "blas"), np.errstate(all="ignore"):
         for some in _readings(tables, gross=gross):
-            left, words, part = min((_left(other, specimens), words, part) for words, other, part in some)
-            enough = numbers * (chi2_per_dof - left) > _BETTER and left < part * chi2_per_dof
-            if enough and left < _FITS:
+            most = [min(part * chi2_per_dof, _FITS) for *_, part in some]
+            each = [
+                (_left(one[1], specimens, limit), limit, one[0])
+                for one, limit in zip(some, most, strict=True)
+            ]
+            left, limit, words = min(each)
+            if numbers * (chi2_per_dof - left) > _BETTER and left < limit:
                 return (
                     f"the modes follow a law far better (chi-square per degree {left:.2g}, not "
                     f"{chi2_per_dof:.2g}) if {words}: is it so?"
@@ -53,10 +57,11 @@ def table_doubt(
     return ""
 
 
-def _left(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> float:
-    """Chi-square per degree."""
+def _left(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen], most: float) -> float:
+    """Chi-square per degree, followed as long as it may come down to `most`."""
     try:
-        return float(fit_modes(tables, specimens).uncertainty.chi2_per_dof)
+        problem, start = problem_of(tables, specimens), start_of(tables, specimens)
+        return float(begin_modal(problem, start, per_dof=most).none.chi2_per_dof)
     except FittingError:
         return float("inf")
 

@@ -89,11 +89,15 @@ class LayeredSolid:
     @cached_property
     def M(self) -> sp.csr_array:
         """Mass."""
-        plane = sp.kron(self.x.integral(0, 0), self.y.integral(0, 0))
-        through = sum(
-            s.density_kg_m3 * self.z.integral(0, 0, self._within(k)) for k, s in enumerate(self.sheets)
-        )
-        return (self._times * sp.kron(sp.kron(plane, through), np.eye(3))).tocsr()
+        across, parts = self.y.integral(0, 0), []
+        for k, s in enumerate(self.sheets):
+            plane = sp.kron(self.x.integral(0, 0, None, self.there(k)), across)
+            parts.append(s.density_kg_m3 * sp.kron(plane, self.z.integral(0, 0, self._within(k))))
+        return (self._times * sp.kron(sum(parts[1:], parts[0]), np.eye(3))).tocsr()
+
+    def there(self, sheet: int) -> Callable[[Array], Array] | None:
+        """How much of a layer is there, a function of x, shape of x; None: all of it."""
+        return None
 
     @cached_property
     def rigid(self) -> Array:

@@ -25,6 +25,8 @@ _NEAR_ROOT = (0.4, 1.5)
 """Of the stack's height: where fine pieces end."""
 _SLIVER = 0.3
 """Of a piece: its end so near to one that is asked for gives way to it."""
+_GONE = 1e-5
+"""Of stiffness and mass, what stands for nothing: alike, so that what is left vibrates no lower."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,8 @@ class BeamBuild:
     """Heights between which a rigid clamp holds; None: all of it."""
     core_factor: Callable[[Array], Array] | None = None
     """On the core's moduli, of x."""
+    treatment_from_m: float | None = None
+    """How far from a clamp all but the substrate begins; None: at it."""
     lines_x_m: tuple[float, ...] = ()
     """Where pieces shall end."""
 
@@ -98,7 +102,11 @@ class SolidBeam(LayeredSolid):
         if stated.ends == "clamped-clamped":
             fine.append(L - near)
         ends = np.unique(np.concatenate([np.linspace(0, L, pieces + 1), *fine]))
-        asked = np.array([x for x in self.build.lines_x_m if 0 < x < L])
+        lines = self.build.lines_x_m
+        if self.build.treatment_from_m:
+            begin = self.build.treatment_from_m
+            lines = (*lines, begin, *((L - begin,) if stated.ends == "clamped-clamped" else ()))
+        asked = np.array([x for x in lines if 0 < x < L])
         if asked.size:
             apart = np.abs(ends[:, None] - asked).min(axis=1) > _SLIVER * L / pieces
             ends = np.unique(np.concatenate([ends[apart | (ends == 0) | (ends == L)], asked]))
@@ -113,8 +121,17 @@ class SolidBeam(LayeredSolid):
 
     def face(self, sheet: int) -> sp.csr_array:
         """Stiffness of a layer that is not viscoelastic, pulled along as it is. Shape (size, size)."""
-        own = self.stiffness(sheet)
+        own = self.stiffness(sheet, along_x=self.there(sheet))
         return own + self.stated.axial_pa * self.turned(sheet) if self.stated.axial_pa else own
+
+    def there(self, sheet: int) -> Callable[[Array], Array] | None:
+        """How much of a layer is there, a function of x, shape of x; None: all of it."""
+        begin, end = self.build.treatment_from_m, self.stated.span_m
+        if not begin or sheet == self.stated.substrate:
+            return None
+        if self.stated.ends == "clamped-clamped":
+            end -= begin
+        return lambda x: np.where((x > begin) & (x < end), 1.0, _GONE)
 
     @cached_property
     def core(self) -> sp.csr_array:
@@ -125,7 +142,7 @@ class SolidBeam(LayeredSolid):
         """The same times a further factor of x. Shape (size, size)."""
         own = self.build.core_factor
         both = factor if own is None else lambda x: own(x) * factor(x)
-        parts = [self.stiffness(k, along_x=both) for k in self.stated.cores]
+        parts = [self.stiffness(k, along_x=_product(both, self.there(k))) for k in self.stated.cores]
         return sum(parts[1:], parts[0])
 
     @cached_property
@@ -162,3 +179,9 @@ class SolidBeam(LayeredSolid):
                 held[node, :, gripped] = True
         held[:, 0, :, 1] = True
         return np.flatnonzero(~held.ravel())
+
+
+def _product(
+    one: Callable[[Array], Array], other: Callable[[Array], Array] | None
+) -> Callable[[Array], Array]:
+    return one if other is None else lambda x: one(x) * other(x)

@@ -93,9 +93,12 @@ class HiddenClampLine(HiddenInBeam):
 
 @dataclass(frozen=True)
 class HiddenTreatmentNotGripped(HiddenInBeam):
-    """The clamp holds the substrate alone; core and constraining layer end at it, free."""
+    """The clamp holds the substrate alone; core and constraining layer end at it, or short of it, free."""
 
     name: ClassVar[str] = "treatment_not_gripped"
+
+    begins_m: float = 0.0
+    """Distance of the treatment from the clamp."""
 
     @classmethod
     def able(cls, beam: TrueBeam) -> bool:
@@ -103,10 +106,11 @@ class HiddenTreatmentNotGripped(HiddenInBeam):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTreatmentNotGripped":
-        return cls()
+        return cls(0.0 if rng.random() < 0.5 else float(rng.uniform(1e-3, 8e-3)))
 
     def build(self, build: BeamBuild, true: TrueBeam) -> BeamBuild:
-        return replace(build, gripped_m=true.solid.heights_m(true.solid.substrate))
+        gripped = true.solid.heights_m(true.solid.substrate)
+        return replace(build, gripped_m=gripped, treatment_from_m=self.begins_m or None)
 
 
 @dataclass(frozen=True)
