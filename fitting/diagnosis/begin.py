@@ -55,8 +55,13 @@ def begin(
     bare: BareModes | None,
     start: CoreLaw,
     executor: Executor = ALONE,
+    *,
+    to_its_end: bool = True,
 ) -> Begun:
-    """The fit without any effect, and the evidence all candidates are judged by."""
+    """The fit without any effect, and the evidence all candidates are judged by.
+
+    `to_its_end`: as far as is reported; else as far as fits are compared.
+    """
     sweep = problem.sweep
     start = start.to_fit(sweep.frequency_hz)
     points, every = problem.points, np.arange(len(sweep))
@@ -98,7 +103,9 @@ def begin(
         v = model.velocity(law)
         if problem.errs_as_found:
             problem, v = problem.as_found(none.z), none.velocity_m_s
-    return Begun(here, problem.plate, evidence, followed(here, evidence, none, executor), first)
+    if to_its_end:
+        none = followed(here, evidence, none, executor)
+    return Begun(here, problem.plate, evidence, none, first)
 
 
 def _from_elsewhere(

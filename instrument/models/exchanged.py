@@ -77,7 +77,7 @@ def _left(files: Sequence[File]) -> float:
     """What one law leaves of all readings, rms of their size."""
     work = FilesAtWork(files, quiet, with_effects=False)
     problem, noise = work.problem()
-    return _left_by(begin(problem, None, noise, None, work.start))
+    return _left_by(begin(problem, None, noise, None, work.start, to_its_end=False))
 
 
 def _left_by(begun: Begun) -> float:

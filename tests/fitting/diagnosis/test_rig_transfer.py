@@ -42,17 +42,22 @@ def test_what_all_masses_have_in_common_is_found_and_leaves_the_law():
     assert law_error(after.none.law).max() < 0.4 * law_error(begun.none.law).max()
 
 
-def test_it_is_found_within_a_percent():
+@pytest.mark.parametrize(
+    ("first_seeds", "within"),
+    # One draw of noise may leave twice as much.
+    [((0,), 0.02), pytest.param((0, 10, 20), 0.01, marks=pytest.mark.long)],
+    ids=["one draw", "three draws"],
+)
+def test_it_is_found_within_a_percent_or_so(first_seeds, within):
     off = []
-    for first_seed in (0, 10, 20):
+    for first_seed in first_seeds:
         problem, noise = task(sweeps_of_masses(120, alike=True, first_seed=first_seed))
         begun = begin(problem, None, noise, None, LAW)
         found = rig_transfer(begun.problem, begun.evidence, begun.none)
         f = problem.sweep.frequency_hz
         wrong = (found.ln_g - np.log(fixture_factor(f)))[(f > 100) & (f < 400)]
         off.append(np.sqrt(np.mean(np.abs(wrong) ** 2)))
-    # One draw of noise may leave twice as much.
-    assert np.median(off) < 0.01
+    assert np.median(off) < within
 
 
 def test_files_that_wander_each_by_itself_have_nothing_in_common():

@@ -72,9 +72,9 @@ def test_of_many_lines_some_are_looked_at(monkeypatch):
     looked = []
     begun = exchange.begin
 
-    def counted(problem, *more):
+    def counted(problem, *given, **how):
         looked.append(len(problem.sweep))
-        return begun(problem, *more)
+        return begun(problem, *given, **how)
 
     monkeypatch.setattr(exchange, "begin", counted)
     assert exchanged(many) is not None
