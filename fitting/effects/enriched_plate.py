@@ -124,7 +124,8 @@ class EnrichedReducedPlate:
             vectors=self.vectors[kept_vectors],
         )
         taken = on_fewer._keeping(np.flatnonzero(np.isin(self.group, list(groups))))
-        return taken._independent() if len(spans) > 1 else taken
+        overlap = len(spans) > 1 or any(s.overlaps for s in spans)
+        return taken._independent() if overlap else taken
 
     @cached_property
     def roughly(self) -> "EnrichedReducedPlate":

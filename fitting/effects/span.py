@@ -15,6 +15,8 @@ class Span:
     name: str
     odd: bool = False
     """Whether it couples to motions odd in y."""
+    overlaps: bool = False
+    """Whether its motions hold some of the plate's own: a condensed plate has lost those."""
     columns: int = 40
     """At most as many of either parity."""
 

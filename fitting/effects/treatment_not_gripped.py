@@ -93,10 +93,18 @@ class TreatmentNotGrippedEffect(Effect):
         return f"the clamp hardly holds the constraining layer ({u['k']:.2g} N/m^2 in its plane)"
 
 
+class LetGo(Span):
+    """What a beam's treatment does at its clamps, and all that follows."""
+
+    name = "treatment"
+    overlaps = True
+
+
 class TreatmentOfBeamEffect(TreatmentNotGrippedEffect):
     """Of a sandwich beam: on one side, or alike on both. It may end short of its clamps."""
 
     needs = CLAMP | CONSTRAINED
+    spans: tuple[Span, ...] = (LetGo(),)
 
     def __init__(self, clamps: int = 1) -> None:
         self.clamps = clamps
@@ -108,13 +116,12 @@ class TreatmentOfBeamEffect(TreatmentNotGrippedEffect):
 class TreatmentEndsShortEffect(TreatmentOfBeamEffect):
     """A bare strip of the substrate holds the sandwich at every clamp (`structures.beam_strip`).
 
-    The sandwich is shorter by it, its constraining layer free. A thick one takes no bending right at its end
-    either: what is found is then longer than what is bare.
+    The sandwich is shorter by it, its constraining layer free: it neither stretches nor bends at its end.
     """
 
     source = "consistent matrices of an Euler-Bernoulli strip, e.g. Cook et al., Concepts of Finite Elements"
     parameters = (EffectParameter("gap", "m", 0.0, 0.03, 3e-3, spread=5e-3),)
-    spans = (YieldingRoot(),)
+    spans = (YieldingRoot(), LetGo())
 
     def variants(self) -> tuple[Effect, ...]:
         return (self,)

@@ -4,7 +4,7 @@ A sound beam is fitted on its modes at a few moduli of the core. Effects let it 
 further columns stand beside them, in groups:
 
     root        motions of a held end that yields
-    treatment   those of a treatment that the clamp does not hold
+    treatment   those of a treatment that the clamp does not hold, the substrate held
     faces       the faces stretching against each other otherwise than in the proportion of their stated
                 stiffness, as they do where one of them is stiffer than stated
 
@@ -55,6 +55,8 @@ _APART = 1e-5
 """Of the faces' own stretching: what their modes have already."""
 _PARTED = 1e-5
 """Of how far faces part by themselves."""
+_LET_GO_PA, _LET_GO = np.geomspace(1e5, 3e9, 8), 1e-4
+"""Moduli that a treatment is let go at, and what each of its columns adds at least, relative. Choices."""
 
 
 def _summed(section: BeamSection, which: str) -> Array:
@@ -217,13 +219,39 @@ def _columns(section: BeamSection) -> tuple[NDArray[np.str_], Array, Array]:
     size = np.zeros(s.size)
     size[moves] = 1 / np.sqrt(np.diag(_summed(section, "M"))[moves])
     own = _own(section, size)
-    let_go = np.flatnonzero(moves & ~s.is_held)
-    above = let_go[np.isin(let_go, np.arange(s.size)[s.place["c"]])]
-    beside = [("faces", _faces_apart(section, own, size))]
-    beside += [(name, np.diag(size)[:, at]) for name, at in (("root", let_go), ("treatment", above))]
+    root = np.diag(size)[:, moves & ~s.is_held & ~section.of_core]
+    beside = [("faces", _faces_apart(section, own, size)), ("root", root)]
+    beside.append(("treatment", _treatment_let_go(section, size)))
     beside += [(f"uneven_{name}", where_uneven(section, own, size, p)) for name, p in THICKER.items()]
     groups = np.concatenate([np.full(own.shape[1], "plate"), *(np.full(b.shape[1], n) for n, b in beside)])
     return groups.astype(str), np.hstack([own, *(b for _, b in beside)]), np.where(size > 0, size, 1.0)
+
+
+def _treatment_let_go(section: BeamSection, size: Array) -> Array:
+    """What the layer above does at held ends, the substrate held, and all that follows. Shape (size, any).
+
+    It slides, lifts and turns; how far from the end that goes into it depends on the core.
+    """
+    s, let_go = section.shapes, section.moves & ~section.shapes.is_held
+    w, a, c = (np.flatnonzero(let_go & s.is_of(name)) for name in ("w", "a", "c"))
+    R = np.eye(s.size)[:, np.concatenate([c, a])]
+    # The substrate stays: w - share a is zero.
+    R[w[: len(a)], len(c) + np.arange(len(a))] = section.share
+    if not R.size:
+        return R
+    kept = np.flatnonzero(section.moves & s.is_held)
+    own, found = size[kept], []
+    stiff, core = (_summed(section, name) for name in ("K_0", "K_1"))
+    for G in _LET_GO_PA:
+        K = stiff + G * core
+        held = K[np.ix_(kept, kept)] * np.outer(own, own)
+        follows = R.copy()
+        follows[kept] = -own[:, None] * la.solve(held, own[:, None] * (K[kept] @ R), assume_a="pos")
+        found.append(follows)
+    scale = np.where(size > 0, size, 1.0)[:, None]
+    Y = np.hstack(found) / scale
+    left, values, _ = np.linalg.svd(Y / np.linalg.norm(Y, axis=0), full_matrices=False)
+    return np.asarray(scale * left[:, values > _LET_GO])
 
 
 @lru_cache(maxsize=64)
@@ -285,8 +313,7 @@ def _asked_for(section: BeamSection) -> dict[str, Array]:
     width = section.copies * section.width_m
     found["strain.mean_square"] = _slip(section) / (sides * width * L * section.thickness_m[1])
     if s.held_ends:
-        ends = s.rows("c", np.array(s.held_ends))
-        found["treatment.hold"] = sides * width * ends @ ends.T
+        found["treatment.hold"] = sides * width * _hold_above(section)
         found |= {f"root.strip_{key}": A for key, A in strip(section).items()}
     if section.is_doubled:
         return found
@@ -302,6 +329,17 @@ def _slip(section: BeamSection, share: Array | float = 1.0) -> Array:
     """The core's shear for a modulus of one, times a share at every place of quadrature."""
     x, weight = gauss(2 * ORDER)
     return np.tensordot(section.coefficients[SLIP], section.shapes.slip(x, weight * share), axes=1)
+
+
+def _hold_above(section: BeamSection) -> Array:
+    """A unit spring per width, even over the end faces of the layer above: it slides, lifts and turns.
+
+    Shape (size, size).
+    """
+    s, ends = section.shapes, np.array(section.shapes.held_ends)
+    lift, turn = (s.rows("w", ends, d) + (1 - section.share) * s.rows("a", ends, d) for d in (0, 1))
+    arm = section.thickness_m[2] / np.sqrt(12) / section.length_m
+    return sum(rows @ rows.T for rows in (s.rows("c", ends), lift, arm * turn))  # type: ignore[return-value]
 
 
 def _root_springs(section: BeamSection) -> dict[str, Array]:

@@ -2,7 +2,7 @@
 
 Unknowns are the coefficients of u_b, u_c, w and a over 0 < x < 1, a how far the faces move apart across the
 core: of each first those that meet the conditions at the ends, then those that a held end lets go where it
-yields. There the faces move as one.
+yields. There the faces move as one, but where the upper one is not held.
 """
 
 from dataclasses import dataclass
@@ -48,7 +48,7 @@ class Shapes:
     def _each(self) -> dict[str, tuple[Polynomial, list[Polynomial]]]:
         """Of u_b, u_c, w and a the factor that meets the conditions, and what a held end lets go."""
         (w, u), (loose_w, loose_u) = _HELD[self.ends], _RELEASED[self.ends]
-        return {"b": (u, loose_u), "c": (u, loose_u), "w": (w, loose_w), "a": (w, []), "m": (w, [])}
+        return {"b": (u, loose_u), "c": (u, loose_u), "w": (w, loose_w), "a": (w, loose_w), "m": (w, [])}
 
     @cached_property
     def place(self) -> dict[str, slice]:
@@ -68,6 +68,12 @@ class Shapes:
     def is_held(self) -> NDArray[np.bool_]:
         """Which of them meet the conditions at the ends. Shape (size,)."""
         return np.concatenate([np.arange(ORDER + len(loose)) < ORDER for _, loose in self._each.values()])
+
+    def is_of(self, which: str) -> NDArray[np.bool_]:
+        """Which unknowns are of u_b, u_c, w or a. Shape (size,)."""
+        found = np.zeros(self.size, bool)
+        found[self.place[which]] = True
+        return found
 
     @property
     def held_ends(self) -> tuple[float, ...]:

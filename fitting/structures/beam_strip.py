@@ -45,7 +45,8 @@ def _of_substrate(section: BeamSection) -> tuple[float, float, float]:
 
 
 def _at_ends(section: BeamSection) -> tuple[Array, Array, Array]:
-    """w, its slope inwards and u_b at the held ends. Shape (size, ends) each."""
+    """The substrate's w, its slope inwards and u_b at the held ends. Shape (size, ends) each."""
     s, ends = section.shapes, np.array(section.shapes.held_ends)
     inwards = np.where(ends == 0, 1.0, -1.0) / section.length_m
-    return s.rows("w", ends), inwards * s.rows("w", ends, 1), s.rows("b", ends)
+    w, slope = (s.rows("w", ends, d) - section.share * s.rows("a", ends, d) for d in (0, 1))
+    return w, inwards * slope, s.rows("b", ends)

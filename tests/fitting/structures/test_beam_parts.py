@@ -7,6 +7,7 @@ import pytest
 import scipy.linalg as la
 
 from fitting.effects import CATALOGUE
+from fitting.effects.treatment_not_gripped import LetGo
 from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Core, Face
 from fitting.structures import Beam
@@ -72,16 +73,12 @@ def test_a_layer_let_go_at_the_root_carries_no_tension_there():
     wide = widened_system_of(SANDWICH, SANDWICH.parts())
     found = []
     for k in (0.0, 1e14):
-        plate = wide.take([Treatment()])
+        plate = wide.take([LetGo()])
         held = replace(plate, K_0=plate.K_0 + k * plate.matrix("treatment.hold"))
         found.append(displacement(held, np.array([60.0]), np.array([1e6 + 5e5j]))[0])
     own = displacement(system_of(SANDWICH, SANDWICH.parts()), np.array([60.0]), np.array([1e6 + 5e5j]))[0]
     assert found[1] == pytest.approx(own, rel=1e-4)
     assert abs(found[0]) > 1.2 * abs(own)
-
-
-class Treatment:
-    name, odd = "treatment", False
 
 
 def test_a_force_loads_it_where_it_acts_and_a_base_everywhere():

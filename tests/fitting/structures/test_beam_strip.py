@@ -8,7 +8,7 @@ from scipy.sparse.linalg import eigsh
 
 from drivers.simulated.plant.layered_solid import Sheet
 from drivers.simulated.plant.solid_beam import BeamBuild, BeamStated, SolidBeam
-from fitting.effects.treatment_not_gripped import TreatmentEndsShortEffect
+from fitting.effects.treatment_not_gripped import TreatmentEndsShortEffect, TreatmentOfBeamEffect
 from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Core, Face
 from fitting.structures import Beam
@@ -61,13 +61,27 @@ def test_six_modes_fall_as_those_of_a_solid_do(boundary, gap_mm):
     np.testing.assert_allclose(fallen, expected, atol=0.004)
 
 
-def test_a_thick_constraining_layer_falls_as_a_solid_with_a_longer_gap_does():
+def test_one_as_thick_as_the_substrate_is_found_as_short_as_it_is():
     beam = replace(BEAM, constraining=STEEL, core=replace(BEAM.core, thickness_m=0.5e-3))
     expected = of_solid(beam, 8e-3) / of_solid(beam) - 1
-    gaps = np.arange(8.0, 12.0, 0.25) / 1e3
+    gaps = np.arange(7.0, 9.1, 0.25) / 1e3
     off = [np.abs(of_model(beam, g) / of_model(beam) - 1 - expected).max() for g in gaps]
     assert min(off) < 0.002
-    assert 8.5e-3 < gaps[np.argmin(off)] < 11e-3
+    assert gaps[np.argmin(off)] == pytest.approx(8e-3, abs=6e-4)
+
+
+@pytest.mark.parametrize(("thick_mm", "softer"), [(0.3, -0.05), (1.5, -0.2)])
+def test_one_that_ends_right_at_the_clamp_neither_slides_nor_bends_there(thick_mm, softer):
+    above = replace(STEEL, thickness_m=thick_mm / 1e3)
+    beam = replace(BEAM, constraining=above, core=replace(BEAM.core, thickness_m=0.5e-3))
+    expected = of_solid(beam, 0.0) / of_solid(beam) - 1
+    assert expected[0] < softer
+    effect = TreatmentOfBeamEffect()
+    plate = widened_system_of(beam, beam.parts()).take(effect.spans)
+    for k, fallen in ((1.0, expected), (1e13, np.zeros(6))):
+        let_go = replace(plate, K_0=plate.K_0 + effect.change(plate, np.array([k])).K)
+        found = np.array([m.frequency_hz for m in elastic_modes(let_go, LAW, 6)])
+        np.testing.assert_allclose(found / of_model(beam) - 1, fallen, atol=0.003)
 
 
 def test_a_strip_without_length_holds_rigidly_and_a_force_bends_it_as_a_cantilever():
