@@ -55,8 +55,8 @@ _APART = 1e-5
 """Of the faces' own stretching: what their modes have already."""
 _PARTED = 1e-5
 """Of how far faces part by themselves."""
-_LET_GO_PA, _LET_GO = np.geomspace(1e5, 3e9, 8), 1e-4
-"""Moduli that a treatment is let go at, and what each of its columns adds at least, relative. Choices."""
+_LET_GO_PA, _LET_GO_MODES, _LET_GO = np.geomspace(1e5, 3e9, 6), 7, 1e-4
+"""Moduli that a treatment is let go at, modes, and what each of its columns adds at least. Choices."""
 
 
 def _summed(section: BeamSection, which: str) -> Array:
@@ -221,16 +221,17 @@ def _columns(section: BeamSection) -> tuple[NDArray[np.str_], Array, Array]:
     own = _own(section, size)
     root = np.diag(size)[:, moves & ~s.is_held & ~section.of_core]
     beside = [("faces", _faces_apart(section, own, size)), ("root", root)]
-    beside.append(("treatment", _treatment_let_go(section, size)))
+    beside.append(("treatment", _treatment_let_go(section, own, size)))
     beside += [(f"uneven_{name}", where_uneven(section, own, size, p)) for name, p in THICKER.items()]
     groups = np.concatenate([np.full(own.shape[1], "plate"), *(np.full(b.shape[1], n) for n, b in beside)])
     return groups.astype(str), np.hstack([own, *(b for _, b in beside)]), np.where(size > 0, size, 1.0)
 
 
-def _treatment_let_go(section: BeamSection, size: Array) -> Array:
+def _treatment_let_go(section: BeamSection, own: Array, size: Array) -> Array:
     """What the layer above does at held ends, the substrate held, and all that follows. Shape (size, any).
 
-    It slides, lifts and turns; how far from the end that goes into it depends on the core.
+    It slides, lifts and turns; how far from the end that goes into it depends on the core. Modes of a beam
+    whose treatment is free, at a few moduli.
     """
     s, let_go = section.shapes, section.moves & ~section.shapes.is_held
     w, a, c = (np.flatnonzero(let_go & s.is_of(name)) for name in ("w", "a", "c"))
@@ -239,19 +240,22 @@ def _treatment_let_go(section: BeamSection, size: Array) -> Array:
     R[w[: len(a)], len(c) + np.arange(len(a))] = section.share
     if not R.size:
         return R
-    kept = np.flatnonzero(section.moves & s.is_held)
-    own, found = size[kept], []
-    stiff, core = (_summed(section, name) for name in ("K_0", "K_1"))
+    T = np.hstack([np.eye(s.size)[:, section.moves & s.is_held], R])
+    stiff, core, M = (T.T @ _summed(section, name) @ T for name in ("K_0", "K_1", "M"))
+    each, found = 1 / np.sqrt(np.diag(M)), []
     for G in _LET_GO_PA:
-        K = stiff + G * core
-        held = K[np.ix_(kept, kept)] * np.outer(own, own)
-        follows = R.copy()
-        follows[kept] = -own[:, None] * la.solve(held, own[:, None] * (K[kept] @ R), assume_a="pos")
-        found.append(follows)
+        K = (stiff + G * core) * np.outer(each, each)
+        _, V = la.eigh(K, M * np.outer(each, each), subset_by_index=[0, _LET_GO_MODES - 1])
+        found.append(T @ (each[:, None] * V))
     scale = np.where(size > 0, size, 1.0)[:, None]
-    Y = np.hstack(found) / scale
-    left, values, _ = np.linalg.svd(Y / np.linalg.norm(Y, axis=0), full_matrices=False)
-    return np.asarray(scale * left[:, values > _LET_GO])
+    Q, Y = own / scale, np.hstack(found) / scale
+    Y = Y / np.linalg.norm(Y, axis=0)
+    # What its own columns lack by itself, and with what they have: that is lost where they are condensed.
+    some = []
+    for X in (Y - Q @ (Q.T @ Y), Y):
+        left, values, _ = np.linalg.svd(X, full_matrices=False)
+        some.append(left[:, values > _LET_GO * values[0]])
+    return np.asarray(scale * np.hstack(some))
 
 
 @lru_cache(maxsize=64)
