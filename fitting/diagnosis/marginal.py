@@ -26,6 +26,8 @@ _TYPICALS = 3.0
 """An unknown whose `spread` is not stated is expected to be of a few typical sizes."""
 _UNIFORM = 12.0
 """Variance of a uniform density is its width squared over this."""
+_DROWNED = 1e-12
+"""Relative: directions that are known less well than this beside others are lost in rounding."""
 _AT_A_LIMIT = 0.1
 """Standard deviations from a limit within which a fit is held by it: a bounded fit stops a little before."""
 
@@ -48,15 +50,24 @@ def cost(fitted: Refitted, plate: EnrichedReducedPlate, temper: float = 1.0) -> 
         r[: fitted.data] /= np.sqrt(size)
     H = J.T @ J
     H += np.diag(prior_precision(fitted, plate))
-    _, logdet = np.linalg.slogdet(H)
     k = len(densities)
-    paid = float(logdet) - k * np.log(2 * np.pi) - 2 * float(densities.sum())
+    paid = _log_determinant(H) - k * np.log(2 * np.pi) - 2 * float(densities.sum())
     paid -= 2 * _log_share_within(fitted, plate, H, J.T @ r)
     if temper != 1.0:
         # Readings that say less pull the stated numbers less far: one step towards where they end then.
         back = (1 - 1 / temper) * (J[fitted.data :].T @ r[fitted.data :])
         paid -= float(back @ np.linalg.solve(H, back))
     return _misfit(fitted, temper) + paid + sum(_odds(e) for e in fitted.effects)
+
+
+def _log_determinant(H: Array) -> float:
+    """Readings that are met to the last digit drown what priors alone say: then those are worth little."""
+    found = float(np.linalg.slogdet(H)[1])
+    if np.isfinite(found):
+        return found
+    d = np.sqrt(np.diag(H))
+    scaled = H / np.outer(d, d) + _DROWNED * np.eye(len(H))
+    return float(np.linalg.slogdet(scaled)[1] + 2 * np.log(d).sum())
 
 
 def prior_precision(fitted: Refitted, plate: EnrichedReducedPlate) -> Array:
@@ -83,7 +94,7 @@ def _log_share_within(fitted: Refitted, plate: EnrichedReducedPlate, H: Array, s
     start, found = fitted.stated, 0.0
     # Directions that no reading feels leave H all but singular, in units far apart.
     d = 1 / np.sqrt(np.diag(H))
-    C = np.linalg.inv(H * np.outer(d, d) + 1e-12 * np.eye(len(H))) * np.outer(d, d)
+    C = np.linalg.inv(H * np.outer(d, d) + _DROWNED * np.eye(len(H))) * np.outer(d, d)
     # The effects' unknowns come last among the columns.
     column = len(H) - int(fitted.free[start:].sum())
     for effect in fitted.effects:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fitting.bent_law import BentLaw
-from fitting.diagnosis.marginal import cost, probabilities
+from fitting.diagnosis.marginal import _log_determinant, cost, probabilities
 from fitting.diagnosis.refitted import Refitted
 from fitting.effects.base import Effect, EffectParameter, Tie
 from fitting.laws.constant import ConstantModulus
@@ -317,3 +317,11 @@ def test_probabilities_follow_the_costs():
     costs = np.array([0.0, 2 * np.log(19), 1e4])
     assert probabilities(costs) == pytest.approx([0.95, 0.05, 0])
     assert probabilities(costs + 1e5) == pytest.approx([0.95, 0.05, 0])
+
+
+def test_what_readings_met_to_the_last_digit_drown_keeps_a_cost():
+    # Two numbers that all readings know as one, to 1e-18 of what else they are known by.
+    drowned = 1e18 * np.ones((2, 2))
+    assert np.isfinite(_log_determinant(drowned))
+    sound = np.array([[2.0, 1.0], [1.0, 3.0]])
+    assert _log_determinant(sound) == pytest.approx(np.log(5.0))
