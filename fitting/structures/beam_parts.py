@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array
 from fitting.structures.beam_apart import ODD, Squeezed, stretched
+from fitting.structures.beam_let_go import hold_above, treatment_let_go
 from fitting.structures.beam_reading import ELEMENTS, deflection, read_otherwise, row_at
 from fitting.structures.beam_section import PARTS, SLIP, BeamSection
 from fitting.structures.beam_shapes import (
@@ -55,8 +56,6 @@ _APART = 1e-5
 """Of the faces' own stretching: what their modes have already."""
 _PARTED = 1e-5
 """Of how far faces part by themselves."""
-_LET_GO_PA, _LET_GO_MODES, _LET_GO = np.geomspace(1e5, 3e9, 6), 7, 1e-4
-"""Moduli that a treatment is let go at, modes, and what each of its columns adds at least. Choices."""
 
 
 def _summed(section: BeamSection, which: str) -> Array:
@@ -217,45 +216,15 @@ def _columns(section: BeamSection) -> tuple[NDArray[np.str_], Array, Array]:
     """Groups of the columns, the columns, and the size of each unknown. Shapes (k,), (size, k), (size,)."""
     s, moves = section.shapes, section.moves
     size = np.zeros(s.size)
-    size[moves] = 1 / np.sqrt(np.diag(_summed(section, "M"))[moves])
+    stiff, core, M = (_summed(section, name) for name in ("K_0", "K_1", "M"))
+    size[moves] = 1 / np.sqrt(np.diag(M)[moves])
     own = _own(section, size)
     root = np.diag(size)[:, moves & ~s.is_held & ~section.of_core]
     beside = [("faces", _faces_apart(section, own, size)), ("root", root)]
-    beside.append(("treatment", _treatment_let_go(section, own, size)))
+    beside.append(("treatment", treatment_let_go(section, own, size, stiff, core, M)))
     beside += [(f"uneven_{name}", where_uneven(section, own, size, p)) for name, p in THICKER.items()]
     groups = np.concatenate([np.full(own.shape[1], "plate"), *(np.full(b.shape[1], n) for n, b in beside)])
     return groups.astype(str), np.hstack([own, *(b for _, b in beside)]), np.where(size > 0, size, 1.0)
-
-
-def _treatment_let_go(section: BeamSection, own: Array, size: Array) -> Array:
-    """What the layer above does at held ends, the substrate held, and all that follows. Shape (size, any).
-
-    It slides, lifts and turns; how far from the end that goes into it depends on the core. Modes of a beam
-    whose treatment is free, at a few moduli.
-    """
-    s, let_go = section.shapes, section.moves & ~section.shapes.is_held
-    w, a, c = (np.flatnonzero(let_go & s.is_of(name)) for name in ("w", "a", "c"))
-    R = np.eye(s.size)[:, np.concatenate([c, a])]
-    # The substrate stays: w - share a is zero.
-    R[w[: len(a)], len(c) + np.arange(len(a))] = section.share
-    if not R.size:
-        return R
-    T = np.hstack([np.eye(s.size)[:, section.moves & s.is_held], R])
-    stiff, core, M = (T.T @ _summed(section, name) @ T for name in ("K_0", "K_1", "M"))
-    each, found = 1 / np.sqrt(np.diag(M)), []
-    for G in _LET_GO_PA:
-        K = (stiff + G * core) * np.outer(each, each)
-        _, V = la.eigh(K, M * np.outer(each, each), subset_by_index=[0, _LET_GO_MODES - 1])
-        found.append(T @ (each[:, None] * V))
-    scale = np.where(size > 0, size, 1.0)[:, None]
-    Q, Y = own / scale, np.hstack(found) / scale
-    Y = Y / np.linalg.norm(Y, axis=0)
-    # What its own columns lack by itself, and with what they have: that is lost where they are condensed.
-    some = []
-    for X in (Y - Q @ (Q.T @ Y), Y):
-        left, values, _ = np.linalg.svd(X, full_matrices=False)
-        some.append(left[:, values > _LET_GO * values[0]])
-    return np.asarray(scale * np.hstack(some))
 
 
 @lru_cache(maxsize=64)
@@ -317,7 +286,7 @@ def _asked_for(section: BeamSection) -> dict[str, Array]:
     width = section.copies * section.width_m
     found["strain.mean_square"] = _slip(section) / (sides * width * L * section.thickness_m[1])
     if s.held_ends:
-        found["treatment.hold"] = sides * width * _hold_above(section)
+        found["treatment.hold"] = sides * width * hold_above(section)
         found |= {f"root.strip_{key}": A for key, A in strip(section).items()}
     if section.is_doubled:
         return found
@@ -333,17 +302,6 @@ def _slip(section: BeamSection, share: Array | float = 1.0) -> Array:
     """The core's shear for a modulus of one, times a share at every place of quadrature."""
     x, weight = gauss(2 * ORDER)
     return np.tensordot(section.coefficients[SLIP], section.shapes.slip(x, weight * share), axes=1)
-
-
-def _hold_above(section: BeamSection) -> Array:
-    """A unit spring per width, even over the end faces of the layer above: it slides, lifts and turns.
-
-    Shape (size, size).
-    """
-    s, ends = section.shapes, np.array(section.shapes.held_ends)
-    lift, turn = (s.rows("w", ends, d) + (1 - section.share) * s.rows("a", ends, d) for d in (0, 1))
-    arm = section.thickness_m[2] / np.sqrt(12) / section.length_m
-    return sum(rows @ rows.T for rows in (s.rows("c", ends), lift, arm * turn))  # type: ignore[return-value]
 
 
 def _root_springs(section: BeamSection) -> dict[str, Array]:

@@ -12,6 +12,7 @@ from fitting.effects.treatment_not_gripped import TreatmentEndsShortEffect, Trea
 from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Core, Face
 from fitting.structures import Beam
+from fitting.structures.beam_let_go import hold_above
 from fitting.structures.beam_strip import strip
 from fitting.structures.small import widened_system_of
 from fitting.structures.small_modes import elastic_modes
@@ -93,3 +94,12 @@ def test_a_strip_without_length_holds_rigidly_and_a_force_bends_it_as_a_cantilev
     V = np.linalg.pinv(np.array([w, t]))
     K = sum(V.T @ found[f"spring_{n}"] @ V / g**n for n in (1, 2, 3))
     np.testing.assert_allclose(np.linalg.solve(K, [1.0, 0.0]), [g**3 / 3 / E_I, g**2 / 2 / E_I], rtol=1e-6)
+
+
+def test_what_holds_a_treatment_feels_its_end_alone():
+    section = BEAM.section
+    hold, s = hold_above(section), section.shapes
+    assert np.all(hold[:, s.is_held] == 0)
+    lifted = np.zeros(s.size)
+    lifted[s.place["w"].start + np.flatnonzero(~s.is_held[s.place["w"]])[0]] = 1.0
+    assert lifted @ hold @ lifted == pytest.approx(1.0)
