@@ -181,9 +181,13 @@ class CandidateFits:
         return self.state(name)
 
     def best_near(self, name: str) -> list[tuple[Form, Refitted]]:
-        """The best of an effect's rough fits, or none."""
-        fits = [((name, k), f) for k, c in enumerate(self.candidates[name]) for f in c.near]
-        return sorted(fits, key=lambda one: one[1].chi2)[:1]
+        """The best of an effect's rough fits, or none; first it, then of other forms what is as good, nearly.
+
+        What two forms leave after some steps does not say which of them is the likelier in the end.
+        """
+        each = [((name, k), min(c.near, key=_chi2)) for k, c in enumerate(self.candidates[name]) if c.near]
+        best = _best_first(each)
+        return [one for one in best if one[1].chi2 < best[0][1].chi2 + SEARCH.nearer]
 
     def on_the_way(self, name: str) -> list[tuple[Form, Refitted]]:
         """The best of an effect's rough fits that had not come to their end, or none."""
@@ -233,12 +237,12 @@ class CandidateFits:
         return Known(plain=candidate.plain, far=far)
 
     def thorough(self, name: str, *, astray: bool) -> list[tuple[Form, Refitted]]:
-        """The best of an effect's rough fits, but for the one that has been followed to its end.
+        """The best of an effect's rough fits, but for those that have been followed to their end.
 
         With far ones, where the law so far is no place to begin.
         """
         forms = [((name, k), c) for k, c in enumerate(self.candidates[name])]
-        gone = _best_first([(form, f) for form, c in forms for f in c.near])[:1]
+        gone = self.best_near(name)
         near = _best_first([(form, f) for form, c in forms for f in [*c.near, *c.elsewhere]])
         near = [one for one in near[: SEARCH.finished] if one not in gone]
         return [*near, *(self.from_stated(name) if astray else [])]
@@ -364,3 +368,7 @@ class CandidateFits:
 
 def _best_first(fits: list[tuple[A, Refitted]]) -> list[tuple[A, Refitted]]:
     return sorted(fits, key=lambda one: one[1].chi2)
+
+
+def _chi2(fitted: Refitted) -> float:
+    return fitted.chi2

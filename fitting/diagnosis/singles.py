@@ -114,7 +114,9 @@ class Singles:
         if best is None or not self._explains_all(best):
             return False
         self._settled = True
-        others = [n for n in (*self._laws, *self._effects) if n not in best.names]
+        # Its own other forms are others too.
+        several = [n for n in best.names if len(self._work.candidates[n]) > 1]
+        others = [n for n in (*self._laws, *self._effects) if n not in best.names or n in several]
         tasks = [(n, work.state(n), best.fitted) for n in others]
         self._begin(self._each(work.beside_the_best, tasks, report))
         return True

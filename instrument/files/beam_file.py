@@ -6,7 +6,8 @@ from pydantic import Field, model_validator
 
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Core, Drive, PlacedMass, Reading
-from fitting.structures.beam import Beam, Ends
+from fitting.structures.beam import Beam
+from fitting.structures.stated_beam import Ends
 from instrument.files.layer_tables import Poisson, StatedLayer
 from instrument.files.specimen_file import (
     MOST_MASSES,

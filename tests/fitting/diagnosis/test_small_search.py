@@ -1,5 +1,6 @@
 """The catalogue tried on a shear pair, whose every fit takes milliseconds: step by step, and the whole."""
 
+from copy import copy
 from dataclasses import replace
 
 import numpy as np
@@ -52,6 +53,18 @@ def test_what_another_process_has_found_is_not_fitted_again(high):
     ((form, best),) = elsewhere.best_near("gain_error")
     assert form == ("gain_error", 0)
     assert best is looked.fits[0]
+
+
+@pytest.mark.parametrize(("worse_by", "followed"), [(5.0, [0, 1]), (50.0, [0])])
+def test_of_two_forms_that_do_alike_so_far_both_are_followed(high, worse_by, followed):
+    work = high.fits(GAIN)
+    (rough,) = work.begun(("gain_error", work.state("gain_error"))).fits
+    other = replace(rough, residuals=rough.residuals * np.sqrt(1 + worse_by / rough.chi2))
+    work.candidates["gain_error"] = [copy(work.candidates["gain_error"][0]) for _ in range(2)]
+    work.learn("gain_error", [Known(near=[rough]), Known(near=[other])])
+    assert [number for (_, number), _ in work.best_near("gain_error")] == followed
+    # What is followed is not gone into twice.
+    assert len(work.thorough("gain_error", astray=False)) == 2 - len(followed)
 
 
 def test_only_a_fit_that_had_not_come_to_its_end_is_on_the_way(high):

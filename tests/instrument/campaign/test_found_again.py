@@ -6,11 +6,14 @@ import numpy as np
 import pytest
 
 from instrument.campaign.beams.cases import draw_case as draw_beam
+from instrument.campaign.beams.hidden.clamp import HiddenTreatmentNotGripped
 from instrument.campaign.beams.judged import diagnosed as beam_diagnosed
 from instrument.campaign.cases import PAIR, draw
 from instrument.campaign.plates.cases import draw_case
 from instrument.campaign.plates.judged import diagnosed
 from instrument.models.diagnosis import diagnose
+from instrument.models.files import File
+from instrument.models.together import diagnose_together
 
 PASSED_BY = {
     "a spot and a length far beyond their tolerances did a clamp line's work": ("clamp_line", 1300001),
@@ -79,3 +82,15 @@ def test_a_drift_that_is_almost_the_laws_work_is_counted_for_what_it_explains():
     known = replace(case, sweep=replace(case.sweep, velocity_m_s=unturned), specimen_toml=stated)
     answer = beam_diagnosed(known)
     assert answer.probabilities["temperature_drift"] > 0.03
+
+
+@pytest.mark.long
+def test_a_treatment_that_ends_short_is_told_from_one_that_is_let_go(monkeypatch):
+    """Springs were a little better after ten steps: by them alone the law is 3.2 standard errors off."""
+    short = HiddenTreatmentNotGripped(begins_m=8e-3)
+    monkeypatch.setattr(HiddenTreatmentNotGripped, "draw", classmethod(lambda cls, rng, at: short))
+    case = draw_beam("treatment_not_gripped", 9932001, beam="bar")
+    found = diagnose_together([File(case.sweep, case.specimen)]).found.result
+    assert [e.name for e in found.effects] == ["treatment_not_gripped"]
+    gap = found.effects[0].parameters["gap"]
+    assert gap.value == pytest.approx(8e-3, abs=2 * gap.standard_error)
