@@ -6,6 +6,7 @@ well from there.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -28,6 +29,8 @@ _FAR = 0.02
 """Relative change of the modulus from which the grid is made anew for the new poles. A choice."""
 _FAR_OF_STRAIN = 0.002
 """The same where softening is told for the strain under the law that its fit starts from."""
+_MOST_POINTS = 48
+"""Of a sweep that a law is compared at: moduli are smooth. A choice."""
 _OPEN = 1e-9
 """A range of one value is none for a bounded fit."""
 
@@ -64,7 +67,8 @@ class _Ways:
 
     def from_usual(self, fitted: Refitted) -> Refitted:
         """From the law of usual size; itself where that cannot come as far."""
-        again = polished(self.problem, fitted.effects, self.evidence, self.usual(fitted), fitted.u)
+        law, goal = self.usual(fitted), fitted.chi2
+        again = polished(self.problem, fitted.effects, self.evidence, law, fitted.u, goal)
         return at_rest(self.problem, self.evidence, again) if again.may_reach(fitted.chi2) else fitted
 
 
@@ -136,6 +140,15 @@ def within_search(law: CoreLaw, omega: Array) -> CoreLaw:
     logs = np.log(law.values)
     if np.all((logs >= low) & (logs <= high)):
         return law
+    some = np.unique(np.linspace(0, len(omega) - 1, _MOST_POINTS).round().astype(int))
+    return _nearest_within(law, omega[some].tobytes())
+
+
+@lru_cache(maxsize=64)
+def _nearest_within(law: CoreLaw, omega_bytes: bytes) -> CoreLaw:
+    """Kept: every effect begins from the same law."""
+    omega = np.frombuffer(omega_bytes)
+    low, high = np.log([q.search for q in law.limits]).T
     wanted = np.log(law.modulus(omega))
 
     def off(p: Array) -> Array:
@@ -148,4 +161,5 @@ def within_search(law: CoreLaw, omega: Array) -> CoreLaw:
         return np.concatenate([d.real, d.imag], axis=1).T
 
     bounds = (low - _OPEN, high + _OPEN)
-    return law.with_logs(least_squares(off, np.clip(logs, low, high), jac=slope, bounds=bounds).x)
+    start = np.clip(np.log(law.values), low, high)
+    return law.with_logs(least_squares(off, start, jac=slope, bounds=bounds).x)
