@@ -3,11 +3,11 @@
 `identify` reports it, `diagnose` begins with it.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
+from fitting.arrays import Array
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.evidence import BareModes, Evidence
 from fitting.diagnosis.executor import ALONE, Executor
@@ -17,7 +17,7 @@ from fitting.diagnosis.refit import ROUGH, refit
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
-from fitting.diagnosis.usual_law import followed, polished, within_search
+from fitting.diagnosis.usual_law import at_rest, followed, polished, within_search
 from fitting.diagnosis.wide_valley import in_wide_valley, with_stated
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.identification.direct import fit_direct
@@ -60,7 +60,7 @@ def begin(
 ) -> Begun:
     """The fit without any effect, and the evidence all candidates are judged by.
 
-    `to_its_end`: as far as is reported; else as far as fits are compared.
+    `to_its_end`: as far as is reported; else as far as a search begins from, which follows it if it matters.
     """
     sweep = problem.sweep
     start = start.to_fit(sweep.frequency_hz)
@@ -94,7 +94,7 @@ def begin(
         none = polished(here, (), evidence, law, u)
         if round == 0 and (inside is not first.law or none.chi2_per_dof > SEARCH.wrong):
             # The law alone did what tolerances might do, and led to a valley of its own.
-            none = min([none, *_from_elsewhere(here, evidence, stated, none)], key=lambda f: f.chi2)
+            none = _from_elsewhere(here, evidence, stated, none, executor)
         omega = problem.coarse.nodes.omega
         moved = np.max(np.abs(none.law.modulus(omega) / law.modulus(omega) - 1))
         law, u = none.law, none.u
@@ -105,16 +105,33 @@ def begin(
             problem, v = problem.as_found(none.z), none.velocity_m_s
     if to_its_end:
         none = followed(here, evidence, none, executor)
+    elif none.chi2_per_dof < SEARCH.wrong:
+        none = at_rest(here, evidence, none)
     return Begun(here, problem.plate, evidence, none, first)
 
 
 def _from_elsewhere(
-    problem: DiagnosisProblem, evidence: Evidence, stated: CoreLaw, none: Refitted
-) -> Iterator[Refitted]:
-    """Fits from everything as stated, and from the wide valley about a law, as far as they may come below."""
+    problem: DiagnosisProblem, evidence: Evidence, stated: CoreLaw, none: Refitted, executor: Executor
+) -> Refitted:
+    """The best of a fit and those from everything as stated, and from the wide valley about its law."""
     wide = in_wide_valley(problem, (), evidence, none.law, np.zeros(0))
-    for law, u in ((stated, problem.as_stated), (wide.law, with_stated(problem, wide))):
-        rough = response_of(problem, (), problem.coarse)
-        found = refit(rough, evidence, law, u, tolerance=ROUGH)
-        if found.chi2 < none.chi2 or (not found.converged and found.may_reach(none.chi2)):
-            yield polished(problem, (), evidence, found.law, found.u, goal=none.chi2)
+    starts = [(stated, problem.as_stated), (wide.law, with_stated(problem, wide))]
+    found = executor.each(_Elsewhere(problem, evidence, none).polished, starts)
+    return min([none, *found], key=lambda f: f.chi2)
+
+
+@dataclass(frozen=True)
+class _Elsewhere:
+    """Fits from elsewhere, as far as they may come below one that is known."""
+
+    problem: DiagnosisProblem
+    evidence: Evidence
+    none: Refitted
+
+    def polished(self, start: tuple[CoreLaw, Array]) -> Refitted:
+        """From a law and stated numbers, shape (stated,)."""
+        rough = response_of(self.problem, (), self.problem.coarse)
+        found, goal = refit(rough, self.evidence, *start, tolerance=ROUGH), self.none.chi2
+        if found.chi2 >= goal and (found.converged or not found.may_reach(goal)):
+            return self.none
+        return polished(self.problem, (), self.evidence, found.law, found.u, goal=goal)

@@ -187,16 +187,19 @@ class Search:
     def at_rest(
         self, scored_fits: Sequence[ScoredFit], best: ScoredFit, validated: Sequence[ScoredFit] = ()
     ) -> list[ScoredFit]:
-        """What may be in one group with `best` followed to its very end, the others as they are.
+        """What may be in one group with `best`, and none, followed to its very end, the others as they are.
 
         Meanwhile some are `validated`: neither needs to know of the other.
         """
-        moving, new = self.moving(scored_fits, best), self._not_validated(validated)
+        moving, new = self.moving([self.none, *scored_fits], best), self._not_validated(validated)
         calls: list[Call] = [(self.work.at_rest, fitted) for fitted in moving]
         calls += [(self.work.held_out, t.fitted) for t in new]
         found = list(self.executor.together(calls))
         self.rested(moving, found[: len(moving)])
         self._learn_validations(new, found[len(moving) :])
+        end = self._at_its_end(self.none)
+        if self.none.fitted.chi2 - end.fitted.chi2 > SEARCH.least_owed:
+            self.none = end
         return [self._at_its_end(t) for t in scored_fits]
 
     def reach(self, best: ScoredFit) -> float:

@@ -83,7 +83,8 @@ def test_a_law_far_from_what_cores_are_is_left_where_a_usual_one_does_better(mon
     far = FractionalZener(3.2e5, 9.4e10, 3.3e-10, 0.76)
     begun = []
 
-    def polished(problem, effects, evidence, law, u):
+    def polished(problem, effects, evidence, law, u, goal):
+        assert goal == 516.2
         begun.append(law)
         return SimpleNamespace(law=law, chi2=511.9, may_reach=lambda goal: reached and goal == 516.2)
 

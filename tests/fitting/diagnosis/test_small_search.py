@@ -67,6 +67,18 @@ def test_of_two_forms_that_do_alike_so_far_both_are_followed(high, worse_by, fol
     assert len(work.thorough("gain_error", astray=False)) == 2 - len(followed)
 
 
+@pytest.mark.parametrize(("owed", "moves"), [(1.0, True), (0.01, False)])
+def test_what_has_no_effect_is_followed_with_the_group_and_moves_where_it_owed(
+    clean, monkeypatch, owed, moves
+):
+    search = clean.search(GAIN)
+    none = search.none.fitted
+    ended = replace(none, residuals=none.residuals * np.sqrt(1 - owed / none.chi2))
+    monkeypatch.setattr(search.work, "at_rest", lambda fitted: ended if fitted is none else fitted)
+    search.at_rest([], search.none)
+    assert (search.none.fitted is ended) is moves
+
+
 def test_only_a_fit_that_had_not_come_to_its_end_is_on_the_way(high):
     work = high.fits(GAIN)
     (rough,) = work.begun(("gain_error", work.state("gain_error"))).fits
