@@ -58,6 +58,13 @@ def ended(messages: list[Message]) -> Ended:
     return end
 
 
+def done(messages: list[Message]) -> Ended:
+    """Its end, which is a good one."""
+    end = ended(messages)
+    assert end.why == "done", end.message
+    return end
+
+
 def told(messages: list[Message]) -> list[Event]:
     return [m.event for m in messages if isinstance(m, Happened)]
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 import pytest
 from engine_cases import (
     LONG,
+    done,
     drive_v,
     ended,
     engine_of,
@@ -123,7 +124,7 @@ def test_a_hit_is_rejected_and_another_one_taken(tmp_path):
 
         messages = follow(engine, react)
     events = told(messages)
-    assert ended(messages).why == "done"
+    done(messages)
     assert asked == [2, 2]
     assert OperatorDid("rejected", "", 1) in events
     assert HitRevised(1, accepted=False) in events
@@ -147,7 +148,7 @@ def test_a_rejected_hit_may_be_undone(tmp_path):
         messages = follow(engine, react)
     revised = [e.accepted for e in told(messages) if isinstance(e, HitRevised) and e.hit == 2]
     assert revised[:2] == [False, True]
-    assert ended(messages).why == "done"
+    done(messages)
 
 
 def test_a_person_is_asked_to_mount_and_aim_and_answers(tmp_path):
@@ -161,7 +162,7 @@ def test_a_person_is_asked_to_mount_and_aim_and_answers(tmp_path):
         ("mount", "damped"),
         ("aim", "pickup"),
     ]
-    assert ended(messages).why == "done"
+    done(messages)
 
 
 def test_a_run_that_waits_for_its_operator_can_be_aborted(tmp_path):
@@ -286,8 +287,7 @@ def test_a_client_that_reads_nothing_holds_up_no_run(tmp_path):
         engine.stdin.flush()
         wait_until(lambda: bool([*tmp_path.glob("*.h5")]) and not [*tmp_path.glob("*.running")])
         messages = [*iter(lambda: read(engine.stdout), None)]
-    assert ended(messages).why == "done"
-    assert len(points_of(ended(messages).session)) == 15
+    assert len(points_of(done(messages).session)) == 15
     assert without_samples(told(messages)) == without_samples(events_of(ended(messages).session))
 
 
@@ -308,8 +308,7 @@ def test_an_engine_stands_up_a_simulated_rig_itself(tmp_path, cold):
             engine,
             lambda m: engine.content() if isinstance(m, OperatorAsked) and m.what == "content" else None,
         )
-    assert ended(messages).why == "done"
-    assert any(isinstance(e, DampingFound) for e in events_of(ended(messages).session))
+    assert any(isinstance(e, DampingFound) for e in events_of(done(messages).session))
 
 
 def test_what_the_engine_is_told_when_it_is_over_is_forgotten(tmp_path):
