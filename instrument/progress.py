@@ -1,9 +1,8 @@
-"""Progress of long work: a bar on a terminal, a line now and then in a pipe, JSON for a program that asks."""
+"""Progress of long work: a bar on a terminal, nothing in a pipe, lines of JSON for a program that asks."""
 
 import json
 import os
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 
@@ -18,8 +17,6 @@ Progress = Callable[[str], AbstractContextManager[Report]]
 LINES = "VISCORIG_PROGRESS"
 """Where this variable of the environment is `lines`, a bar is told as lines on standard error."""
 _LEAST_STEP = 0.01
-_PIPE_S = 15.0
-"""A pipe is told at most so often, and nothing of work that is done before."""
 _PACE_S = 300.0
 """Over which the pace is taken that says how long it will go on."""
 
@@ -32,14 +29,11 @@ def quiet(name: str) -> Iterator[Report]:
 
 @contextmanager
 def bar(name: str) -> Iterator[Report]:
-    """A bar on standard error where that is a terminal, else a line of it now and then."""
+    """A bar on standard error where that is a terminal."""
     if os.environ.get(LINES) == "lines":
         yield _Lines(name)
         return
     console = Console(stderr=True)
-    if not console.is_terminal:
-        yield _NowAndThen(name)
-        return
     with Bars(
         TextColumn("{task.description}"),
         BarColumn(),
@@ -49,6 +43,7 @@ def bar(name: str) -> Iterator[Report]:
         speed_estimate_period=_PACE_S,
         console=console,
         transient=True,
+        disable=not console.is_terminal,
     ) as bars:
         task = bars.add_task(name, total=1.0)
         yield lambda fraction: bars.update(task, completed=fraction)
@@ -64,21 +59,3 @@ class _Lines:
         if abs(fraction - self._said) >= _LEAST_STEP:
             self._said = fraction
             print(json.dumps({"work": self._name, "fraction": fraction}), file=sys.stderr, flush=True)
-
-
-class _NowAndThen:
-    """What a log keeps of work that takes long."""
-
-    def __init__(self, name: str) -> None:
-        self._name, self._began = name, time.monotonic()
-        self._next = self._began + _PIPE_S
-
-    def __call__(self, fraction: float) -> None:
-        now = time.monotonic()
-        if now >= self._next:
-            self._next = now + _PIPE_S
-            print(
-                f"{self._name}: {100 * fraction:.0f} % after {now - self._began:.0f} s",
-                file=sys.stderr,
-                flush=True,
-            )

@@ -14,18 +14,8 @@ def test_a_program_that_asks_is_told_in_lines(monkeypatch, capsys):
     assert 50 < len(told) < 102
 
 
-def test_a_pipe_hears_nothing_of_what_is_soon_done(monkeypatch, capsys):
+def test_a_pipe_hears_nothing(monkeypatch, capsys):
     monkeypatch.delenv(LINES, raising=False)
     with bar("fitting") as report:
         report(0.5)
     assert capsys.readouterr() == ("", "")
-
-
-def test_a_pipe_hears_now_and_then_of_what_takes_long(monkeypatch, capsys):
-    monkeypatch.delenv(LINES, raising=False)
-    clock = iter([100.0, 110.0, 116.0, 120.0, 132.4])
-    monkeypatch.setattr("time.monotonic", lambda: next(clock))
-    with bar("fitting") as report:
-        for k in range(4):
-            report(k / 4)
-    assert capsys.readouterr() == ("", "fitting: 25 % after 16 s\nfitting: 75 % after 32 s\n")
