@@ -6,7 +6,7 @@ import click
 
 from fitting.specimen import Specimen
 from instrument.cli.diagnose_modes import diagnose_modes
-from instrument.cli.naming import naming_data
+from instrument.cli.naming import naming_files
 from instrument.cli.options import figures_option, file_arguments, json_option, refuse_with_tables
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
@@ -45,7 +45,7 @@ from instrument.results.together_from import diagnosed_together_from
 )
 @figures_option("Save residual, evidence and law as PNG.")
 @json_option
-@naming_data
+@naming_files
 def diagnose(
     data: tuple[Path, ...],
     specimen: tuple[Path, ...],

@@ -11,7 +11,7 @@ from instrument.cli.identify_asked import Asked
 from instrument.cli.identify_modes import identify_modes
 from instrument.cli.identify_shifted import identify_shifted, identify_tables_shifted
 from instrument.cli.identify_sweeps import identify_files, identify_one
-from instrument.cli.naming import naming_data
+from instrument.cli.naming import naming_files
 from instrument.cli.options import NumberRange, figures_option, file_arguments, json_option
 from instrument.cli.output import Output
 from instrument.cli.reading import are_tables, read_each, reading_options, together
@@ -96,7 +96,7 @@ from instrument.files.repeated import refuse_repeats
 )
 @figures_option("With --pointwise, --with or --shift: save figures as PNG.")
 @json_option
-@naming_data
+@naming_files
 def identify(
     data: tuple[Path, ...],
     specimen: tuple[Path, ...],

@@ -9,6 +9,7 @@ from fitting.complex_modes import ModalValue
 from fitting.specimen import Specimen
 from fitting.structures import Beam
 from fitting.structures.small_modes import along, small_modes
+from instrument.cli.naming import naming_files
 from instrument.cli.options import file_argument, force_option, json_option
 from instrument.cli.output import Output
 from instrument.files.plausible import question_specimen
@@ -23,6 +24,7 @@ from instrument.results.modes_from import modes_from
 @click.option("--count", type=click.IntRange(1, 100), default=8, show_default=True, help="How many modes.")
 @force_option
 @json_option
+@naming_files
 def modes(specimen: Path, count: int, insist: bool, json_path: str | None) -> None:
     """Natural frequencies and modal loss factors of SPECIMEN.toml.
 

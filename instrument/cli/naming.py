@@ -1,4 +1,4 @@
-"""Whose data a refusal is of, where what refuses them knows no files."""
+"""Of which files a refusal is, where what refuses them knows none."""
 
 from collections.abc import Callable
 from functools import wraps
@@ -11,8 +11,8 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 
-def naming_data(command: Callable[P, R]) -> Callable[P, R]:
-    """A command whose `data` are files: a refusal that names none of them begins with them.
+def naming_files(command: Callable[P, R]) -> Callable[P, R]:
+    """A command whose `data`, or else whose `specimen`, are files: a refusal that names none has them first.
 
     Raises what the command raises.
     """
@@ -22,8 +22,8 @@ def naming_data(command: Callable[P, R]) -> Callable[P, R]:
         try:
             return command(*args, **options)
         except FittingError as error:
-            data = options.get("data")
-            given = data if isinstance(data, tuple) else (data,)
+            read = options.get("data", options.get("specimen"))
+            given = read if isinstance(read, tuple) else (read,)
             paths = [path for path in given if isinstance(path, Path)]
             if not paths or any(p.name in str(error) for p in paths):
                 raise

@@ -7,6 +7,7 @@ import click
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.planning.sensitivity import ReadingNoise
 from fitting.specimen import Specimen
+from instrument.cli.naming import naming_files
 from instrument.cli.options import (
     Level,
     NumberRange,
@@ -109,6 +110,7 @@ class Band(click.ParamType):  # type: ignore[type-arg]
 @acceleration_option
 @figures_option("Save the plan on the response, and the map of spots, as PNG.")
 @json_option
+@naming_files
 def plan(
     specimen: Path,
     target: float,

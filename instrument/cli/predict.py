@@ -10,6 +10,7 @@ from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
 from fitting.specimen import Core, Specimen, StatedSpecimen
 from fitting.structures import Beam, ShearPair
 from fitting.structures.small_modes import small_velocity
+from instrument.cli.naming import naming_files
 from instrument.cli.options import Frequencies, acceleration_option, file_argument, force_option, json_option
 from instrument.cli.output import Output
 from instrument.facts.prediction import PredictionResult
@@ -49,6 +50,7 @@ from instrument.results.prediction_from import of_spots, prediction_from, predic
 @acceleration_option
 @force_option
 @json_option
+@naming_files
 def predict(
     specimen: Path,
     frequencies: NDArray[np.float64],

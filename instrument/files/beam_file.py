@@ -36,6 +36,8 @@ class _Viscoelastic(TomlTable):
 
 class _Spot(TomlTable):
     x_mm: NotNegative
+    y_mm: NotNegative | None = None
+    """As of a plate, from a long edge; it changes nothing: a beam is read in the middle of its width."""
     reads: Reading = "relative"
 
 
@@ -44,6 +46,8 @@ class _Mass(TomlTable):
 
     mass_kg: Positive
     x_mm: NotNegative
+    y_mm: NotNegative | None = None
+    """As of a spot."""
 
 
 class _Base(TomlTable):
@@ -53,6 +57,8 @@ class _Base(TomlTable):
 class _Excitation(TomlTable):
     kind: Drive = "base"
     x_mm: NotNegative | None = None
+    y_mm: NotNegative | None = None
+    """As of a spot."""
 
     @model_validator(mode="after")
     def _placed(self) -> "_Excitation":
@@ -100,10 +106,14 @@ class BeamDocument(TomlTable):
             raise ValueError(
                 '[[mass]] with boundary = "centre-driven", expected none: its halves would not move alike'
             )
-        placed = [("pickup", p.x_mm) for p in self.pickups] + [("mass", m.x_mm) for m in self.mass or ()]
-        for table, x_mm in (*placed, ("excitation", self.force_mm)):
-            if x_mm is not None and x_mm > reach:
-                raise ValueError(f"{table}.x_mm = {x_mm:g} is off the beam, expected 0 to {reach:g}")
+        placed = [("pickup", p.x_mm, p.y_mm) for p in self.pickups]
+        placed += [("mass", m.x_mm, m.y_mm) for m in self.mass or ()]
+        if self.excitation is not None:
+            placed.append(("excitation", self.excitation.x_mm or 0.0, self.excitation.y_mm))
+        for table, *place in placed:
+            for key, at, most in zip(("x_mm", "y_mm"), place, (reach, self.beam.width_mm), strict=True):
+                if at is not None and at > most:
+                    raise ValueError(f"{table}.{key} = {at:g} is off the beam, expected 0 to {most:g}")
         return self
 
     def _driven(self) -> None:

@@ -42,6 +42,11 @@ def modal_from(
         max_percent=float(np.abs(off).max()),
         chi2_per_dof=found.uncertainty.chi2_per_dof,
         leave_one_out_rms_percent=None,
+        # A result of sweeps has them: said to be none, not left out.
+        points=(),
+        held_out=(),
+        held_out_rms_percent=None,
+        criterion_met=None,
         modes=modes_fitted(found, tables),
         files=tuple(names),
         iterations=int(found.iterations),

@@ -1,15 +1,15 @@
-"""Whose data a refusal is of."""
+"""Of which files a refusal is."""
 
 from pathlib import Path
 
 import pytest
 
 from fitting.errors import OutsideModel, TooFewPoints
-from instrument.cli.naming import naming_data
+from instrument.cli.naming import naming_files
 
 
 def refusing(error):
-    @naming_data
+    @naming_files
     def command(*, data):
         raise error
 
@@ -30,4 +30,13 @@ def test_one_that_names_a_file_already_is_left_as_it_is():
 
 
 def test_what_the_command_gives_is_given():
-    assert naming_data(lambda *, data: len(data))(data=(Path("a.csv"),)) == 1
+    assert naming_files(lambda *, data: len(data))(data=(Path("a.csv"),)) == 1
+
+
+def test_a_command_without_data_names_its_specimen():
+    @naming_files
+    def command(*, specimen):
+        raise OutsideModel("[pickup] is missing")
+
+    with pytest.raises(OutsideModel, match=r"^beam\.toml: \[pickup\] is missing"):
+        command(specimen=Path("beam.toml"))

@@ -59,6 +59,13 @@ def test_several_spots_are_in_their_order(tmp_path):
     assert beam.at_pickup(1).further_pickups_m == ()
 
 
+def test_places_across_may_be_stated_as_of_a_plate_and_change_nothing(tmp_path):
+    tables = FORCE + "[[mass]]\nmass_kg = 0.0015\nx_mm = 90.0\n[pickup]\nx_mm = 150.0\n"
+    across = tables.replace("0\n", "0\ny_mm = 5.0\n")
+    assert across.count("y_mm") == 3
+    assert read_structure(written(tmp_path, across)) == read_structure(written(tmp_path, tables))
+
+
 def test_a_clamp_that_holds_the_width_is_counted_where_the_file_says_so(tmp_path):
     path = written(tmp_path, "", "clamped-free", "held_width = true")
     assert read_structure(path).held_width
@@ -86,6 +93,7 @@ def test_what_it_carries_is_stated_as_of_a_plate(tmp_path):
         ("[excitation]\nx_mm = 20.0\n", "clamped-free", "", 'expected kind = "force"'),
         (FORCE, "centre-driven", "", "the base drives its centre"),
         (FORCE.replace("20.0", "201.0"), "free-free", "", "excitation.x_mm = 201 is off the beam"),
+        (FORCE + "y_mm = 21.0\n", "free-free", "", "excitation.y_mm = 21 is off the beam, expected 0 to 20"),
         (
             "[pickup]\nx_mm = 101.0\n",
             "centre-driven",
