@@ -154,12 +154,7 @@ class CandidateFits:
         if self.effects[name].laws(self.none.law, self.problem.points):
             return FirstLook(name, self.other_laws(self.effects[name]), [])
         self.learn(name, state)
-        bare = kept(response_of(self.problem, ()), self.evidence, best.law, best.z)
-        goal = self.goal(best)
-        there = [
-            CandidateFit(self.problem, self.evidence, bare, c.effect, goal=goal)
-            for c in self.candidates[name]
-        ]
+        bare, there = self._from_the_law_of(best, [c.effect for c in self.candidates[name]])
         # From a law far off a linear step says nothing of a stiffness anywhere within six decades.
         astray = self.none.chi2_per_dof > SEARCH.wrong
         for candidate, from_there in zip(self.candidates[name], there, strict=True):
@@ -173,6 +168,20 @@ class CandidateFits:
             candidate.learn(Known(near=sorted(near, key=lambda f: f.chi2)))
         return FirstLook(name, [f for c in self.candidates[name] for f in c.near], self.state(name))
 
+    def _from_the_law_of(
+        self, best: Refitted, effects: Sequence[Effect]
+    ) -> tuple[Refitted, list[CandidateFit]]:
+        """A fit that explains everything with its effect taken away, and others as they begin there."""
+        bare = kept(response_of(self.problem, ()), self.evidence, best.law, best.z)
+        goal = self.goal(best)
+        return bare, [CandidateFit(self.problem, self.evidence, bare, e, goal=goal) for e in effects]
+
+    def another_form(self, one: tuple[Form, Refitted]) -> list[Refitted]:
+        """Rough fits of a form from the law of another one of its effect that explains everything."""
+        form, best = one
+        _, (there,) = self._from_the_law_of(best, [self.form(form)])
+        return there.near
+
     def plain(self, one: tuple[str, State]) -> State:
         """Fits of the first variant from plain starts."""
         name, state = one
@@ -181,13 +190,13 @@ class CandidateFits:
         return self.state(name)
 
     def best_near(self, name: str) -> list[tuple[Form, Refitted]]:
-        """The best of an effect's rough fits, or none; first it, then of other forms what is as good, nearly.
+        """The best of an effect's rough fits, or none; with it that of another form, if it is nearly as good.
 
         What two forms leave after some steps does not say which of them is the likelier in the end.
         """
         each = [((name, k), min(c.near, key=_chi2)) for k, c in enumerate(self.candidates[name]) if c.near]
         best = _best_first(each)
-        return [one for one in best if one[1].chi2 < best[0][1].chi2 + SEARCH.nearer]
+        return [one for one in best[: SEARCH.forms] if one[1].chi2 < best[0][1].chi2 + SEARCH.nearer]
 
     def on_the_way(self, name: str) -> list[tuple[Form, Refitted]]:
         """The best of an effect's rough fits that had not come to their end, or none."""

@@ -114,12 +114,20 @@ class Singles:
         if best is None or not self._explains_all(best):
             return False
         self._settled = True
-        # Its own other forms are others too.
-        several = [n for n in best.names if len(self._work.candidates[n]) > 1]
-        others = [n for n in (*self._laws, *self._effects) if n not in best.names or n in several]
+        others = [n for n in (*self._laws, *self._effects) if n not in best.names]
         tasks = [(n, work.state(n), best.fitted) for n in others]
         self._begin(self._each(work.beside_the_best, tasks, report))
+        self._try_its_other_form(best)
         return True
+
+    def _try_its_other_form(self, best: ScoredFit) -> None:
+        """Where two forms did alike so far, both from the law of the one that explains everything."""
+        work, alike = self._work, [form for form, _ in self._near(best)]
+        if len(alike) < SEARCH.forms:
+            return
+        each = self._each(work.another_form, [(form, best.fitted) for form in alike])
+        found = [(form, rough) for form, fits in zip(alike, each, strict=True) for rough in fits[:1]]
+        self._to_the_end([(form, rough, work.goal(best.fitted)) for form, rough in found])
 
     def _explains_all(self, scored: ScoredFit) -> bool:
         best = scored.fitted

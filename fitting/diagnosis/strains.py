@@ -29,6 +29,8 @@ _GAINED = np.array([0.0, 0.3])
 
 A rubber that loses a fifth of its modulus gains some 0.25.
 """
+_MOST_LOG = 50.0
+"""Of the logarithm of a strain: no core is so strained, and beyond it numbers end."""
 _KEPT = 8
 """Tables of the core's strain for unknowns just asked for; more are begun anew. A choice."""
 
@@ -108,6 +110,8 @@ class Strains:
             if further is not None:
                 logs_here = logs_here + _at(further(gains), softened, more) / away**2
             assert self._reference.strain is not None
+            # A step far beyond what the table is of would overflow; what it leads to is refused anyway.
+            logs_here = np.clip(logs_here, -_MOST_LOG, _MOST_LOG)
             return np.asarray(np.exp(logs_here) / away * drive / self._reference.strain)
 
         return strain

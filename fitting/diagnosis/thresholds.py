@@ -118,6 +118,8 @@ class SearchThresholds:
     close_leaders: int = 8
     """The latter where the best leaves little, of those `near` it: a pair of the campaign was led by the
     sixth. A bound on time."""
+    forms: int = 2
+    """Forms of an effect that are followed to their end where they do alike so far. A bound on time."""
     first: int = 4
     """Effects that are fitted before all others, where they promise most."""
     at_a_time: int = 2

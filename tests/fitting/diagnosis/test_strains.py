@@ -86,6 +86,12 @@ def test_strain_of_a_core_that_gains_loss_is_less_near_resonance(clamped, soften
         assert abs(found.max() - expected.max()) < 0.05 * abs(without - expected.max())
 
 
+@pytest.mark.parametrize("softened", [-300.0, 300.0])
+def test_a_step_far_beyond_what_a_core_does_has_a_number(clamped, softened):
+    strain = Strains(clamped.problem, clamped.plate, Reference()).under(LAW, b"", Change)
+    assert np.isfinite(strain(np.full(len(F_HZ), softened))).all()
+
+
 def test_strain_a_step_further_over_a_sharp_resonance_is_what_the_changed_plate_has(clamped):
     up, down = (with_mass(clamped.plate, MASS + s * STEP) for s in (1, -1))
     strains = Strains(clamped.problem, clamped.plate, Reference())
