@@ -62,7 +62,10 @@ def off(law):
 @pytest.mark.parametrize(
     ("beam", "name", "hidden", "found_within"),
     [
-        (CLAMPED, "added_mass", {"mass": 3e-3, "x": 0.16}, {"mass": 3e-4, "x": 1e-3}),
+        pytest.param(
+            *(CLAMPED, "added_mass", {"mass": 3e-3, "x": 0.16}, {"mass": 3e-4, "x": 1e-3}),
+            marks=pytest.mark.long,
+        ),
         (CLAMPED, "clamp_compliance", {"k": 1e13}, {"k": 2e12}),
         (FREE, "added_mass", {"mass": 3e-3, "x": 0.16}, {"mass": 3e-4, "x": 1e-3}),
     ],

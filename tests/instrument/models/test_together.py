@@ -119,7 +119,7 @@ def at(warmer_k, *, law=LAW):
 
 
 @among("temperature_difference", "added_mass", "gain_error")
-@pytest.mark.parametrize("warmer", [(0.0, 1.5, 0.0), (0.0, 0.9, 2.2)])
+@pytest.mark.parametrize("warmer", [(0.0, 1.5, 0.0), pytest.param((0.0, 0.9, 2.2), marks=pytest.mark.long)])
 def test_files_whose_cores_were_apart_are_no_mass(warmer, without):
     given = []
     for k, (mass, kelvin) in enumerate(zip(HEAVIER_KG, warmer, strict=True)):
@@ -256,7 +256,7 @@ def test_where_a_fixture_resonates_the_rest_is_worth_less_too(mass_kg, at_hz):
 @among(
     "added_mass", "gain_error", "channel_delay", "sensor_lowpass", "sensor_mounting", "temperature_difference"
 )
-@pytest.mark.parametrize("on_base", [True, False])
+@pytest.mark.parametrize("on_base", [True, pytest.param(False, marks=pytest.mark.long)])
 def test_a_sensor_on_wax_is_not_taken_for_the_core(without, on_base):
     """Its resonance lies at twice what is measured, and shows by its square."""
     f_0, given = 2600.0, []
