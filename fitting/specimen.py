@@ -6,7 +6,7 @@ Frozen data only. Files and their units are translated at the border (`instrumen
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from math import sin
-from typing import Literal, Protocol
+from typing import Any, Literal, Protocol
 
 from fitting.arrays import Array
 from fitting.edges import Edges, edges_of, named
@@ -196,8 +196,26 @@ class BaseDriven:
         return self.base_acceleration_m_s2
 
 
+class Driven:
+    """What a structure says that its base drives, or a force at a point."""
+
+    force_m: Any
+    """Where; None: the base does."""
+    base_acceleration_m_s2: float
+
+    @property
+    def drive(self) -> Drive:
+        """What moves it."""
+        return "base" if self.force_m is None else "force"
+
+    @property
+    def drive_amplitude(self) -> float:
+        """Of the base in m/s^2, or one newton."""
+        return self.base_acceleration_m_s2 if self.force_m is None else 1.0
+
+
 @dataclass(frozen=True)
-class Specimen:
+class Specimen(Driven):
     """A rectangular plate, bare (`core` and `constraining` None) or with a constrained core.
 
     x runs from the clamped edge, y from a long edge.
@@ -261,16 +279,6 @@ class Specimen:
         if not self.further_pickups_m:
             return self
         return replace(self, pickup_m=self.pickups_m[number], further_pickups_m=())
-
-    @property
-    def drive(self) -> Drive:
-        """What moves it."""
-        return "base" if self.force_m is None else "force"
-
-    @property
-    def drive_amplitude(self) -> float:
-        """Of the base in m/s^2, or one newton."""
-        return self.base_acceleration_m_s2 if self.force_m is None else 1.0
 
     @property
     def offers(self) -> frozenset[str]:

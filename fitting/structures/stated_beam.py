@@ -7,7 +7,7 @@ from typing import Literal, Self
 import numpy as np
 
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.specimen import Core, Drive, Face, PlacedMass, Reading, Specimen
+from fitting.specimen import Core, Driven, Face, PlacedMass, Reading, Specimen
 from fitting.structures.beam_error import shortened_m
 
 Ends = Literal["clamped-free", "free-free", "clamped-clamped", "centre-driven"]
@@ -16,7 +16,7 @@ _HELD_ENDS = {"clamped-free": 1, "free-free": 0, "clamped-clamped": 2, "centre-d
 
 
 @dataclass(frozen=True)
-class StatedBeam:
+class StatedBeam(Driven):
     """What is stated of it, in SI units; x from a clamped end, or from the centre where that is driven."""
 
     length_m: float
@@ -55,16 +55,6 @@ class StatedBeam:
         if self.force_m is not None:
             # Its ends are at rest: one reading is the other.
             object.__setattr__(self, "reads", "relative")
-
-    @property
-    def drive(self) -> Drive:
-        """What moves it."""
-        return "base" if self.force_m is None else "force"
-
-    @property
-    def drive_amplitude(self) -> float:
-        """Of the base in m/s^2, or one newton."""
-        return self.base_acceleration_m_s2 if self.force_m is None else 1.0
 
     @property
     def offers(self) -> frozenset[str]:
