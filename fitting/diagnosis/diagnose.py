@@ -85,7 +85,9 @@ def diagnose_task(
     of the points; with it the search is repeated on `resamples` sweeps without effects (None: where points
     are few) and with points held out. `settle` has the last word on the judgement.
     """
-    begun = begin(problem, reduced, noise, bare, start, executor, to_its_end=False)
+    # Only a search follows it further.
+    trusted = accepted_by_hand is not None
+    begun = begin(problem, reduced, noise, bare, start, executor, to_its_end=trusted)
     catalogue = {e.name: e for e in effects}
     bases = [CATALOGUE[e.extends] for e in effects if e.extends and e.extends not in catalogue]
     search = Search(begun.problem, begun.evidence, begun.none, effects, executor, bases)

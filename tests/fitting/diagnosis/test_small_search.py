@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from shear_pair_task import GAIN, HIGH, LAW, MASS, PAIR, Task
 
+from fitting.diagnosis import diagnose
 from fitting.diagnosis.candidate_fits import CandidateFits
 from fitting.diagnosis.candidates import Known
 from fitting.diagnosis.cautions import NO_DRIFT
@@ -290,3 +291,16 @@ def test_that_a_drift_could_not_be_considered_without_times_is_said(clean):
     drift = CATALOGUE["temperature_drift"].standing_on(PAIR)
     assert clean.diagnosed(GAIN, drift).warnings == (NO_DRIFT,)
     assert clean.diagnosed(GAIN).warnings == ()
+
+
+@pytest.mark.parametrize(("by_hand", "to_its_end"), [(["gain_error"], True), (None, False)])
+def test_only_a_search_follows_what_has_no_effect_further(clean, monkeypatch, by_hand, to_its_end):
+    asked, begin = [], diagnose.begin
+
+    def listening(*given, **how):
+        asked.append(how["to_its_end"])
+        return begin(*given, **how)
+
+    monkeypatch.setattr(diagnose, "begin", listening)
+    clean.diagnosed(GAIN, accepted_by_hand=by_hand)
+    assert asked == [to_its_end]
