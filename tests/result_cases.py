@@ -10,6 +10,13 @@ LAW_ROW = {
     "loss_factor_standard_error": 0.01,
 }
 
+IDENTIFY_KEYS = {
+    "parameters", "standard_errors", "correlations", "points", "rms_percent", "max_percent",
+    "leave_one_out_rms_percent", "held_out", "held_out_rms_percent", "iterations", "evaluations",
+    "seconds", "setup_seconds", "converged", "criterion_met", "warnings", "law",
+}  # fmt: skip
+"""Of its JSON, whatever the data are."""
+
 
 def identification(**keys):
     """The least that an identification says, and what is asked for."""

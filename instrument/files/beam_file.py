@@ -64,8 +64,9 @@ class _Excitation(TomlTable):
     def _placed(self) -> "_Excitation":
         if self.kind == "force" and self.x_mm is None:
             raise ValueError('kind = "force", expected x_mm of the point where it acts')
-        if self.kind == "base" and self.x_mm is not None:
-            raise ValueError('x_mm with kind = "base", expected kind = "force"')
+        for key, place in (("x_mm", self.x_mm), ("y_mm", self.y_mm)):
+            if self.kind == "base" and place is not None:
+                raise ValueError(f'{key} with kind = "base", expected kind = "force"')
         return self
 
 
@@ -108,8 +109,8 @@ class BeamDocument(TomlTable):
             )
         placed = [("pickup", p.x_mm, p.y_mm) for p in self.pickups]
         placed += [("mass", m.x_mm, m.y_mm) for m in self.mass or ()]
-        if self.excitation is not None:
-            placed.append(("excitation", self.excitation.x_mm or 0.0, self.excitation.y_mm))
+        if self.force_mm is not None and self.excitation is not None:
+            placed.append(("excitation", self.force_mm, self.excitation.y_mm))
         for table, *place in placed:
             for key, at, most in zip(("x_mm", "y_mm"), place, (reach, self.beam.width_mm), strict=True):
                 if at is not None and at > most:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from called import call, facts
 from conftest import DATA
+from result_cases import IDENTIFY_KEYS
 
 from instrument.cli.main import COMMANDS
 from instrument.paper_case import case_file
@@ -81,13 +82,6 @@ def test_uncertified_points_are_solved_in_full(capsys, plate, tmp_path, zn1, mon
     for a, b in zip(plain, solved, strict=True):
         assert a["velocity_m_s"] == pytest.approx(b["velocity_m_s"], rel=1e-6)
         assert a != b
-
-
-IDENTIFY_KEYS = {
-    "parameters", "standard_errors", "correlations", "points", "rms_percent", "max_percent",
-    "leave_one_out_rms_percent", "held_out", "held_out_rms_percent", "iterations", "evaluations",
-    "seconds", "setup_seconds", "converged", "criterion_met", "warnings", "law",
-}  # fmt: skip
 
 
 @pytest.mark.parametrize("method", ["direct", "paper"])

@@ -91,6 +91,7 @@ def test_what_it_carries_is_stated_as_of_a_plate(tmp_path):
     [
         ('[excitation]\nkind = "force"\n', "free-free", "", "expected x_mm of the point where it acts"),
         ("[excitation]\nx_mm = 20.0\n", "clamped-free", "", 'expected kind = "force"'),
+        ("[excitation]\ny_mm = 5.0\n", "clamped-free", "", 'y_mm with kind = "base"'),
         (FORCE, "centre-driven", "", "the base drives its centre"),
         (FORCE.replace("20.0", "201.0"), "free-free", "", "excitation.x_mm = 201 is off the beam"),
         (FORCE + "y_mm = 21.0\n", "free-free", "", "excitation.y_mm = 21 is off the beam, expected 0 to 20"),

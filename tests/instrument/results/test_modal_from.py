@@ -2,16 +2,12 @@
 
 import pytest
 from beam_tables import BEAM, read
+from result_cases import IDENTIFY_KEYS
 
 from instrument.models.modal import identify_tables
 from instrument.results.modal_from import modal_from
 
 TABLE = read(BEAM, 4)
-OF_A_SWEEP = {
-    "parameters", "standard_errors", "correlations", "points", "rms_percent", "max_percent",
-    "leave_one_out_rms_percent", "held_out", "held_out_rms_percent", "iterations", "evaluations",
-    "seconds", "setup_seconds", "converged", "criterion_met", "warnings", "law",
-}  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -20,7 +16,7 @@ def facts():
 
 
 def test_it_has_the_keys_of_a_sweep_s_result(facts):
-    assert set(facts) >= OF_A_SWEEP
+    assert set(facts) >= IDENTIFY_KEYS
     assert (facts["points"], facts["held_out"], facts["criterion_met"]) == ([], [], None)
 
 
