@@ -26,6 +26,7 @@ from fitting.diagnosis.thresholds import SEARCH
 from fitting.diagnosis.verdict import Judgement, in_light_of, judge, told
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
+from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 from fitting.noise import Noise, noise_of
 from fitting.reduced import ReducedPlate
@@ -84,11 +85,15 @@ def diagnose_task(
     point of the sweep why the problem does not hold it, shape (points,). `remade` gives the problem of some
     of the points; with it the search is repeated on `resamples` sweeps without effects (None: where points
     are few) and with points held out. `settle` has the last word on the judgement.
+
+    Raises `OutsideModel` where the data cannot carry what is accepted by hand, before anything is fitted.
     """
     # Only a search follows it further.
     trusted = accepted_by_hand is not None
-    begun = begin(problem, reduced, noise, bare, start, executor, to_its_end=trusted)
     catalogue = {e.name: e for e in effects}
+    by_hand = [catalogue[name] for name in accepted_by_hand or ()]
+    _refuse_what_is_objected_to(problem, by_hand)
+    begun = begin(problem, reduced, noise, bare, start, executor, to_its_end=trusted)
     bases = [CATALOGUE[e.extends] for e in effects if e.extends and e.extends not in catalogue]
     search = Search(begun.problem, begun.evidence, begun.none, effects, executor, bases)
     if accepted_by_hand is None:
@@ -101,8 +106,16 @@ def diagnose_task(
         repeats = 0 if remade is None else repeats_of(len(problem.sweep), resamples)
         decided = _decided(search, noise, report, again, repeats, settle)
     else:
-        decided = _taken_on_trust(search, [catalogue[name] for name in accepted_by_hand])
+        decided = _taken_on_trust(search, by_hand)
     return _diagnosis(decided, reduced, catalogue, bare, channels, why_aside, report)
+
+
+def _refuse_what_is_objected_to(problem: DiagnosisProblem, effects: Sequence[Effect]) -> None:
+    """Before anything is fitted. Raises `OutsideModel` where the data cannot carry one."""
+    for effect in effects:
+        objection = effect.objection(problem.points, problem.plate)
+        if objection is not None:
+            raise OutsideModel(f"{effect.name}: {objection}")
 
 
 @dataclass(frozen=True)

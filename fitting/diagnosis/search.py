@@ -21,7 +21,6 @@ from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.stand_in import stands_in, too_large, unsized
 from fitting.diagnosis.thresholds import SEARCH, VERDICT
 from fitting.effects.base import Effect
-from fitting.errors import OutsideModel
 from fitting.identification.validation import Validation
 from fitting.laws import CoreLaw
 
@@ -295,16 +294,10 @@ class Search:
         return sorted(names, key=lambda name: min(f.chi2 for f in self.work.candidates[name][0].plain))
 
     def told(self, effects: Sequence[Effect]) -> ScoredFit:
-        """These effects together, none of them weighed.
-
-        Raises `OutsideModel` where the data cannot carry one.
-        """
+        """These effects together, none of them weighed."""
         fitted = self.none.fitted
         # Another law comes first: the others are then fitted beside it.
         for effect in sorted(effects, key=lambda e: not e.replaces_law):
-            objection = effect.objection(self.problem.points, self.problem.plate)
-            if objection is not None:
-                raise OutsideModel(f"{effect.name}: {objection}")
             if effect.replaces_law:
                 fits = self.work.other_laws(effect)
                 fitted = min(fits, key=lambda f: self.judged(f).cost)
