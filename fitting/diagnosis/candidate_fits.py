@@ -12,9 +12,11 @@ What the words mean here:
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fitting.arrays import Array
 from fitting.diagnosis.candidates import CandidateFit, Known, is_over_decades
@@ -28,6 +30,7 @@ from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, kept, refit
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
+from fitting.diagnosis.stretches import parts_held_out
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.diagnosis.usual_law import finished, followed, polished
 from fitting.diagnosis.wide_valley import in_wide_valley, of_effects, whole, with_stated
@@ -86,7 +89,12 @@ class CandidateFits:
 
     def held_out(self, fitted: Refitted) -> Validation:
         """What a fit says of data it has not seen."""
-        return held_out(self.problem, self.evidence, fitted)
+        return held_out(self.problem, self.evidence, fitted, self.parts)
+
+    @cached_property
+    def parts(self) -> NDArray[np.intp]:
+        """What is held out, the same of every fit. Shape (points,)."""
+        return parts_held_out(self.problem, self.none.law)
 
     def other_laws(self, effect: Effect) -> list[Refitted]:
         """Fits with each of the laws that an effect has in the place of the stated one."""

@@ -2,6 +2,7 @@
 
 from fitting.diagnosis.freer_law import freedom_of
 from fitting.diagnosis.search import Search
+from fitting.diagnosis.stretches import words_of_stretches
 from fitting.diagnosis.verdict import Judgement, against_by_checks
 from fitting.identification.result import BIASED
 
@@ -13,7 +14,10 @@ NO_DRIFT = (
 
 
 def warnings_of(search: Search, judgement: Judgement) -> tuple[str, ...]:
-    """Of a rare material, an implausible size, missing times, and what someone accepted against the data."""
+    """Of a rare material, an implausible size, missing times, and what someone accepted against the data.
+
+    And of what is held out, where that is no segments.
+    """
     said, problem = list[str](), search.problem
     accepted = judgement.accepted
     if accepted is not None and accepted.names:
@@ -40,4 +44,4 @@ def warnings_of(search: Search, judgement: Judgement) -> tuple[str, ...]:
     if by_hand is not None and (why := against_by_checks(by_hand)):
         what = f"{' and '.join(by_hand.names)}, your word," if by_hand.names else "no effect"
         said.append(f"{what} {why}: something else is missing, and {BIASED}")
-    return tuple(said)
+    return (*said, *words_of_stretches(problem.sweep, search.work.parts))

@@ -15,6 +15,7 @@ from fitting.diagnosis.freer_law import loosened
 from fitting.diagnosis.joint import fit_of
 from fitting.diagnosis.overstated_noise import with_own_noise
 from fitting.diagnosis.prediction import held_out
+from fitting.diagnosis.stretches import parts_held_out, words_of_stretches
 from fitting.digits import written_out
 from fitting.errors import OutsideModel
 from fitting.identification import paper
@@ -144,6 +145,7 @@ def identify(
         models = replace(models, domain=models.domain.widened(fit.law, sweep.frequency_hz))
     if problem.joint is not None:
         further += remarks_on_bend(fit.law, problem.joint.begun.problem.freedom)
+    further += words_of_stretches(sweep, problem.parts())
     theory = _checked(specimen, sweep, fit) if method == "direct" else None
     began = perf_counter()
     with threadpool_limits(1, "blas"), progress("validating") as report:
@@ -195,13 +197,19 @@ class _Direct:
 
     def validated(self, sweep: Sweep, noise: Noise, fit: Fit, report: Report) -> Validation:
         assert self._begun is not None
-        return held_out(self._begun.problem, self._begun.evidence, self._begun.none)
+        return held_out(self._begun.problem, self._begun.evidence, self._begun.none, self.parts())
+
+    def parts(self) -> NDArray[np.intp]:
+        """What is held out, after the fit. Shape (points,)."""
+        assert self._begun is not None
+        return parts_held_out(self._begun.problem, self._begun.none.law)
 
 
 class _Paper:
     joint: Joint | None = None
 
     def __init__(self, sweep: Sweep, models: Models) -> None:
+        self._segment = sweep.segment
         self.problem = paper.PaperProblem.of(sweep, models.real_modes, models.specimen.reads)
 
     def fit(self, start: CoreLaw, report: Report) -> Fit:
@@ -213,10 +221,14 @@ class _Paper:
     def velocity(self, law: CoreLaw) -> NDArray[np.complex128]:
         return self.problem.velocity([law])[0]
 
+    def parts(self) -> NDArray[np.intp]:
+        """Segments alone. Shape (points,)."""
+        return self._segment
+
     def validated(self, sweep: Sweep, noise: Noise, fit: Fit, report: Report) -> Validation:
         size = np.abs(sweep.response_m_s)
         return validate(
-            segment=sweep.segment,
+            segment=self.parts(),
             points_needed=len(fit.law.names),
             differences_percent=lambda points: differences_percent(
                 sweep, self.velocity(self.learnt(fit.law, points))

@@ -16,6 +16,7 @@ from fitting.diagnosis.joint import fit_of
 from fitting.diagnosis.overstated_noise import with_own_noise
 from fitting.diagnosis.prediction import held_out
 from fitting.diagnosis.result import FoundEffect, ParameterEstimate
+from fitting.diagnosis.stretches import parts_held_out, words_of_stretches
 from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import fit_bare_plate
 from fitting.identification.result import summarise
@@ -104,13 +105,15 @@ def identify_together(
     theory = _check_theories(files, fit.law)
     checked = perf_counter()
     with threadpool_limits(1, "blas"), progress("validating"):
-        validation = held_out(begun.problem, begun.evidence, begun.none)
+        parts = parts_held_out(begun.problem, begun.none.law)
+        validation = held_out(begun.problem, begun.evidence, begun.none, parts)
         if noise.source == "misfit":
             validation = validation.without_noise
     sweep = begun.problem.sweep
     scale = remarks_on_scale(plate, fit.law, sweep.frequency_hz)
     bend = remarks_on_bend(fit.law, begun.problem.freedom)
     further = (*scale, *bend, *remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
+    further += words_of_stretches(sweep, parts)
     result = summarise("direct", sweep, noise, fit, validation, further)
     rest = remarks_on_rest(result.rms_percent, validation.held_out) if not misfit else ()
     reading = remarks_on_reading(files[0].sweep, plate, result.rms_percent, progress)
