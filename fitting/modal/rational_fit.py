@@ -219,10 +219,11 @@ def _fitted(window: Frf, starts: Sequence[float], start_ratio: float, terms: int
     # Of large numbers it never does.
     size = min(float(np.sqrt(np.mean(np.abs(H) ** 2))) or 1.0, 1.0)
     shape = H / size
+    lines = _Lines(omega, shape, terms)
     found = least_squares(
-        lambda p: _stack(_remainder(omega, shape, _poles(p, start, scale), terms)),
+        lambda p: _stack(lines.with_poles(_poles(p, start, scale)).left),
         np.zeros(2 * len(start)),
-        jac=lambda p: scale * _jacobian(omega, shape, _poles(p, start, scale), terms),
+        jac=lambda p: scale * lines.with_poles(_poles(p, start, scale)).jacobian,
         x_scale="jac",
         xtol=1e-12,
         ftol=1e-12,
@@ -234,13 +235,14 @@ def _fitted(window: Frf, starts: Sequence[float], start_ratio: float, terms: int
     # zeta = -Re/|lambda|: with Re << |lambda| its error is that of the real part.
     errors = scale * left * np.sqrt(np.diag(np.linalg.pinv(found.jac.T @ found.jac)))
     n = len(start)
+    whole = _Lines(omega, H, terms).with_poles(poles)
     return _Fitted(
         poles,
         errors[:n],
         errors[n:],
-        np.abs(_coefficients(omega, H, poles, terms)[:n]),
+        np.abs(whole.coefficients[:n]),
         left * size,
-        H - _remainder(omega, H, poles, terms),
+        H - whole.left,
         count * np.log(size**2 * max(2 * found.cost, _NOTHING * float(np.sum(np.abs(shape) ** 2))) / count)
         + unknowns * np.log(count),
     )
@@ -251,32 +253,47 @@ def _poles(p: Array, start: Complex, scale: float) -> Complex:
     return np.asarray(start + scale * (p[:n] + 1j * p[n:]))
 
 
-def _remainder(omega: Array, H: Complex, poles: Complex, terms: int) -> Complex:
-    """What residues and background, chosen best, leave of H."""
-    Q, _ = np.linalg.qr(_columns(omega, poles, terms))
-    return np.asarray(H - Q @ (Q.conj().T @ H))
+class _Lines:
+    """Lines to be followed by some poles and a polynomial, whose residues and coefficients are the best."""
+
+    def __init__(self, omega: Array, H: Complex, terms: int) -> None:
+        self.omega, self.H = omega, H
+        t = (omega - omega.mean()) / ((omega[-1] - omega[0]) / 2)
+        self.background = legvander(t, terms - 1)
+        self._last: _Followed | None = None
+
+    def with_poles(self, poles: Complex) -> "_Followed":
+        """Kept until others are asked for: a fit asks what is left first, then how it changes."""
+        if self._last is None or not np.array_equal(self._last.poles, poles):
+            self._last = _Followed(self, poles)
+        return self._last
 
 
-def _coefficients(omega: Array, H: Complex, poles: Complex, terms: int) -> Complex:
-    """Heights of the resonances at their poles, then the background."""
-    Q, R = np.linalg.qr(_columns(omega, poles, terms))
-    return np.asarray(np.linalg.solve(R, Q.conj().T @ H))
+class _Followed:
+    """Lines as some poles follow them."""
 
+    def __init__(self, lines: _Lines, poles: Complex) -> None:
+        self.lines, self.poles = lines, poles
+        resonances = np.abs(poles.real) / (1j * lines.omega[:, None] - poles)
+        self._Q, self._R = np.linalg.qr(np.column_stack([resonances, lines.background]))
+        self._along = self._Q.conj().T @ lines.H
+        self.left: Complex = lines.H - self._Q @ self._along
+        """Of the lines."""
 
-def _jacobian(omega: Array, H: Complex, poles: Complex, terms: int) -> Array:
-    """Kaufman's: the columns' change, residues kept, projected. To the poles' real, then imaginary parts."""
-    Q, _ = np.linalg.qr(_columns(omega, poles, terms))
-    c = _coefficients(omega, H, poles, terms)[: len(poles)]
-    change = -(c * np.abs(poles.real) / (1j * omega[:, None] - poles) ** 2)
-    change = change - Q @ (Q.conj().T @ change)
-    both = np.hstack([change, 1j * change])
-    return np.concatenate([both.real, both.imag])
+    @property
+    def coefficients(self) -> Complex:
+        """Heights of the resonances at their poles, then the background."""
+        return np.asarray(np.linalg.solve(self._R, self._along))
 
-
-def _columns(omega: Array, poles: Complex, terms: int) -> Complex:
-    t = (omega - omega.mean()) / ((omega[-1] - omega[0]) / 2)
-    resonances = np.abs(poles.real) / (1j * omega[:, None] - poles)
-    return np.column_stack([resonances, legvander(t, terms - 1)])
+    @property
+    def jacobian(self) -> Array:
+        """Kaufman's: the columns' change, projected. To the poles' real, then imaginary parts."""
+        poles, omega = self.poles, self.lines.omega
+        c = self.coefficients[: len(poles)]
+        change = -(c * np.abs(poles.real) / (1j * omega[:, None] - poles) ** 2)
+        change = change - self._Q @ (self._Q.conj().T @ change)
+        both = np.hstack([change, 1j * change])
+        return np.concatenate([both.real, both.imag])
 
 
 def _stack(z: Complex) -> Array:

@@ -290,7 +290,7 @@ def test_what_a_channel_shows_by_itself_is_said_and_its_points_set_aside(clean):
 def test_that_a_drift_could_not_be_considered_without_times_is_said(clean):
     drift = CATALOGUE["temperature_drift"].standing_on(PAIR)
     assert NO_DRIFT in clean.diagnosed(GAIN, drift).warnings
-    assert clean.diagnosed(GAIN).warnings == ()
+    assert NO_DRIFT not in clean.diagnosed(GAIN).warnings
 
 
 @pytest.mark.parametrize(("by_hand", "to_its_end"), [(["gain_error"], True), (None, False)])
