@@ -39,6 +39,7 @@ def rows(problem, reduced, law):
     return found.of_plate
 
 
+@pytest.mark.long
 def test_rows_are_those_of_the_plate_as_it_was_found(struck):
     law = struck.core.law
     thicker = replace(

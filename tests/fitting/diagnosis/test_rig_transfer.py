@@ -60,6 +60,7 @@ def test_it_is_found_within_a_percent_or_so(first_seeds, within):
     assert np.median(off) < within
 
 
+@pytest.mark.long
 def test_files_that_wander_each_by_itself_have_nothing_in_common():
     problem, noise = task(sweeps_of_masses(120, alike=False))
     begun = begin(problem, None, noise, None, LAW)
@@ -67,6 +68,7 @@ def test_files_that_wander_each_by_itself_have_nothing_in_common():
     assert rig_transfer(begun.problem, begun.evidence, begun.none) is None
 
 
+@pytest.mark.long
 def test_held_out_it_predicts_better_than_a_law_alone():
     problem, noise = task(sweeps_of_masses(120, alike=True))
     begun = begin(problem, None, noise, None, LAW)

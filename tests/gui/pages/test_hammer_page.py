@@ -32,7 +32,7 @@ pytestmark = [pytest.mark.usefixtures("warm"), pytest.mark.pages("run", "hammer"
 
 LEFT = Qt.MouseButton.LeftButton
 BAND_HZ = (10.0, 550.0)
-PATIENCE_MS = 60_000
+PATIENCE_MS = 240_000
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from instrument.stepped_sine.sine_fit import sine_fit
 
 pytestmark = pytest.mark.pages("run", "sweep")
 
-PATIENCE_MS = 60_000
+PATIENCE_MS = 240_000
 
 
 @pytest.fixture

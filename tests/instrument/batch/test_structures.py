@@ -59,7 +59,7 @@ def in_kilohertz(folder):
     return BatchTask(str(path), str(folder / "beam.toml"))
 
 
-@pytest.mark.parametrize("diagnose", [False, True])
+@pytest.mark.parametrize("diagnose", [False, pytest.param(True, marks=pytest.mark.long)])
 def test_a_table_in_kilohertz_is_a_row_that_fails(in_kilohertz, diagnose):
     asked = "the frequencies are in kHz, expected Hz; --force to go on all the same"
     assert outcome_of(replace(in_kilohertz, diagnose=diagnose))["failed"] == asked

@@ -58,18 +58,20 @@ def off(law):
     return np.abs(G.real / true.real - 1).max(), np.abs(G.imag / G.real * true.real / true.imag - 1).max()
 
 
+MASS = {"mass": 3e-3, "x": 0.16}, {"mass": 3e-4, "x": 1e-3}
+"""Hidden, and within what it is to be found."""
+
+
 @among("added_mass", "clamp_compliance", "clamp_line", "core_thickness", "tether", "gain_error")
 @pytest.mark.parametrize(
     ("beam", "name", "hidden", "found_within"),
     [
-        pytest.param(
-            *(CLAMPED, "added_mass", {"mass": 3e-3, "x": 0.16}, {"mass": 3e-4, "x": 1e-3}),
-            marks=pytest.mark.long,
+        *(
+            pytest.param(beam, "added_mass", *MASS, marks=pytest.mark.long, id=f"mass-{ends}")
+            for beam, ends in ((CLAMPED, "clamped"), (FREE, "free"))
         ),
-        (CLAMPED, "clamp_compliance", {"k": 1e13}, {"k": 2e12}),
-        (FREE, "added_mass", {"mass": 3e-3, "x": 0.16}, {"mass": 3e-4, "x": 1e-3}),
+        pytest.param(CLAMPED, "clamp_compliance", {"k": 1e13}, {"k": 2e12}, id="clamp-yields"),
     ],
-    ids=["mass-clamped", "clamp-yields", "mass-free"],
 )
 def test_what_is_hidden_is_named_with_its_size_and_place(beam, name, hidden, found_within, without):
     files = [File(read(beam, name, list(hidden.values()), 1), beam)]

@@ -105,6 +105,7 @@ def test_one_wrong_row_is_named_before_material_or_temperatures_are_blamed(more)
     assert "at 20 degC mode 3 does not go with the others" in words
 
 
+@pytest.mark.long
 def test_modes_that_are_numbered_wrongly_are_asked_about_at_once(more):
     lost = [replace(one, data=replace(one.data, mode=one.data.mode + (one.data.mode > 1))) for one in more]
     with pytest.raises(BadInput, match=r"beam 1\.csv: no core of its own .* expected another specimen"):

@@ -71,6 +71,7 @@ def test_a_delay_of_all_sweeps_is_named_and_the_law_found_beside_it(exact):
     assert np.all(np.abs(off) < 3.5 * found.fit.log_shift_errors + 1e-9)
 
 
+@pytest.mark.long
 def test_a_wrong_gain_of_all_sweeps_is_named(exact):
     found = asked(exact, SIMPLE, loud)
     assert found.cause.effect.name == "gain_error"
@@ -78,6 +79,7 @@ def test_a_wrong_gain_of_all_sweeps_is_named(exact):
     assert found.verdict.simple
 
 
+@pytest.mark.long
 def test_laws_of_another_form_at_each_temperature_are_refused(exact):
     class Other(OneProcess):
         def modulus(self, omega):

@@ -231,6 +231,7 @@ def test_unknown_names_and_bare_plates_are_refused():
         diagnose(sweep, plate_of_the_rig().bare)
 
 
+@pytest.mark.long
 def test_a_segment_in_another_range_is_named_with_its_frequencies():
     sweep = every(3, practice("002"))
     off = np.where(sweep.segment == 2, 1.12, 1.0)

@@ -214,6 +214,7 @@ def test_softening_is_not_told_from_one_level():
     assert "amplitude_softening" not in {e.name for e in one.effects}
 
 
+@pytest.mark.long
 @among("amplitude_softening", "added_mass", "gain_error")
 def test_softening_is_told_by_two_levels(without):
     two = diagnose_together(softened(9.81, 2.5), without=without).found.result

@@ -80,6 +80,7 @@ def test_every_step_reads_the_plants_steady_state(quiet_run, plant):
         assert abs(np.degrees(np.angle(ratio))) < 0.2
 
 
+@pytest.mark.long
 def test_the_level_holds_at_every_step_though_the_shaker_varies_twenty_decibels(quiet_run, demo_run, plant):
     gains = [abs(plant.steady_state(f)["base_acceleration"]) for f in np.linspace(14, 310, 300)]
     assert 20 * np.log10(max(gains) / min(gains)) > 18
