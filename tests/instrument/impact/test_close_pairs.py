@@ -29,7 +29,7 @@ def about(found):
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-@pytest.mark.parametrize("bandwidths", [0.7, 1.0])
+@pytest.mark.parametrize("bandwidths", [0.7, pytest.param(1.0, marks=pytest.mark.long)])
 def test_a_pair_less_than_a_bandwidth_apart_is_two_modes(bandwidths, sign):
     off = []
     for seed in range(3):

@@ -50,7 +50,9 @@ def broken_off(experiment, folder, after):
     return running
 
 
-@pytest.mark.parametrize("after", [2, 5, 8, 11])
+@pytest.mark.parametrize(
+    "after", [2, pytest.param(5, marks=pytest.mark.long), 8, pytest.param(11, marks=pytest.mark.long)]
+)
 def test_a_calibration_broken_off_anywhere_is_the_same_in_the_end(tmp_path, after):
     with formula_rig(tmp_path, sweep=SWEEP) as (_, experiment):
         experiment = calibrated(experiment)
