@@ -11,7 +11,9 @@ resonance, 2 Im delta that of its loss factor in absolute terms. On simply suppo
 is; clamped and free edges add `EDGE_FREQUENCY` and `EDGE_LOSS`.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -91,8 +93,13 @@ class TheoryError:
     """(layer-wise - exact)/exact modal loss factor."""
     delta: Complex
     """1/2 ln(lambda_exact/lambda_layerwise), of the opposite sign."""
-    worst_assumption: Assumption
-    """What fails most at the frequency where the theory is worst."""
+    blamed: Callable[[], Assumption]
+    """`worst_assumption`: only a refusal names it, and to find it takes as long as all the rest."""
+
+    @property
+    def worst_assumption(self) -> Assumption:
+        """What fails most at the frequency where the theory is worst."""
+        return self.blamed()
 
     @property
     def excess(self) -> Array:
@@ -123,7 +130,7 @@ def theory_error(specimen: Specimen, frequency_hz: ArrayLike, G: ArrayLike = 0.0
         loss_factor=exact.imag / exact.real,
         loss_factor_error=loss_error,
         delta=np.asarray(np.log(exact / layerwise) / 2, dtype=complex),
-        worst_assumption=_worst_assumption(specimen, k[[worst]], G[[worst]]),
+        blamed=partial(_worst_assumption, specimen, k[[worst]], G[[worst]]),
     )
 
 
@@ -159,11 +166,15 @@ def check_beam_theory(layers: Specimen, law: CoreLaw, frequency_hz: ArrayLike) -
         frequency_error=COUNTED_WITHIN * frequency,
         loss_factor_error=COUNTED_WITHIN * loss,
         delta=np.asarray(COUNTED_WITHIN * delta, dtype=complex),
-        worst_assumption=FACES_TOGETHER,
+        blamed=_faces_together,
     )
     if error.excess[np.argmin(f)] > 1:
         raise OutsideModel(refusal(error, "beam"))
     return error
+
+
+def _faces_together() -> Assumption:
+    return FACES_TOGETHER
 
 
 def check_theory(specimen: Specimen, law: CoreLaw | None, frequency_hz: ArrayLike) -> TheoryError:

@@ -3,6 +3,7 @@
 `identify` reports it, `diagnose` begins with it.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,6 +31,8 @@ from fitting.reduced import ReducedPlate
 
 _FAR = 0.1
 """Relative change of the modulus from which the grids and the model's error are made anew."""
+_THE_SAME = 1.0
+"""Chi-square by which rough fits from two laws may differ that have met: what a standard error is worth."""
 _ROUNDS = 3
 """A bound on time."""
 
@@ -77,7 +80,7 @@ def begin(
         laws = [BentLaw.over(one, sweep.frequency_hz, problem.freedom) for one in laws]
         stated = BentLaw.over(stated, sweep.frequency_hz, problem.freedom)
     problem = problem.with_narrow(laws[0])
-    law, u = laws[0], problem.as_stated
+    law, u, meets = laws[0], problem.as_stated, False
     v = model.velocity(law)
     for round in range(_ROUNDS):
         here = problem.condensed(law).around(law)
@@ -90,9 +93,10 @@ def begin(
             rough = response_of(here, (), here.coarse)
             fits = [refit(rough, evidence, one, u, tolerance=ROUGH) for one in laws]
             best = min(fits, key=lambda f: f.chi2)
-            law, u, laws = best.law, best.u, [best.law]
+            law, u, laws, meets = best.law, best.u, [best.law], _are_one(fits)
         none = polished(here, (), evidence, law, u)
-        if round == 0 and (inside is not first.law or none.chi2_per_dof > SEARCH.wrong):
+        is_clear = meets and none.chi2_per_dof < SEARCH.unclear
+        if round == 0 and not is_clear and (inside is not first.law or none.chi2_per_dof > SEARCH.wrong):
             # The law alone did what tolerances might do, and led to a valley of its own.
             none = _from_elsewhere(here, evidence, stated, none, executor)
         omega = problem.coarse.nodes.omega
@@ -103,11 +107,17 @@ def begin(
         v = model.velocity(law)
         if problem.errs_as_found:
             problem, v = problem.as_found(none.z), none.velocity_m_s
-    if to_its_end:
+    if to_its_end and not is_clear:
         none = followed(here, evidence, none, executor)
-    elif none.chi2_per_dof < SEARCH.wrong:
+    elif to_its_end or none.chi2_per_dof < SEARCH.wrong:
         none = at_rest(here, evidence, none)
     return Begun(here, problem.plate, evidence, none, first)
+
+
+def _are_one(fits: Sequence[Refitted]) -> bool:
+    """Whether rough fits from several laws have come to the same end."""
+    chi2 = [f.chi2 for f in fits]
+    return max(chi2) - min(chi2) < _THE_SAME and all(f.converged for f in fits)
 
 
 def _from_elsewhere(

@@ -67,9 +67,10 @@ class _Ways:
 
     def from_usual(self, fitted: Refitted) -> Refitted:
         """From the law of usual size; itself where that cannot come as far."""
-        law, goal = self.usual(fitted), fitted.chi2
+        # What ends no lower is the same, or worse.
+        law, goal = self.usual(fitted), fitted.chi2 - SEARCH.least_owed
         again = polished(self.problem, fitted.effects, self.evidence, law, fitted.u, goal)
-        return at_rest(self.problem, self.evidence, again) if again.may_reach(fitted.chi2) else fitted
+        return at_rest(self.problem, self.evidence, again, goal) if again.may_reach(goal) else fitted
 
 
 def polished(
@@ -115,8 +116,10 @@ def finished(
     return polished(problem, rough.effects, evidence, law, u, goal)
 
 
-def at_rest(problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted) -> Refitted:
-    """A fit followed until nothing is left to be gained; itself where it is there.
+def at_rest(
+    problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted, goal: float = np.inf
+) -> Refitted:
+    """A fit followed until nothing is left to be gained, or `goal` is out of reach; itself where it is there.
 
     What was followed far enough to compare may be on its way still, along a valley that winds: there
     chi-square hardly falls from step to step, and the law has far to go.
@@ -124,10 +127,11 @@ def at_rest(problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted) -> 
     if fitted.converged and fitted.owed < SEARCH.least_owed:
         return fitted
     response = response_of(problem.around(fitted.law), fitted.effects)
-    found = refit(response, evidence, fitted.law, fitted.u, tolerance=AT_REST)
+    goal = min(goal, fitted.chi2 - SEARCH.least_owed)
+    found = refit(response, evidence, fitted.law, fitted.u, tolerance=AT_REST, goal=goal)
     if fitted.chi2 - found.chi2 < SEARCH.least_owed:
         # Nothing is left to gain: one that was only cut short there has come to its end.
-        return replace(fitted, converged=fitted.converged or found.converged)
+        return replace(fitted, converged=fitted.converged or found.converged or not found.may_reach(goal))
     return polished(problem, found.effects, evidence, found.law, found.u)
 
 

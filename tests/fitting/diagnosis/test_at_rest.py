@@ -74,6 +74,22 @@ def test_what_ran_out_of_steps_where_nothing_is_left_to_gain_has_come_to_its_end
     assert at_rest(problem, evidence, replace(there, converged=False)).converged
 
 
+def test_what_could_not_gain_what_matters_in_all_its_steps_is_let_be(valley, monkeypatch):
+    problem, evidence = valley
+    there, asked = refit(Winding(), evidence, END, np.empty(0)), []
+
+    def given_up(*what, **how):
+        asked.append(how["goal"])
+        return replace(there, converged=False, pace=0.0)
+
+    monkeypatch.setattr(usual_law, "refit", given_up)
+    here = replace(there, converged=False)
+    assert at_rest(problem, evidence, here).converged
+    assert asked == [here.chi2 - SEARCH.least_owed]
+    at_rest(problem, evidence, here, here.chi2 - 5)
+    assert asked[1] == here.chi2 - 5
+
+
 OMEGA = 2 * np.pi * np.geomspace(15, 400, 20)
 
 
@@ -81,15 +97,15 @@ OMEGA = 2 * np.pi * np.geomspace(15, 400, 20)
 def test_a_law_far_from_what_cores_are_is_left_where_a_usual_one_does_better(monkeypatch, reached, chi2):
     """A drift's fit: in its own valley the law is G' 34 % off."""
     far = FractionalZener(3.2e5, 9.4e10, 3.3e-10, 0.76)
-    begun = []
+    begun, matters = [], 516.2 - SEARCH.least_owed
 
     def polished(problem, effects, evidence, law, u, goal):
-        assert goal == 516.2
+        assert goal == matters
         begun.append(law)
-        return SimpleNamespace(law=law, chi2=511.9, may_reach=lambda goal: reached and goal == 516.2)
+        return SimpleNamespace(law=law, chi2=511.9, may_reach=lambda goal: reached and goal == matters)
 
     monkeypatch.setattr(usual_law, "polished", polished)
-    monkeypatch.setattr(usual_law, "at_rest", lambda problem, evidence, fitted: fitted)
+    monkeypatch.setattr(usual_law, "at_rest", lambda problem, evidence, fitted, *_: fitted)
     problem = SimpleNamespace(points=SimpleNamespace(omega=OMEGA))
     fitted = SimpleNamespace(law=far, chi2=516.2, effects=(), u=np.empty(0))
     found = usual_law.followed(problem, None, fitted)
@@ -101,7 +117,7 @@ def test_a_law_far_from_what_cores_are_is_left_where_a_usual_one_does_better(mon
 
 def test_a_law_of_usual_size_is_begun_from_nowhere_else(monkeypatch):
     fitted = SimpleNamespace(law=FractionalZener(3.5e5, 7.9e6, 1.1e-4, 0.79))
-    monkeypatch.setattr(usual_law, "at_rest", lambda problem, evidence, fitted: fitted)
+    monkeypatch.setattr(usual_law, "at_rest", lambda problem, evidence, fitted, *_: fitted)
     problem = SimpleNamespace(points=SimpleNamespace(omega=OMEGA))
     assert usual_law.followed(problem, None, fitted) is fitted
 
