@@ -21,17 +21,24 @@ class Steps:
     """The steps of a fit as it takes them: a callback of scipy's.
 
     It ends the fit where a chi-square of `goal` is out of reach, or one of `rival` by the end of the
-    evaluations that it may have, `most`: of rough fits those that have come furthest by then are chosen.
+    evaluations that it may have, `most`: of rough fits those that have come furthest by then are chosen. So
+    it does where less than `least` is left to gain in all the steps that a fit may have: it is at rest.
     """
 
-    def __init__(self, goal: float = np.inf, rival: float = np.inf, most: int = _MOST_STEPS) -> None:
-        self._goal, self._rival, self._most = goal, rival, most
+    def __init__(
+        self, goal: float = np.inf, rival: float = np.inf, most: int = _MOST_STEPS, least: float = 0.0
+    ) -> None:
+        self._goal, self._rival, self._most, self._least = goal, rival, most, least
+        self.at_rest = False
         self._chi2 = list[float]()
 
     def __call__(self, intermediate_result: OptimizeResult) -> None:
         """Take note of a step. Raises `StopIteration` to end the fit."""
         self._chi2.append(2 * float(intermediate_result.cost))
         if not is_within_reach(self._chi2[-1], self._goal, self.pace):
+            raise StopIteration
+        self.at_rest = _MOST_STEPS * self.pace < self._least
+        if self.at_rest:
             raise StopIteration
         if np.isfinite(self._rival) and np.isfinite(self.pace):
             left = self._most - int(intermediate_result.nfev)

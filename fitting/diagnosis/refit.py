@@ -36,16 +36,18 @@ def refit(
     brief: bool = False,
     goal: float = np.inf,
     rival: float = np.inf,
+    least: float = 0.0,
 ) -> Refitted:
     """The best law and unknowns from `law` and `u` on; `points` limits the sweep's points that count.
 
     Shapes: `u` as in `Refitted`, `points` (points,). `brief` where little is to be gained. Ends early where
-    a chi-square of `goal` is out of reach (`Refitted.may_reach`), or one of `rival` by its last evaluation.
+    a chi-square of `goal` is out of reach (`Refitted.may_reach`), or one of `rival` by its last evaluation;
+    and where less than `least` of it is left to gain, at the pace of its steps: then it has come to its end.
     """
     problem = JointProblem(response, evidence, law, u, points)
     lower, upper = problem.limits
     most = _BRIEF_EVALUATIONS if brief else _most(tolerance)
-    steps = Steps(goal, rival, most)
+    steps = Steps(goal, rival, most, least)
     found = least_squares(
         problem.shortened,
         np.clip(problem.start, lower, upper),
@@ -62,7 +64,7 @@ def refit(
         problem.fitted(found.x),
         iterations=int(found.njev),
         evaluations=int(found.nfev),
-        converged=bool(found.status > 0),
+        converged=bool(found.status > 0) or steps.at_rest,
         pace=steps.pace,
     )
 

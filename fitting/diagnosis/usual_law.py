@@ -85,17 +85,22 @@ def polished(
 
     `u` of shape (unknowns,). `goal` as `refit` takes it.
     """
-    by_strain = any(span.name == "strain" for e in effects for span in e.spans)
     for _ in range(_ROUNDS):
         fitted = refit(response_of(problem.around(law), effects), evidence, law, u, goal=goal)
         if fitted.chi2_per_dof > SEARCH.hopeless or not fitted.may_reach(goal):
             break
-        omega = problem.fine.nodes.omega
-        moved = np.max(np.abs(fitted.law.modulus(omega) / law.modulus(omega) - 1))
-        law, u = fitted.law, fitted.u
-        if moved < (_FAR_OF_STRAIN if by_strain else _FAR):
+        if _is_near(problem, law, fitted):
             break
+        law, u = fitted.law, fitted.u
     return fitted
+
+
+def _is_near(problem: DiagnosisProblem, law: CoreLaw, fitted: Refitted) -> bool:
+    """Whether a grid made for a law serves where a fit that began from it has ended."""
+    omega = problem.fine.nodes.omega
+    moved = np.max(np.abs(fitted.law.modulus(omega) / law.modulus(omega) - 1))
+    by_strain = any(span.name == "strain" for e in fitted.effects for span in e.spans)
+    return bool(moved < (_FAR_OF_STRAIN if by_strain else _FAR))
 
 
 def finished(
@@ -127,11 +132,13 @@ def at_rest(
     if fitted.converged and fitted.owed < SEARCH.least_owed:
         return fitted
     response = response_of(problem.around(fitted.law), fitted.effects)
-    goal = min(goal, fitted.chi2 - SEARCH.least_owed)
-    found = refit(response, evidence, fitted.law, fitted.u, tolerance=AT_REST, goal=goal)
+    least = SEARCH.least_owed
+    found = refit(response, evidence, fitted.law, fitted.u, tolerance=AT_REST, goal=goal, least=least)
     if fitted.chi2 - found.chi2 < SEARCH.least_owed:
         # Nothing is left to gain: one that was only cut short there has come to its end.
-        return replace(fitted, converged=fitted.converged or found.converged or not found.may_reach(goal))
+        return replace(fitted, converged=fitted.converged or found.converged)
+    if _is_near(problem, fitted.law, found):
+        return found
     return polished(problem, found.effects, evidence, found.law, found.u)
 
 

@@ -74,20 +74,26 @@ def test_what_ran_out_of_steps_where_nothing_is_left_to_gain_has_come_to_its_end
     assert at_rest(problem, evidence, replace(there, converged=False)).converged
 
 
-def test_what_could_not_gain_what_matters_in_all_its_steps_is_let_be(valley, monkeypatch):
+def test_what_could_not_gain_what_matters_in_all_its_steps_has_come_to_its_end(valley):
+    _, evidence = valley
+    freely = refit(Winding(), evidence, BEGINNING, np.empty(0), tolerance=AT_REST)
+    ended = refit(Winding(), evidence, BEGINNING, np.empty(0), tolerance=AT_REST, least=50.0)
+    assert ended.converged
+    assert ended.evaluations < freely.evaluations
+    assert ended.chi2 > freely.chi2
+
+
+def test_it_is_told_how_far_it_must_come(valley, monkeypatch):
     problem, evidence = valley
     there, asked = refit(Winding(), evidence, END, np.empty(0)), []
 
-    def given_up(*what, **how):
-        asked.append(how["goal"])
-        return replace(there, converged=False, pace=0.0)
+    def follow(*what, **how):
+        asked.append((how["goal"], how["least"]))
+        return there
 
-    monkeypatch.setattr(usual_law, "refit", given_up)
-    here = replace(there, converged=False)
-    assert at_rest(problem, evidence, here).converged
-    assert asked == [here.chi2 - SEARCH.least_owed]
-    at_rest(problem, evidence, here, here.chi2 - 5)
-    assert asked[1] == here.chi2 - 5
+    monkeypatch.setattr(usual_law, "refit", follow)
+    at_rest(problem, evidence, replace(there, converged=False), 3.0)
+    assert asked == [(3.0, SEARCH.least_owed)]
 
 
 OMEGA = 2 * np.pi * np.geomspace(15, 400, 20)
