@@ -14,7 +14,6 @@ from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.kin import UNLISTED, Unlisted, kin_of
 from fitting.diagnosis.overstated_noise import is_overstated, with_noise_of_left
 from fitting.diagnosis.pairs import Pairs
-from fitting.diagnosis.prediction import over_noise
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.resampling import Again, Resampled, gain, repeats_of, resampled_of
@@ -250,7 +249,7 @@ def _judged(search: Search, scored_fits: Sequence[ScoredFit]) -> Judgement:
     return judge(
         *search.tempered(scored_fits),
         hidden=frozenset(e.name for e in search.unnamed),
-        held_out=lambda scored: over_noise(search.validation(scored)),
+        held_out=search.off_unseen,
         kin=lambda scored: kin_of(search, scored.fitted, t),
     )
 

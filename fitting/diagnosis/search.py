@@ -13,6 +13,7 @@ from fitting.diagnosis.executor import Call, Executor
 from fitting.diagnosis.freer_law import RARE, freedom_of
 from fitting.diagnosis.looks import has_place, look
 from fitting.diagnosis.marginal import cost
+from fitting.diagnosis.prediction import over_noise
 from fitting.diagnosis.predictive import TOLERANCES, checks, form_error, most_unrefused, passes, temper
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import refit
@@ -174,6 +175,15 @@ class Search:
         if scored.fitted not in self._validations:
             self._validations[scored.fitted] = self.work.held_out(scored.fitted)
         return self._validations[scored.fitted]
+
+    def off_unseen(self, scored: ScoredFit) -> float:
+        """Its error over noise on segments that were held out; NaN where there are none.
+
+        Stretches of a sweep in one piece touch: of them two effects foretell more than is theirs.
+        """
+        if len(np.unique(self.problem.sweep.segment)) < 2:
+            return float("nan")
+        return over_noise(self.validation(scored))
 
     def alone(self, scored: ScoredFit) -> list[ScoredFit]:
         """Each effect of a pair fitted alone from where the pair left it."""

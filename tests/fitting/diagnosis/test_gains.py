@@ -8,6 +8,7 @@ import pytest
 from fitting.diagnosis.executor import ALONE
 from fitting.diagnosis.prediction import over_noise
 from fitting.diagnosis.resampling import REPEATS, SMALL, gain, nested_rms_percent, resampled_of
+from fitting.diagnosis.search import Search
 from fitting.diagnosis.stage import found_effects, mixture_of
 from fitting.effects.gain_error import GainErrorEffect
 from fitting.effects.tether import TetherEffect
@@ -67,6 +68,14 @@ def test_a_prediction_s_error_is_over_the_noise_of_its_segment():
     held = [SimpleNamespace(rms_percent=r, noise_percent=n) for r, n in ((2.0, 1.0), (9.0, 3.0), (1.0, 10.0))]
     assert over_noise(SimpleNamespace(held_out=held)) == pytest.approx(2.0)
     assert np.isnan(over_noise(SimpleNamespace(held_out=[])))
+
+
+@pytest.mark.parametrize(("segments", "off"), [([1, 1, 2], 2.0), ([1, 1, 1], np.nan)])
+def test_no_verdict_goes_by_stretches_of_one_piece(segments, off):
+    said = SimpleNamespace(held_out=[SimpleNamespace(rms_percent=2.0, noise_percent=1.0)])
+    sweep = SimpleNamespace(segment=np.array(segments))
+    search = SimpleNamespace(problem=SimpleNamespace(sweep=sweep), validation=lambda scored: said)
+    assert Search.off_unseen(search, None) == pytest.approx(off, nan_ok=True)
 
 
 def test_laws_that_disagree_widen_their_mixture():
