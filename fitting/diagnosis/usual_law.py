@@ -70,7 +70,10 @@ class _Ways:
         # What ends no lower is the same, or worse.
         law, goal = self.usual(fitted), fitted.chi2 - SEARCH.least_owed
         again = polished(self.problem, fitted.effects, self.evidence, law, fitted.u, goal)
-        return at_rest(self.problem, self.evidence, again, goal) if again.may_reach(goal) else fitted
+        if not again.may_reach(goal):
+            return fitted
+        found = at_rest(self.problem, self.evidence, again, goal)
+        return found if found.chi2 <= goal else fitted
 
 
 def polished(

@@ -121,6 +121,16 @@ def test_a_law_far_from_what_cores_are_is_left_where_a_usual_one_does_better(mon
     assert found.chi2 == chi2
 
 
+def test_what_a_usual_law_gains_less_than_matters_by_takes_nothing_s_place(monkeypatch):
+    far = FractionalZener(3.2e5, 9.4e10, 3.3e-10, 0.76)
+    fitted = SimpleNamespace(law=far, chi2=516.2, effects=(), u=np.empty(0))
+    given_up = SimpleNamespace(law=far, chi2=516.15, may_reach=lambda goal: True)
+    monkeypatch.setattr(usual_law, "polished", lambda *_: given_up)
+    monkeypatch.setattr(usual_law, "at_rest", lambda problem, evidence, one, *_: one)
+    problem = SimpleNamespace(points=SimpleNamespace(omega=OMEGA))
+    assert usual_law.followed(problem, None, fitted) is fitted
+
+
 def test_a_law_of_usual_size_is_begun_from_nowhere_else(monkeypatch):
     fitted = SimpleNamespace(law=FractionalZener(3.5e5, 7.9e6, 1.1e-4, 0.79))
     monkeypatch.setattr(usual_law, "at_rest", lambda problem, evidence, fitted, *_: fitted)
