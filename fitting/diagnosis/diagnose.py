@@ -226,10 +226,10 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
         search = search.with_evidence(with_noise_of_left(sweep, search.evidence, singles[0].fitted))
         singles = Singles(search, lambda x: report(0.5)).best()
     singles = _bettered(singles, [one for best in singles[:1] for one in search.elsewhere(best)])
-    leading = [t for t in singles if t.cost < singles[0].cost + SEARCH.near]
+    leading = search.leading(singles)
     # Two masses may have found a better place for one than it found alone, a pair for one of its effects.
     singles = _bettered(singles, search.simpler(leading))
-    leading = [t for t in singles if t.cost < singles[0].cost + SEARCH.near]
+    leading = search.leading(singles)
     singles = _bettered(singles, search.twofold(leading))
     pairs = _pairs(search, singles, lambda x: report(0.5 + 0.3 * x))
     singles = _bettered(singles, [one for pair in pairs[:1] for one in search.alone(pair)])

@@ -7,7 +7,7 @@ import numpy as np
 
 from fitting.diagnosis.candidate_fits import Form
 from fitting.diagnosis.executor import Call
-from fitting.diagnosis.looks import has_place
+from fitting.diagnosis.looks import Start, has_place
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit, Search, best_of_each
 from fitting.diagnosis.thresholds import SEARCH
@@ -15,6 +15,8 @@ from fitting.effects.base import Effect
 
 Report = Callable[[float], None]
 A = TypeVar("A")
+Seen = tuple[ScoredFit, Form, list[Start]]
+"""A single effect, the form of a second one, and that one's starts beside it, best first."""
 
 _LOOKED_AT = 6
 """Forms that are looked at in one go: few enough that both processes end at about the same time. A choice."""
@@ -27,35 +29,11 @@ class Pairs:
         self._search = search
 
     def best(self, singles: Sequence[ScoredFit], report: Report, *, wide: bool) -> list[ScoredFit]:
-        """Second effects beside the leading single ones; best first.
-
-        Where it is not `wide`: beside the best what promises more than it costs, beside those near it what
-        promises to come as far as the best alone.
-        """
+        """Second effects beside the leading single ones, or beside near ones if one suffices; best first."""
         search, work, each = self._search, self._search.work, self._search.executor.each
-        scale = search.temper(singles[0])
-        near = singles[0].cost + SEARCH.near * scale
-        close = [t for t in singles if t.cost < near]
-        leaders = singles[: SEARCH.leaders] if wide else close[: SEARCH.close_leaders]
-        tasks = [(t, form) for t in leaders for form in self._others(t.names)]
-        # One suffices where it is not wide: those near the best are then what is reported.
-        moving = [] if wide else search.moving(singles, singles[0])
-        asked = [(t.fitted, self._others(t.names)) for t in leaders]
-        looks = self._looks(work.look, asked, lambda x: report(0.4 * x), moving)
-        promised = [starts[0][0] if starts else 0.0 for starts in looks]
-        expected = [t.fitted.chi2 - gain for (t, _), gain in zip(tasks, promised, strict=True)]
-        chosen: dict[frozenset[str], int] = {}
-        beside: dict[ScoredFit, int] = {}
-        enough = dict.fromkeys(leaders, singles[0].cost)
-        enough[singles[0]] -= SEARCH.least_expected * scale
-        for k in np.argsort(expected):
-            scored, (name, _) = tasks[k]
-            # Each leader has its say: a linear step from a poor one promises too much.
-            many = len(chosen) == SEARCH.pairs or beside.get(scored, 0) == SEARCH.pairs_a_leader
-            if not many and (wide or scored.cost - promised[k] < enough[scored]):
-                beside[scored] = beside.get(scored, 0) + 1
-                chosen.setdefault(frozenset((*scored.names, name)), int(k))
-        full = [(tasks[k][0].fitted, tasks[k][1], looks[k], np.inf) for k in chosen.values()]
+        seen = self._beside_all if wide else self._beside_the_near
+        chosen = seen(singles, lambda x: report(0.4 * x))
+        full = [(t.fitted, form, starts, np.inf) for t, form, starts in chosen]
         begun = each(work.near, full, lambda x: report(0.4 + 0.2 * x))
         rough = _longest_first([f for f in begun if f is not None])
         best = search.judged(min(rough, key=_chi2)) if rough and wide else None
@@ -64,7 +42,7 @@ class Pairs:
         goals = [self._goal(best, f.effects) if best else np.inf for f in rough]
         fits = each(work.ended, list(zip(rough, goals, strict=True)), lambda x: report(0.6 + 0.2 * x))
         found = sorted((search.judged(f) for f in fits), key=_cost)
-        if wide and found and not self._will_do([*leaders[:1], *found]):
+        if wide and found and not self._will_do([*singles[:1], *found]):
             # The best may only have begun from the wrong place, or not have looked promising.
             plain = [t for t in singles if _plainly(t)]
             found += self._every_second(plain, found, self._most_left([*plain, *found]))
@@ -72,6 +50,57 @@ class Pairs:
         if found and min(t.cost for t in found) < singles[0].cost:
             found += self._improved(found)
         return best_of_each(found)
+
+    def _beside_all(self, singles: Sequence[ScoredFit], report: Report) -> list[Seen]:
+        """What promises most beside the leading ones."""
+        leaders = singles[: SEARCH.leaders]
+        asked = [(t, self._others(t.names)) for t in leaders]
+        seen = self._seen(asked, report)
+        return self._chosen(seen)
+
+    def _beside_the_near(self, singles: Sequence[ScoredFit], report: Report) -> list[Seen]:
+        """Beside the best what promises more than it costs, beside those near it what may come as far."""
+        search = self._search
+        scale = search.temper(singles[0])
+        best, *near = search.leading(singles, scale)[: SEARCH.close_leaders]
+        first = self._seen(
+            [(best, self._others(best.names))], lambda x: report(0.5 * x), search.moving(singles, best)
+        )
+        owed = {t: t.cost - best.cost + SEARCH.least_expected / 2 * scale for t in near}
+        owed[best] = SEARCH.least_expected * scale
+        promised = {form: _promise(starts) for _, form, starts in first}
+        asked = []
+        for t in near:
+            most = {
+                form: _most_beside(t.fitted, best.fitted, promised.get(form, np.inf))
+                for form in self._others(t.names)
+            }
+            asked.append((t, [form for form, gain in most.items() if gain > owed[t]]))
+        seen = [*first, *self._seen(asked, lambda x: report(0.5 + 0.5 * x))]
+        return self._chosen([one for one in seen if _promise(one[2]) > owed[one[0]]])
+
+    def _seen(
+        self,
+        asked: Sequence[tuple[ScoredFit, Sequence[Form]]],
+        report: Report,
+        moving: Sequence[Refitted] = (),
+    ) -> list[Seen]:
+        """What is seen of every form beside its fit."""
+        looks = self._looks(self._search.work.look, [(t.fitted, forms) for t, forms in asked], report, moving)
+        each = [(t, form) for t, forms in asked for form in forms]
+        return [(t, form, starts) for (t, form), starts in zip(each, looks, strict=True)]
+
+    def _chosen(self, seen: Sequence[Seen]) -> list[Seen]:
+        """What promises to come furthest, each pair once."""
+        chosen: dict[frozenset[str], Seen] = {}
+        beside: dict[ScoredFit, int] = {}
+        for one in sorted(seen, key=lambda one: one[0].fitted.chi2 - _promise(one[2])):
+            scored, (name, _), _ = one
+            # Each leader has its say: a linear step from a poor one promises too much.
+            if len(chosen) < SEARCH.pairs and beside.get(scored, 0) < SEARCH.pairs_a_leader:
+                beside[scored] = beside.get(scored, 0) + 1
+                chosen.setdefault(frozenset((*scored.names, name)), one)
+        return list(chosen.values())
 
     def _looks(
         self,
@@ -213,6 +242,20 @@ def _with_a_say(begun: Sequence[list[Refitted]]) -> list[list[Refitted]]:
         beside[name] = beside.get(name, 0) + 1
         (chosen if beside[name] <= SEARCH.pairs_a_leader else left).append(fits)
     return chosen + left[: max(0, SEARCH.wide - len(chosen))]
+
+
+def _promise(starts: Sequence[Start]) -> float:
+    """The chi-square that the best of some starts may gain."""
+    return starts[0][0] if starts else 0.0
+
+
+def _most_beside(fitted: Refitted, best: Refitted, promised: float) -> float:
+    """The chi-square that a form may gain beside a fit, of what it promises beside the best one.
+
+    What it may gain is the square of a part of what is left, and no part differs by more than the whole does.
+    """
+    apart = fitted.residuals[: fitted.data] - best.residuals[: best.data]
+    return float((np.sqrt(max(promised, 0.0)) + np.linalg.norm(apart)) ** 2)
 
 
 def _longest_first(rough: Sequence[Refitted]) -> list[Refitted]:

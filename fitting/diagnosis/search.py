@@ -211,6 +211,15 @@ class Search:
             self.none = end
         return [self._at_its_end(t) for t in scored_fits]
 
+    def leading(self, singles: Sequence[ScoredFit], scale: float = 1.0) -> list[ScoredFit]:
+        """The best of some, and those near it that are worth more than no effect.
+
+        What alone is worth no more leads nowhere that what it is combined with would not lead to.
+        """
+        best, *others = singles
+        below = min(best.cost + SEARCH.near * scale, self.none.cost)
+        return [best, *(t for t in others if t.cost < below)]
+
     def reach(self, best: ScoredFit) -> float:
         """Cost up to which others may be in one group with it."""
         return best.cost + SEARCH.reported * self.temper(best)

@@ -155,8 +155,15 @@ class Singles:
 
     def _finish(self, rough: Iterable[tuple[Form, Refitted]], report: Report = lambda fraction: None) -> None:
         """What may come near to what explains everything, if anything does, followed to its end, once."""
-        new = {f: form for form, f in rough if f not in self._finished and f.may_reach(self._goal(f))}
+        new = {f: form for form, f in rough if f not in self._finished and self._may_matter(f)}
         self._to_the_end([(form, f, self._goal(f)) for f, form in new.items()], report)
+
+    def _may_matter(self, rough: Refitted) -> bool:
+        """Whether a rough fit may still come near enough, at its pace and by what is left to gain."""
+        goal = self._goal(rough)
+        if not rough.may_reach(goal):
+            return False
+        return not self._settled or rough.chi2 - SEARCH.more_than_owed * rough.owed < goal
 
     def _to_the_end(
         self, asked: Iterable[tuple[Form, Refitted, float]], report: Report = lambda fraction: None

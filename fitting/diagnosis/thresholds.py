@@ -105,6 +105,10 @@ class SearchThresholds:
     least_owed: float = 0.1
     """Chi-square that a fit good enough to compare must still gain to have been on its way: a tenth of what a
     standard error is worth."""
+    more_than_owed: float = 2.0
+    """Times the chi-square that a linear step would gain: what the rest of its way may bring a rough fit that
+    begins from the law of what explains everything. Of 95 fits of practice sweeps one gained more than 1.7
+    times as much, and that was 4."""
     reported: float = 12.0
     """In cost above the best, tempered: up to there (one in 400) fits are followed to their very end."""
 

@@ -30,15 +30,30 @@ class World:
     def __init__(self, names, **chi2):
         self.effects = [effect(n) for n in names]
         self.chi2 = {frozenset(two.split("_")): value for two, value in chi2.items()}
-        self.work, self.kept, self.goals, self.laws = self, [], [], []
+        self.work, self.kept, self.goals, self.laws, self.ends = self, [], [], [], {}
         self.candidates = {e.name: [SimpleNamespace(effect=e)] for e in self.effects}
 
     def fit(self, *effects):
         chi2 = self.chi2.get(frozenset(e.name for e in effects), NOTHING)
-        return SimpleNamespace(effects=effects, chi2=chi2, chi2_per_dof=1.0, data=self.data, converged=True)
+        # What is left of two is not alike.
+        left = np.random.default_rng([ord(c) for e in effects for c in e.name]).normal(size=self.data)
+        return SimpleNamespace(
+            effects=effects,
+            chi2=chi2,
+            residuals=left * np.sqrt(chi2 / np.sum(left**2)),
+            chi2_per_dof=1.0,
+            data=self.data,
+            converged=True,
+        )
 
     def judged(self, fitted):
         return ScoredFit(fitted, fitted.chi2)
+
+    leading = Search.leading
+
+    @property
+    def none(self):
+        return self.judged(self.fit())
 
     def alone(self, one):
         self.kept.append(one[1].name)
@@ -74,7 +89,7 @@ class World:
         return [t.fitted for t in scored_fits] if self.moves else []
 
     def rested(self, fits, ends):
-        self.ends = dict(zip([f.effects for f in fits], ends, strict=True))
+        self.ends |= dict(zip([f.effects for f in fits], ends, strict=True))
 
     def simpler(self, scored):
         return []
@@ -193,7 +208,34 @@ def test_two_of_a_thing_begin_where_one_was_found_and_a_look_sees_the_other(monk
 
 
 def test_beside_what_is_near_the_best_a_second_effect_is_tried_that_may_come_as_far():
+    world = World("wab", w=200.0, a=230.0, a_b=190.0)
+    assert {"a", "b"} in world.found("w", "a")
+
+
+def test_beside_what_is_near_the_best_none_is_that_does_not_pay_for_itself():
     world = World("wab", w=200.0, a=230.0, a_b=195.0)
+    assert {"a", "b"} not in world.found("w", "a")
+
+
+@pytest.mark.parametrize(("alone", "tried"), [(NOTHING - 1, True), (NOTHING, False)])
+def test_beside_what_alone_is_no_better_than_nothing_none_is(alone, tried):
+    world = World("wab", w=NOTHING - 10, a=alone, a_b=100.0)
+    assert ({"a", "b"} in world.found("w", "a")) == tried
+
+
+def test_beside_what_is_like_the_best_nothing_is_looked_at_that_promises_little_beside_the_best():
+    world = World("wab", w=200.0, a=200.5, w_b=199.0, a_b=100.0)
+    like = np.full(world.data, np.sqrt(2.0))
+    of_all = world.fit
+
+    def fit(*effects):
+        fitted = of_all(*effects)
+        fitted.residuals = like
+        return fitted
+
+    world.fit = fit
+    assert {"a", "b"} not in world.found("w", "a")
+    world.fit = of_all
     assert {"a", "b"} in world.found("w", "a")
 
 
