@@ -34,6 +34,9 @@ from fitting.sweep import Sweep
 _BEYOND = 0.005
 """Of what the group holds: what is less likely does not decide what to measure next. A choice."""
 
+_ROUNDS = 2
+"""How often pairs are looked for, each time about the best single effect so far. A bound on time."""
+
 _OF_SEARCH, _OF_REPEATED = 0.8, 0.15
 """Share of a diagnosis that its search is, and of that the first one where it is repeated."""
 
@@ -231,8 +234,7 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
     singles = _bettered(singles, search.simpler(leading))
     leading = search.leading(singles)
     singles = _bettered(singles, search.twofold(leading))
-    pairs = _pairs(search, singles, lambda x: report(0.5 + 0.3 * x))
-    singles = _bettered(singles, [one for pair in pairs[:1] for one in search.alone(pair)])
+    singles, pairs = _with_pairs(search, singles, lambda x: report(0.5 + 0.3 * x))
     found = [*singles, *pairs]
     best = min([search.none, *found], key=_cost)
     scored_fits = sorted(search.at_rest(found, best, [search.none]), key=_cost)
@@ -286,6 +288,22 @@ def _cost(scored: ScoredFit) -> float:
     return scored.cost
 
 
+def _with_pairs(
+    search: Search, singles: Sequence[ScoredFit], report: Report
+) -> tuple[list[ScoredFit], list[ScoredFit]]:
+    """Single effects and pairs, best first; once more where a pair has led to a single one that is better."""
+    before, pairs = list(singles), list[ScoredFit]()
+    for _ in range(_ROUNDS):
+        found = _pairs(search, before, report)
+        after = _bettered(before, [t for t in found if len(t.names) == 1])
+        pairs = _bettered(pairs, [t for t in found if len(t.names) > 1])
+        again = bool(pairs) and after[0] is not before[0] and after[0].cost < pairs[0].cost
+        before = after
+        if not again:
+            break
+    return before, pairs
+
+
 def _pairs(search: Search, singles: Sequence[ScoredFit], report: Report) -> list[ScoredFit]:
     """Two effects, where one leaves something or only another law explains it all."""
     if not singles or not search.evidence.scale_known:
@@ -293,14 +311,12 @@ def _pairs(search: Search, singles: Sequence[ScoredFit], report: Report) -> list
     best = singles[0]
     if search.evidence.count < SEARCH.numbers_a_parameter * (best.fitted.parameter_count + 2):
         return []
-    flexible = any(e.replaces_law for e in best.fitted.effects)
     if search.none.cost < best.cost:
         return []
-    doubtful = flexible or best.fails
-    left = best.fitted.chi2_per_dof / search.allowed(best)
-    if left < SEARCH.nothing_left and not doubtful:
+    wide = not search.suffices(best)
+    if not wide and search.left_by(best) < SEARCH.nothing_left:
         return []
-    return Pairs(search).best(singles, report, wide=left > SEARCH.clean_enough or doubtful)
+    return Pairs(search).best(singles, report, wide=wide)
 
 
 def _candidate(

@@ -29,7 +29,27 @@ class Pairs:
         self._search = search
 
     def best(self, singles: Sequence[ScoredFit], report: Report, *, wide: bool) -> list[ScoredFit]:
-        """Second effects beside the leading single ones, or beside near ones if one suffices; best first."""
+        """Second effects beside the leading single ones, and each of the best two alone; best first.
+
+        Where one suffices (not `wide`), beside those near it.
+        """
+        search = self._search
+        found = self._first(singles, report, wide=wide)
+        report(0.9)
+        if not found:
+            return []
+        pair = min(found, key=_cost)
+        alone = search.alone(pair)
+        # One of the two was only to be found: what may be beside it is asked there.
+        led = any(search.suffices(t) and t.cost < pair.cost for t in alone)
+        if pair.cost < singles[0].cost and not led:
+            found += self._improved(found)
+            last = min(found, key=_cost)
+            alone += search.alone(last) if last is not pair else []
+        return best_of_each([*found, *alone])
+
+    def _first(self, singles: Sequence[ScoredFit], report: Report, *, wide: bool) -> list[ScoredFit]:
+        """Beside the leading single effects, those that promise most; where none will do, every one."""
         search, work, each = self._search, self._search.work, self._search.executor.each
         seen = self._beside_all if wide else self._beside_the_near
         chosen = seen(singles, lambda x: report(0.4 * x))
@@ -46,10 +66,7 @@ class Pairs:
             # The best may only have begun from the wrong place, or not have looked promising.
             plain = [t for t in singles if _plainly(t)]
             found += self._every_second(plain, found, self._most_left([*plain, *found]))
-        report(0.9)
-        if found and min(t.cost for t in found) < singles[0].cost:
-            found += self._improved(found)
-        return best_of_each(found)
+        return found
 
     def _beside_all(self, singles: Sequence[ScoredFit], report: Report) -> list[Seen]:
         """What promises most beside the leading ones."""

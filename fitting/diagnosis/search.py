@@ -155,6 +155,15 @@ class Search:
         dof = max(1, scored.fitted.data - scored.fitted.parameter_count)
         return 1 + form_error(self._none, scored.fitted, self._alone) / dof
 
+    def left_by(self, scored: ScoredFit) -> float:
+        """Chi-square per degree of freedom over what is `allowed`."""
+        return scored.fitted.chi2_per_dof / self.allowed(scored)
+
+    def suffices(self, scored: ScoredFit) -> bool:
+        """Whether it leaves what noise leaves, fails no check, and its law is of the stated kind."""
+        flexible = any(e.replaces_law for e in scored.fitted.effects)
+        return not (flexible or scored.fails or self.left_by(scored) > SEARCH.clean_enough)
+
     def unrefused(self, effects: Sequence[Effect]) -> float:
         """Chi-square that these effects must come down to, for no check to refuse what they leave or ask."""
         return most_unrefused(self._none, effects)

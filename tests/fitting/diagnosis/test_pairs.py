@@ -49,13 +49,15 @@ class World:
     def judged(self, fitted):
         return ScoredFit(fitted, fitted.chi2)
 
-    leading = Search.leading
+    leading, left_by, suffices = Search.leading, Search.left_by, Search.suffices
 
     @property
     def none(self):
         return self.judged(self.fit())
 
     def alone(self, one):
+        if isinstance(one, ScoredFit):
+            return [self.judged(self.fit(e)) for e in one.fitted.effects]
         self.kept.append(one[1].name)
         return self.fit(one[1])
 
@@ -111,7 +113,8 @@ class World:
 
     def found(self, *singles, wide=False):
         alone = [self.judged(self.fit(e)) for n in singles for e in self.effects if e.name == n]
-        return [set(t.names) for t in Pairs(self).best(alone, lambda fraction: None, wide=wide)]
+        found = Pairs(self).best(alone, lambda fraction: None, wide=wide)
+        return [set(t.names) for t in found if len(t.names) == 2]
 
 
 @pytest.mark.parametrize("wide", [False, True])
@@ -242,6 +245,18 @@ def test_beside_what_is_like_the_best_nothing_is_looked_at_that_promises_little_
 def test_beside_what_is_far_from_the_best_none_is():
     world = World("wab", w=200.0, a=300.0, a_b=100.0)
     assert {"a", "b"} not in world.found("w", "a")
+
+
+def test_where_one_of_two_suffices_alone_nothing_is_exchanged():
+    world = World("wabc", w=200.0, w_a=180.0, a=170.0, w_c=185.0, a_b=100.0)
+    assert {"a", "b"} not in world.found("w")
+    assert not world.kept
+
+
+def test_where_one_of_two_is_better_alone_but_will_not_do_the_other_is_exchanged(monkeypatch):
+    world = World("wabc", w=200.0, w_a=180.0, a=170.0, w_c=185.0, a_b=100.0)
+    monkeypatch.setattr(World, "allowed", lambda _, scored: 0.5)
+    assert world.found("w")[0] == {"a", "b"}
 
 
 def test_of_pairs_as_good_as_the_best_each_has_its_say():
