@@ -6,7 +6,7 @@ import numpy as np
 
 from fitting.chances import chi2_above
 from fitting.diagnosis.candidate_fits import FirstLook, Form
-from fitting.diagnosis.candidates import Known
+from fitting.diagnosis.candidates import Known, is_over_decades
 from fitting.diagnosis.looks import Start, has_place
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit, Search
@@ -159,11 +159,14 @@ class Singles:
         self._to_the_end([(form, f, self._goal(f)) for f, form in new.items()], report)
 
     def _may_matter(self, rough: Refitted) -> bool:
-        """Whether a rough fit may still come near enough, at its pace and by what is left to gain."""
+        """Whether a rough fit may still come near enough, at its pace and by what is left to gain.
+
+        What is of any size within decades has valleys that a linear step does not see the end of.
+        """
         goal = self._goal(rough)
-        if not rough.may_reach(goal):
-            return False
-        return not self._settled or rough.chi2 - SEARCH.more_than_owed * rough.owed < goal
+        if not rough.may_reach(goal) or any(is_over_decades(e) for e in rough.effects):
+            return rough.may_reach(goal)
+        return rough.chi2 - SEARCH.more_than_owed * rough.owed < goal
 
     def _to_the_end(
         self, asked: Iterable[tuple[Form, Refitted, float]], report: Report = lambda fraction: None

@@ -2,6 +2,7 @@
 
 from copy import copy
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -189,6 +190,21 @@ def test_what_has_been_followed_to_a_goal_is_followed_again_only_to_an_easier_on
     for goal in (rough.chi2, 0.9 * rough.chi2, rough.chi2, np.inf, rough.chi2):
         singles._to_the_end([(form, rough, goal)])
     assert asked == [rough.chi2, np.inf]
+
+
+def test_a_rough_fit_goes_on_where_what_is_left_to_gain_may_bring_it_near(high, monkeypatch):
+    singles = Singles(high.search(MASS, GAIN), lambda fraction: None)
+    monkeypatch.setattr(singles, "_goal", lambda rough: 100.0)
+
+    def may_matter(chi2, owed, effect=GAIN, reached=True):
+        rough = SimpleNamespace(chi2=chi2, owed=owed, effects=(effect,), may_reach=lambda goal: reached)
+        return singles._may_matter(rough)
+
+    assert may_matter(150.0, 26.0)
+    assert not may_matter(150.0, 26.0, reached=False)
+    assert not may_matter(150.0, 24.0)
+    # Springs of any stiffness are in a valley that a linear step does not see the end of.
+    assert may_matter(150.0, 24.0, CATALOGUE["clamp_compliance"])
 
 
 def test_a_fit_says_what_it_makes_of_unseen_data_while_others_come_to_their_end(high):
