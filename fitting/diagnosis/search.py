@@ -225,6 +225,8 @@ class Search:
 
         What alone is worth no more leads nowhere that what it is combined with would not lead to.
         """
+        if not singles:
+            return []
         best, *others = singles
         below = min(best.cost + SEARCH.near * scale, self.none.cost)
         return [best, *(t for t in others if t.cost < below)]

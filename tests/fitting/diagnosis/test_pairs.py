@@ -242,6 +242,10 @@ def test_beside_what_is_like_the_best_nothing_is_looked_at_that_promises_little_
     assert {"a", "b"} in world.found("w", "a")
 
 
+def test_where_no_single_effect_was_fitted_none_leads():
+    assert World("wab").leading([]) == []
+
+
 def test_beside_what_is_far_from_the_best_none_is():
     world = World("wab", w=200.0, a=300.0, a_b=100.0)
     assert {"a", "b"} not in world.found("w", "a")
