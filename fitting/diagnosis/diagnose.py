@@ -13,16 +13,15 @@ from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.kin import UNLISTED, Unlisted, kin_of
 from fitting.diagnosis.overstated_noise import is_overstated, with_noise_of_left
-from fitting.diagnosis.pairs import Pairs
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.resampling import Again, Resampled, gain, repeats_of, resampled_of
 from fitting.diagnosis.result import Candidate, Diagnosis, FoundEffect, ParameterEstimate, Rivals
-from fitting.diagnosis.search import ScoredFit, Search
+from fitting.diagnosis.search import ScoredFit, Search, best_of_each
 from fitting.diagnosis.singles import Singles
 from fitting.diagnosis.stage import few_of_law, found_effects, mixed_band, stage_of
-from fitting.diagnosis.thresholds import SEARCH
 from fitting.diagnosis.verdict import Judgement, in_light_of, judge, told
+from fitting.diagnosis.with_pairs import with_pairs
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
@@ -33,9 +32,6 @@ from fitting.sweep import Sweep
 
 _BEYOND = 0.005
 """Of what the group holds: what is less likely does not decide what to measure next. A choice."""
-
-_ROUNDS = 2
-"""How often pairs are looked for, each time about the best single effect so far. A bound on time."""
 
 _OF_SEARCH, _OF_REPEATED = 0.8, 0.15
 """Share of a diagnosis that its search is, and of that the first one where it is repeated."""
@@ -228,20 +224,20 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
     if singles and is_overstated(sweep, noise, search.evidence, singles[0].fitted):
         search = search.with_evidence(with_noise_of_left(sweep, search.evidence, singles[0].fitted))
         singles = Singles(search, lambda x: report(0.5)).best()
-    singles = _bettered(singles, [one for best in singles[:1] for one in search.elsewhere(best)])
+    singles = best_of_each([*singles, *(one for best in singles[:1] for one in search.elsewhere(best))])
     leading = search.leading(singles)
     # Two masses may have found a better place for one than it found alone, a pair for one of its effects.
-    singles = _bettered(singles, search.simpler(leading))
+    singles = best_of_each([*singles, *search.simpler(leading)])
     leading = search.leading(singles)
-    singles = _bettered(singles, search.twofold(leading))
-    singles, pairs = _with_pairs(search, singles, lambda x: report(0.5 + 0.3 * x))
+    singles = best_of_each([*singles, *search.twofold(leading)])
+    singles, pairs = with_pairs(search, singles, lambda x: report(0.5 + 0.3 * x))
     found = [*singles, *pairs]
     best = min([search.none, *found], key=_cost)
     scored_fits = sorted(search.at_rest(found, best, [search.none]), key=_cost)
     judgement = _judged(search, scored_fits)
     if judgement.is_doubted and search.none.cost > search.reach(scored_fits[0]):
         # A core that is off its formula bends its law far, as a cause in no catalogue does: both are weighed.
-        scored_fits = _bettered(scored_fits, search.freer(scored_fits, scored_fits[0]))
+        scored_fits = best_of_each([*scored_fits, *search.freer(scored_fits, scored_fits[0])])
         judgement = _judged(search, scored_fits)
     return search, [t for t in scored_fits if t.names in judgement.probability], judgement
 
@@ -254,15 +250,6 @@ def _judged(search: Search, scored_fits: Sequence[ScoredFit]) -> Judgement:
         held_out=search.off_unseen,
         kin=lambda scored: kin_of(search, scored.fitted, t),
     )
-
-
-def _bettered(known: Sequence[ScoredFit], found: Sequence[ScoredFit]) -> list[ScoredFit]:
-    """The cheapest fit of each explanation, best first."""
-    cheapest: dict[tuple[str, ...], ScoredFit] = {}
-    for scored in (*known, *found):
-        if scored.names not in cheapest or scored.cost < cheapest[scored.names].cost:
-            cheapest[scored.names] = scored
-    return sorted(cheapest.values(), key=_cost)
 
 
 def _rivals(
@@ -286,37 +273,6 @@ def _rivals(
 
 def _cost(scored: ScoredFit) -> float:
     return scored.cost
-
-
-def _with_pairs(
-    search: Search, singles: Sequence[ScoredFit], report: Report
-) -> tuple[list[ScoredFit], list[ScoredFit]]:
-    """Single effects and pairs, best first; once more where a pair has led to a single one that is better."""
-    before, pairs = list(singles), list[ScoredFit]()
-    for _ in range(_ROUNDS):
-        found = _pairs(search, before, report)
-        after = _bettered(before, [t for t in found if len(t.names) == 1])
-        pairs = _bettered(pairs, [t for t in found if len(t.names) > 1])
-        again = bool(pairs) and after[0] is not before[0] and after[0].cost < pairs[0].cost
-        before = after
-        if not again:
-            break
-    return before, pairs
-
-
-def _pairs(search: Search, singles: Sequence[ScoredFit], report: Report) -> list[ScoredFit]:
-    """Two effects, where one leaves something or only another law explains it all."""
-    if not singles or not search.evidence.scale_known:
-        return []
-    best = singles[0]
-    if search.evidence.count < SEARCH.numbers_a_parameter * (best.fitted.parameter_count + 2):
-        return []
-    if search.none.cost < best.cost:
-        return []
-    wide = not search.suffices(best)
-    if not wide and search.left_by(best) < SEARCH.nothing_left:
-        return []
-    return Pairs(search).best(singles, report, wide=wide)
 
 
 def _candidate(

@@ -70,10 +70,8 @@ class Pairs:
 
     def _beside_all(self, singles: Sequence[ScoredFit], report: Report) -> list[Seen]:
         """What promises most beside the leading ones."""
-        leaders = singles[: SEARCH.leaders]
-        asked = [(t, self._others(t.names)) for t in leaders]
-        seen = self._seen(asked, report)
-        return self._chosen(seen)
+        asked = [(t, self._others(t.names)) for t in singles[: SEARCH.leaders]]
+        return self._chosen(self._seen(asked, report))
 
     def _beside_the_near(self, singles: Sequence[ScoredFit], report: Report) -> list[Seen]:
         """Beside the best what promises more than it costs, beside those near it what may come as far."""

@@ -164,9 +164,10 @@ class Singles:
         What is of any size within decades has valleys that a linear step does not see the end of.
         """
         goal = self._goal(rough)
-        if not rough.may_reach(goal) or any(is_over_decades(e) for e in rough.effects):
-            return rough.may_reach(goal)
-        return rough.chi2 - SEARCH.more_than_owed * rough.owed < goal
+        if not rough.may_reach(goal):
+            return False
+        winds = any(is_over_decades(e) for e in rough.effects)
+        return winds or rough.chi2 - SEARCH.more_than_owed * rough.owed < goal
 
     def _to_the_end(
         self, asked: Iterable[tuple[Form, Refitted, float]], report: Report = lambda fraction: None
