@@ -9,7 +9,7 @@ OUT     := out
 export PYTHONDONTWRITEBYTECODE :=
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test test-long checks unit coverage lint types contracts format bench benchmark docs clean
+.PHONY: help setup demo test test-long checks unit coverage lint types contracts collected format bench benchmark docs clean
 
 help:          ## list the targets
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -27,7 +27,7 @@ test: checks unit ## all checks, and all tests but the long ones
 
 # Beside each other: the types take longest, and one processor.
 checks: $(READY) ## style, types and import directions
-	@$(MAKE) --no-print-directory --jobs 2 types lint contracts
+	@$(MAKE) --no-print-directory --jobs 2 types lint contracts collected
 
 lint: $(READY)
 	@$(BIN)/ruff check .
@@ -39,6 +39,10 @@ types: $(READY)
 
 contracts: $(READY)
 	@$(BIN)/lint-imports
+
+# Once, while the types are looked at: every process of the tests would compile all of them anew.
+collected: $(READY)
+	@$(BIN)/pytest --collect-only > $(VENV)/collected || { cat $(VENV)/collected; exit 1; }
 
 # Of glibc's allocator: memory of large arrays is kept for the next ones, not asked of the system each time.
 KEEPING := MALLOC_MMAP_THRESHOLD_=1000000000 MALLOC_TRIM_THRESHOLD_=1000000000 MALLOC_TOP_PAD_=67108864

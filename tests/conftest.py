@@ -23,7 +23,7 @@ from fitting.plate import Plate
 from fitting.specimen import Core, Face, Specimen
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
-from instrument.models.second_process import VARIABLE as PROCESSES
+from instrument.models.other_processes import VARIABLE as PROCESSES
 from instrument.models.specimen_models import Models
 from instrument.paper_case import case_file
 

@@ -1,4 +1,4 @@
-"""Work for two processes to share."""
+"""Work for several processes to share."""
 
 import os
 import signal

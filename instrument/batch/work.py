@@ -27,7 +27,7 @@ from instrument.material.stated_part import stated_columns
 from instrument.models.diagnosis import diagnose
 from instrument.models.files import File, spots_of
 from instrument.models.identification import identify
-from instrument.models.second_process import VARIABLE as PROCESSES
+from instrument.models.other_processes import VARIABLE as PROCESSES
 from instrument.models.sharing import serves
 from instrument.models.together import diagnose_together, identify_together
 from instrument.results.diagnosis_from import diagnosis_from

@@ -15,7 +15,7 @@ from instrument.cli.options import force_option, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.material.spread import FEWEST
-from instrument.models.second_process import VARIABLE, processors
+from instrument.models.other_processes import VARIABLE, processors
 from instrument.progress import bar
 
 _FAILURES_SHOWN = 20

@@ -16,6 +16,7 @@ from fitting.sweep import Sweep
 from instrument.errors import BadInput
 from instrument.models.clamp_remarks import remarks_on_clamps
 from instrument.models.effect_names import refuse_unknown_effects
+from instrument.models.other_processes import executor
 from instrument.models.remarks import (
     remarks_on_damping,
     remarks_on_law,
@@ -23,7 +24,6 @@ from instrument.models.remarks import (
     remarks_on_patches,
     remarks_on_tolerances,
 )
-from instrument.models.second_process import executor
 from instrument.models.set_up import Hammer, set_up
 from instrument.models.theory import theory_over, theory_remark
 from instrument.progress import Progress, quiet

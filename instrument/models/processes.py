@@ -15,8 +15,8 @@ from typing import Any, TypeVar
 
 from threadpoolctl import threadpool_limits
 
-from instrument.models.second_process import VARIABLE as PROCESSES
-from instrument.models.second_process import end_with
+from instrument.models.other_processes import VARIABLE as PROCESSES
+from instrument.models.other_processes import end_with
 
 A = TypeVar("A")
 B = TypeVar("B")

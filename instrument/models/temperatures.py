@@ -23,7 +23,7 @@ from fitting.temperature.simple import Verdict, in_doubt, judge, serving
 from fitting.temperature.thermometers import each_its_own, rising
 from instrument.errors import BadInput
 from instrument.models.members import AtTemperature, Members
-from instrument.models.second_process import executor
+from instrument.models.other_processes import executor
 from instrument.models.set_up import Hammer
 from instrument.models.temperature_remarks import remarks_at_temperatures
 from instrument.models.theory import check_each_theory

@@ -35,9 +35,9 @@ from instrument.models.file_remarks import (
 from instrument.models.files import File, mounted, numbers_of, one_plate
 from instrument.models.files_at_work import FilesAtWork, SetAside
 from instrument.models.identification import Identified, Joint
+from instrument.models.other_processes import executor
 from instrument.models.quick_look import remarks_on_reading
 from instrument.models.remarks import remarks_on_bend
-from instrument.models.second_process import executor
 from instrument.models.set_up import Hammer
 from instrument.models.theory import check_each_theory
 from instrument.models.transfer import with_transfer

@@ -16,7 +16,7 @@ from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.diagnosis import diagnose
-from instrument.models.second_process import VARIABLE
+from instrument.models.other_processes import VARIABLE
 from instrument.paper_case import case_file
 from tests.conftest import DATA
 from tests.rig_plate import MESH, plate_of_the_rig
@@ -118,13 +118,13 @@ def test_a_rival_that_promises_little_by_a_linear_step_is_followed_all_the_same(
     assert [e.name for e in found.effects] == ["temperature_drift"]
 
 
-def test_a_second_process_changes_nothing(monkeypatch):
+@pytest.mark.parametrize("processes", [3, pytest.param(2, marks=pytest.mark.long)])
+def test_other_processes_change_nothing(monkeypatch, processes):
     some = all_but("spot_offset", "gain_error", "added_mass", "channel_delay")
     sweep = every(4, practice("005"))
     alone = diagnose(sweep, plate_of_the_rig(), without=some).result
     assert len(alone.candidates) > len(CATALOGUE) - len(some)
-    monkeypatch.delenv(VARIABLE)
-    monkeypatch.setattr("instrument.models.second_process.processors", lambda: 2)
+    monkeypatch.setenv(VARIABLE, str(processes))
     shared = diagnose(sweep, plate_of_the_rig(), without=some).result
     assert repr(shared.candidates) == repr(alone.candidates)
     assert shared.explanation == alone.explanation

@@ -1,4 +1,4 @@
-"""A second process that takes half of a diagnosis.
+"""Other processes that take their share of a diagnosis.
 
 The fits are many small steps that hold Python's lock, so threads gain nothing.
 """
@@ -6,7 +6,7 @@ The fits are many small steps that hold Python's lock, so threads gain nothing.
 import os
 import signal
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import AbstractContextManager, nullcontext
 from threading import Thread
@@ -17,11 +17,14 @@ from typing import Any
 from loky import ProcessPoolExecutor
 
 from fitting.diagnosis.executor import ALONE, Call, Executor, Report
+from instrument.errors import BadInput
 from instrument.models.background import step_back
 
 VARIABLE = "VISCORIG_PROCESSES"
+_MOST = 4
+"""Processes, unless told otherwise: a diagnosis goes from one step to the next, and a fifth would wait."""
 _LOOKS_ROUND_S = 1.0
-"""How often the second process asks whether the first one is still there."""
+"""How often another process asks whether the first one is still there."""
 
 
 def processors() -> int:
@@ -29,60 +32,72 @@ def processors() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
+def wanted() -> int:
+    """How many processes a diagnosis takes: as `VISCORIG_PROCESSES` says, or one for each of some processors.
+
+    Raises `BadInput` where that is no number of processes.
+    """
+    said = os.environ.get(VARIABLE, "").strip()
+    if not said:
+        return min(processors(), _MOST)
+    if not said.isdecimal() or int(said) < 1:
+        raise BadInput(f"{VARIABLE} is {said!r}, not a number of processes")
+    return int(said)
+
+
 def executor() -> AbstractContextManager[Executor]:
-    """Two where the machine has two processors, unless `VISCORIG_PROCESSES` is 1."""
-    if processors() < 2 or os.environ.get(VARIABLE) == "1":
-        return nullcontext(ALONE)
-    return TwoProcesses()
+    """As many as are wanted. Raises as `wanted`."""
+    others = wanted() - 1
+    return SeveralProcesses(others) if others else nullcontext(ALONE)
 
 
-class TwoProcesses(Executor):
-    """A second process beside this one; a context manager. It begins to load at once."""
+class SeveralProcesses(Executor):
+    """Others beside this one; a context manager. They begin to load at once."""
 
-    def __init__(self) -> None:
-        self._other = ProcessPoolExecutor(
-            1, initializer=_begin, initargs=(os.getpid(),), env={"OPENBLAS_NUM_THREADS": "1"}
-        )
-        self._other.submit(_nothing)
-        self._known: object = None
-        self._number = 0
-        """Of objects sent over so far."""
+    def __init__(self, others: int) -> None:
+        self._others = [_Other() for _ in range(others)]
 
-    def __enter__(self) -> "TwoProcesses":
+    def __enter__(self) -> "SeveralProcesses":
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._other.shutdown(wait=True, kill_workers=True)
+        for other in self._others:
+            other.end()
 
     def together(self, calls: Sequence[Call], report: Report = lambda fraction: None) -> Iterator[Any]:
-        """The same, the methods' own object sent over once."""
+        """The same, the methods' own object sent over once to each."""
         left = deque(enumerate(calls))
         found: dict[int, Any] = {}
         failed: list[Exception] = []
 
-        def beside() -> None:
+        def beside(other: _Other) -> None:
             while left and not failed:
                 try:
                     k, call = left.popleft()
                 except IndexError:
                     return
                 try:
-                    found[k] = self._elsewhere(*call)
+                    found[k] = other.asked(call)
                 except BrokenProcessPool:
                     left.append((k, call))
                     return
                 except Exception as error:  # raised where it is waited for
                     failed.append(error)
 
-        thread = Thread(target=beside, name="second process", daemon=True)
-        thread.start()
-        while left or thread.is_alive():
+        asking = [
+            Thread(target=beside, args=(other,), name="another process", daemon=True)
+            for other in self._others[: len(calls) - 1]
+        ]
+        for thread in asking:
+            thread.start()
+        while left or any(thread.is_alive() for thread in asking):
             try:
                 k, (do, one) = left.popleft()
             except IndexError:
-                thread.join()
+                for thread in asking:
+                    thread.join()
                 continue
             found[k] = do(one)
             report(len(found) / len(calls))
@@ -91,20 +106,37 @@ class TwoProcesses(Executor):
         report(1.0)
         yield from (found[k] for k in range(len(calls)))
 
-    def _elsewhere(self, do: Callable[[Any], Any], one: Any) -> Any:
+
+class _Other:
+    """One process, and what it knows."""
+
+    def __init__(self) -> None:
+        self.pool = ProcessPoolExecutor(
+            1, initializer=_begin, initargs=(os.getpid(),), env={"OPENBLAS_NUM_THREADS": "1"}
+        )
+        self.pool.submit(_nothing)
+        self._known: object = None
+        self._number = 0
+        """Of objects sent over so far."""
+
+    def end(self) -> None:
+        self.pool.shutdown(wait=True, kill_workers=True)
+
+    def asked(self, call: Call) -> Any:
+        do, one = call
         owner: object = do.__self__  # type: ignore[attr-defined]
         if owner is not self._known:
             self._known, self._number = owner, self._number + 1
-            self._other.submit(_learn, self._number, owner)
-        found = self._other.submit(_do, self._number, do.__name__, one).result()
+            self.pool.submit(_learn, self._number, owner)
+        found = self.pool.submit(_do, self._number, do.__name__, one).result()
         if isinstance(found, _Forgotten):
             # loky replaces a process whose memory has grown; the new one knows nothing.
             self._known = None
-            return self._elsewhere(do, one)
+            return self.asked(call)
         return found
 
 
-# In the second process.
+# In another process.
 
 _owner: Any = None
 _number = 0
