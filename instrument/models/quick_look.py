@@ -30,7 +30,7 @@ EXPLAINED, BETTER = 0.12, 0.35
 LIKELY = 0.15
 """The same of a reading and of a sensor's mass."""
 _LOWEST_HZ = 1.0
-_ENOUGH = 400
+_ENOUGH = 150
 """Points, spread over the sweep: more say the same."""
 _WITH_EFFECTS = 0.45
 """What effects of usual size leave at most."""
