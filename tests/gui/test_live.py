@@ -44,7 +44,7 @@ def over(window):
 def test_a_run_is_shown_to_its_end(qtbot, window, rig, tmp_path):
     live = start(window, rig, tmp_path / "out")
     assert window.controller.running
-    qtbot.waitUntil(lambda: over(window), timeout=60_000)
+    qtbot.waitUntil(lambda: over(window))
     window.turn()
     assert live.ending.why == "done", live.ending
     assert len(live.state.contents.points) == 5

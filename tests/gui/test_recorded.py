@@ -108,7 +108,7 @@ def test_a_file_that_is_none_is_said_once(tmp_path):
 
 def test_comparison_says_equal(qtbot, opened):
     feed = opened.controller.recorded
-    with qtbot.waitSignal(feed.compared, timeout=60_000):
+    with qtbot.waitSignal(feed.compared):
         opened.replay.verify.click()
         assert feed.comparing
     assert feed.comparison.equal_to_recorded

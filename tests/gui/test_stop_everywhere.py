@@ -205,7 +205,7 @@ def stop_once(qtbot, window, folder, place, by_key, wait_s=0.0):
         wait_until(lambda: QApplication.processEvents() or drive_v(rig) == 0, 10)
         took = time.monotonic() - began
         close_all()
-        qtbot.waitUntil(lambda: not window.controller.running, timeout=60_000)
+        qtbot.waitUntil(lambda: not window.controller.running)
         assert is_silent(rig)
         assert window.controller.ending is None or window.controller.ending.why == "stopped by the user"
     return took

@@ -57,6 +57,7 @@ def test_two_odd_rows_are_none():
     assert misread(begun(table).begun) is None
 
 
+@pytest.mark.long
 def test_no_effect_is_named_for_a_row_that_is_misread():
     table = with_row(read(BEAM), 2, 1.05)
     problem = ModalProblem.of([member_of(table, BEAM)])

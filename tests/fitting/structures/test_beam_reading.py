@@ -44,6 +44,7 @@ def struck(solid: SolidBeam, hz: float) -> complex:
     return complex(spsolve(K[free][:, free].tocsc(), force[free].astype(complex)) @ row[free])
 
 
+@pytest.mark.long
 def test_a_free_beam_struck_near_an_end_moves_as_a_solid_does(solid):
     """The fourth mode has a node a few millimetres from both places: there the middle decides, by 7 %."""
     f = np.array([460.0, 860.0, 1200.0, 1360.0, 1500.0])

@@ -85,6 +85,7 @@ def test_what_is_hidden_is_named_with_its_size_and_place(beam, name, hidden, fou
     assert pulled > 3 if name == "clamp_compliance" else max(off(result.before.law)) > 0.1
 
 
+@pytest.mark.long
 def test_a_clean_free_beam_struck_at_a_point_has_nothing():
     result = diagnose_together([File(read(FREE, None, (), 3), FREE)]).found.result
     assert result.verdict == "none"

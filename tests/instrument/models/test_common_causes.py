@@ -61,6 +61,7 @@ def within(found, key, truth):
     return abs(it.value - truth) < 3.5 * it.standard_error
 
 
+@pytest.mark.long
 def test_a_delay_of_all_sweeps_is_named_and_the_law_found_beside_it(exact):
     found = asked(exact, SIMPLE, late)
     assert found.cause.effect.name == "channel_delay"

@@ -62,6 +62,7 @@ def test_a_fit_that_leaves_as_much_as_its_readings_is_asked_whatever_its_noise()
     assert leaves_much(begun)
 
 
+@pytest.mark.long
 def test_diagnose_names_no_temperature_in_its_place():
     with pytest.raises(OutsideModel, match=r"each other's specimens.*exchange them"):
         diagnose_together(files((0, 2, 1)))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import shear_pair_cases as pairs
 from mode_cases import read_off, solid_modes, stated
-from rivals import among
+from rivals import all_but, among
 from scipy.optimize import root
 
 from fitting.laws import LAWS
@@ -105,7 +105,7 @@ def test_pairs_of_four_masses_name_what_all_of_them_lack():
 @pytest.fixture
 def folder(tmp_path):
     assert run(["new", "beam", str(tmp_path / "beam.toml")]) == 0
-    rows = "1,70.0,0.15\n2,311.0,0.12\n3,773.0,0.08\n4,1449.0,0.05\n"
+    rows = "1,74.3,0.22\n2,365.6,0.223\n3,922.0,0.179\n4,1669.7,0.127\n"
     (tmp_path / "t.csv").write_text("mode,frequency_hz,loss_factor\n" + rows)
     return tmp_path
 
@@ -135,9 +135,8 @@ def test_a_channel_is_not_looked_for_in_modes():
     table = ModalTable(
         np.arange(1.0, 5), np.array([m.frequency_hz for m in modes]), np.array([m.loss_factor for m in modes])
     )
-    found = diagnose_tables([table], [BEAM]).found
-    assert not {"gain_error", "channel_delay", "absolute_velocity"} & {
-        n for s in found.scored for n in s.names
-    }
+    channels = ("gain_error", "channel_delay", "absolute_velocity")
+    found = diagnose_tables([table], [BEAM], all_but("core_thickness", *channels)).found
+    assert {n for s in found.scored for n in s.names} == {"core_thickness"}
     # Their errors are not stated: nothing can be said of their size.
     assert all(not s.checks for s in found.scored)

@@ -157,6 +157,7 @@ def stated_otherwise(made, off):
     return [replace(one, temperature_c=one.temperature_c + k) for one, k in zip(made, off, strict=True)]
 
 
+@pytest.mark.long
 def test_temperatures_a_little_off_are_no_fault_of_the_material(plate):
     off = np.array([0.35, -0.2, 0.1, -0.4, 0.3])
     made = stated_otherwise(sweeps(plate, [OneProcess(a) for a in wlf()]), off)
@@ -185,6 +186,7 @@ def test_one_wrong_temperature_is_named_and_the_material_is_not_blamed(plate):
     assert any("the factor of 43 degC is above that of 36 degC" in one for one in free.warnings)
 
 
+@pytest.mark.long
 def test_three_temperatures_leave_wlf_nothing_that_checks_one(plate):
     made = stated_otherwise(sweeps(plate, [OneProcess(a) for a in wlf()])[:3], [0, 0, 20.0])
     found = identify_shifted(made, plate, "wlf", REFERENCE)

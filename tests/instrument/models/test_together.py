@@ -135,6 +135,7 @@ def test_files_whose_cores_were_apart_are_no_mass(warmer, without):
     assert np.abs(off).max() < 2
 
 
+@pytest.mark.long
 def test_a_tenth_of_a_kelvin_between_files_is_no_effect():
     given = []
     for k, (mass, kelvin) in enumerate(zip(HEAVIER_KG, (0.05, -0.1, 0.1), strict=True)):
@@ -254,10 +255,11 @@ def test_where_a_fixture_resonates_the_rest_is_worth_less_too(mass_kg, at_hz):
     assert np.abs(pull).max() < 3
 
 
+@pytest.mark.long
 @among(
     "added_mass", "gain_error", "channel_delay", "sensor_lowpass", "sensor_mounting", "temperature_difference"
 )
-@pytest.mark.parametrize("on_base", [True, pytest.param(False, marks=pytest.mark.long)])
+@pytest.mark.parametrize("on_base", [True, False])
 def test_a_sensor_on_wax_is_not_taken_for_the_core(without, on_base):
     """Its resonance lies at twice what is measured, and shows by its square."""
     f_0, given = 2600.0, []
@@ -275,6 +277,7 @@ def test_a_sensor_on_wax_is_not_taken_for_the_core(without, on_base):
     assert law_error(found.after.law).max() < 0.03
 
 
+@pytest.mark.long
 def test_one_file_is_not_spoken_of_as_several():
     (said,) = [one for one in _misfit([0.2533]) if "taken for the error" in one]
     assert "files" not in said
@@ -300,6 +303,7 @@ def test_where_no_law_fits_there_is_no_chi_square(capsys):
     assert "chi-square per degree" not in said
 
 
+@pytest.mark.long
 def test_a_gain_and_a_phase_of_all_files_do_not_become_the_core_s():
     """Two accelerometers that are 2 % and a degree apart, the same ones for every mass."""
     apart = 0.98 * np.exp(0.02j)

@@ -81,6 +81,7 @@ def test_rivals_that_only_a_clamp_tells_apart_are_not_asked(clamps):
     assert found == []
 
 
+@pytest.mark.long
 def test_in_its_clamp_it_is_asked_where_a_base_is_suspected_and_reads_nothing_of_it(rocking):
     expecting, found = struck(rocking)
     (one,) = [m for m in found if m.held == "clamped"]

@@ -163,6 +163,7 @@ def uneven(clamps):
     return replace(clamps, each=((clamp, 0.5), (other, 0.5)), temper=1.0)
 
 
+@pytest.mark.long
 def test_where_the_plate_twists_a_spot_beside_the_axis_tells_whether_a_clamp_is_uneven(uneven):
     asked = Expecting(uneven, 6)
     template = Template.of(asked, SweepSettings())
@@ -255,6 +256,7 @@ def test_nothing_follows_the_last_that_may_be_made(rivals, ranked):
     assert not any(f.then for f in last)
 
 
+@pytest.mark.long
 def test_velocities_at_a_spot_are_foreseen_and_one_that_is_too_fast_is_not_proposed(rivals, ranked):
     spot = of_kind(ranked, "spot")
     fastest = max(spot.velocities_m_s)
