@@ -151,6 +151,7 @@ def test_what_is_no_number_is_left_out_and_said(tmp_path):
     assert "passed over: a.mat: cells, long, none: no array of numbers" in found.said
 
 
+@pytest.mark.long
 def test_the_older_format_has_the_same_limit(tmp_path):
     savemat(tmp_path / "a.mat", {"x": np.zeros((8000, 8000))}, do_compression=True)
     refused(tmp_path / "a.mat", "more than 1 GB of arrays")

@@ -99,6 +99,7 @@ def with_row(made, at, place, **columns):
     return [changed(one) if one.temperature_c == at else one for one in made]
 
 
+@pytest.mark.long
 def test_one_wrong_row_is_named_before_material_or_temperatures_are_blamed(more):
     words = identify_shifted(with_row(more, 20.0, 2, loss_factor=2.0), beam(), "wlf", REFERENCE).verdict.words
     assert words.startswith("whether one shifted law serves cannot be told")

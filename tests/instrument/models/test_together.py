@@ -118,8 +118,9 @@ def at(warmer_k, *, law=LAW):
     )
 
 
+@pytest.mark.long
 @among("temperature_difference", "added_mass", "gain_error")
-@pytest.mark.parametrize("warmer", [(0.0, 1.5, 0.0), pytest.param((0.0, 0.9, 2.2), marks=pytest.mark.long)])
+@pytest.mark.parametrize("warmer", [(0.0, 1.5, 0.0), (0.0, 0.9, 2.2)])
 def test_files_whose_cores_were_apart_are_no_mass(warmer, without):
     given = []
     for k, (mass, kelvin) in enumerate(zip(HEAVIER_KG, warmer, strict=True)):

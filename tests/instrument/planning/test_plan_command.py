@@ -176,6 +176,7 @@ def test_a_law_without_numbers_or_without_loss_is_refused_in_one_line(capsys, sp
     assert len(err.splitlines()) == 1
 
 
+@pytest.mark.long
 def test_below_the_first_resonance_it_is_that_which_rings(capsys, specimen):
     status, out, err = call(capsys, "plan", specimen, "--band", "2:6", "--no-spots", "--json", "-")
     assert status == 0, err
