@@ -15,7 +15,7 @@ from instrument.cli.options import force_option, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.material.spread import FEWEST
-from instrument.models.other_processes import VARIABLE, processors
+from instrument.models.other_processes import VARIABLE, wanted
 from instrument.progress import bar
 
 _FAILURES_SHOWN = 20
@@ -46,7 +46,7 @@ _FAILURES_SHOWN = 20
 @click.option(
     "--workers",
     type=click.IntRange(1, 1024),
-    help=f"Processes on this machine; as many as it has processors otherwise (one where {VARIABLE} is 1).",
+    help=f"Processes on this machine; otherwise as {VARIABLE} says, or as many as it has processors.",
 )
 @click.option(
     "--scheduler",
@@ -79,7 +79,7 @@ def batch(
     if any(path.absolute() == (folder / CSV).absolute() for path in files):
         raise BadInput(f"{folder / CSV}: both given and to be written, expected another --out")
     tasks = tasks_of(files, specimen, hammer, diagnose=diagnose, insist=insist)
-    runner = there(scheduler) if scheduler is not None else here(workers or processors())
+    runner = there(scheduler) if scheduler is not None else here(workers or wanted())
     with run_batch(tasks, folder, runner, bar) as rows:
         counted = Counted.of(rows)
         repeats = repeats_among(rows)

@@ -22,7 +22,7 @@ from instrument.models.background import step_back
 
 VARIABLE = "VISCORIG_PROCESSES"
 _MOST = 4
-"""Processes, unless told otherwise: a diagnosis goes from one step to the next, and a fifth would wait."""
+"""Processes of a diagnosis: it goes from one step to the next, and a fifth would mostly wait."""
 _LOOKS_ROUND_S = 1.0
 """How often another process asks whether the first one is still there."""
 
@@ -32,22 +32,22 @@ def processors() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def wanted() -> int:
-    """How many processes a diagnosis takes: as `VISCORIG_PROCESSES` says, or one for each of some processors.
+def wanted(most: int | None = None) -> int:
+    """How many processes to take: as `VISCORIG_PROCESSES` says, or one for each processor, `most` at most.
 
     Raises `BadInput` where that is no number of processes.
     """
     said = os.environ.get(VARIABLE, "").strip()
     if not said:
-        return min(processors(), _MOST)
+        return processors() if most is None else min(processors(), most)
     if not said.isdecimal() or int(said) < 1:
         raise BadInput(f"{VARIABLE} is {said!r}, not a number of processes")
     return int(said)
 
 
 def executor() -> AbstractContextManager[Executor]:
-    """As many as are wanted. Raises as `wanted`."""
-    others = wanted() - 1
+    """Of a diagnosis: as many processes as are wanted. Raises as `wanted`."""
+    others = wanted(_MOST) - 1
     return SeveralProcesses(others) if others else nullcontext(ALONE)
 
 

@@ -109,12 +109,20 @@ def test_a_process_that_is_replaced_is_told_anew(two):
 
 
 @pytest.mark.parametrize(
-    ("there", "said", "taken"), [(1, "", 1), (2, "", 2), (16, "", 4), (2, "1", 1), (2, " 6 ", 6)]
+    ("there", "said", "most", "taken"),
+    [
+        (1, "", 4, 1),
+        (2, "", 4, 2),
+        (16, "", 4, 4),
+        (16, "", None, 16),
+        (2, "1", None, 1),
+        (2, "6", 4, 6),
+    ],
 )
-def test_as_many_as_there_are_processors_or_as_it_is_told(monkeypatch, there, said, taken):
+def test_as_many_as_there_are_processors_or_as_it_is_told(monkeypatch, there, said, most, taken):
     monkeypatch.setattr(other_processes, "processors", lambda: there)
     monkeypatch.setenv(VARIABLE, said)
-    assert wanted() == taken
+    assert wanted(most) == taken
 
 
 @pytest.mark.parametrize("said", ["0", "-1", "two", "1.5"])
