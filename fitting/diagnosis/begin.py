@@ -4,7 +4,8 @@
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -49,6 +50,8 @@ class Begun:
     none: Refitted
     first: Fit
     """By the law alone, the plate as stated: how the start was found."""
+    is_clear: bool
+    """Whether all starts led to one law that explains the readings: there is no other to look for."""
 
 
 def begin(
@@ -107,11 +110,16 @@ def begin(
         v = model.velocity(law)
         if problem.errs_as_found:
             problem, v = problem.as_found(none.z), none.velocity_m_s
-    if to_its_end and not is_clear:
-        none = followed(here, evidence, none, executor)
-    elif to_its_end or none.chi2_per_dof < SEARCH.wrong:
-        none = at_rest(here, evidence, none)
-    return Begun(here, problem.plate, evidence, none, first)
+    begun = Begun(here, problem.plate, evidence, none, first, is_clear)
+    if to_its_end:
+        return ended(begun, executor)
+    return replace(begun, none=at_rest(here, evidence, none)) if none.chi2_per_dof < SEARCH.wrong else begun
+
+
+def ended(begun: Begun, executor: Executor = ALONE) -> Begun:
+    """The same, its fit followed as far as is reported."""
+    follow = at_rest if begun.is_clear else partial(followed, executor=executor)
+    return replace(begun, none=follow(begun.problem, begun.evidence, begun.none))
 
 
 def _are_one(fits: Sequence[Refitted]) -> bool:

@@ -13,6 +13,7 @@ from fitting.arrays import Mask
 from fitting.aside import DISTURBED, INSENSITIVE, LOST, Reasons, reasons
 from fitting.diagnosis.begin import Begun, begin
 from fitting.diagnosis.evidence import BareModes
+from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.glitch import Glitch, glitches
 from fitting.diagnosis.of_files import Place
 from fitting.diagnosis.problem import DiagnosisProblem
@@ -143,10 +144,11 @@ class FilesAtWork:
             self.aside += [SetAside(numbers_of(self.files)[k], g) for g in stretches]
             self._leave_out_of_used(k, disturbed, DISTURBED)
 
-    def fit(self) -> tuple[Begun, Noise]:
-        """By what is in use."""
+    def fit(self, executor: Executor = ALONE, *, to_its_end: bool = True) -> tuple[Begun, Noise]:
+        """By what is in use. `to_its_end`: as far as is reported; else as far as a misfit is told from."""
         problem, noise = self.problem()
-        return begin(problem, None, noise, self.bare, self.start), noise
+        begun = begin(problem, None, noise, self.bare, self.start, executor, to_its_end=to_its_end)
+        return begun, noise
 
     def _leave_out_of_used(self, k: int, aside: Mask, why: str) -> None:
         """Of those in use. Shape (points in use,)."""

@@ -8,6 +8,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fitting.diagnosis.among import among
+from fitting.diagnosis.begin import Begun, ended
 from fitting.diagnosis.confounded import last_word
 from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
 from fitting.diagnosis.freer_law import loosened
@@ -22,6 +23,7 @@ from fitting.identification.bare_plate import fit_bare_plate
 from fitting.identification.result import summarise
 from fitting.identification.validation import rms
 from fitting.laws import CoreLaw
+from fitting.noise import Noise
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.models.diagnosis import Diagnosed, effects_among
@@ -84,18 +86,13 @@ def identify_together(
         work.problem()
         ready = perf_counter()
         work.set_disturbances_aside()
-        begun, noise = work.fit()
+        begun, noise = work.fit(to_its_end=False)
         scatters = work.with_misfit(begun)
         if scatters:
-            for _ in range(_ROUNDS):
-                before = rms(np.array(work.misfit))
-                work.with_misfit(work.fit()[0])
-                if abs(rms(np.array(work.misfit)) / before - 1) < _SETTLED:
-                    break
-            begun, noise = work.fit()
+            begun, noise = _by_misfit(work)
         else:
             # What a misfit says of a law's form is a guess.
-            begun = loosened(with_own_noise(begun, noise))
+            begun = loosened(with_own_noise(ended(begun), noise))
         other = exchanged(files) if scatters or leaves_much(begun) else None
         misfit = (work.about_misfit(),) if scatters else ()
         if other is not None:
@@ -131,6 +128,17 @@ def identify_together(
         bare=bare,
     )
     return Together(found, tuple(work.aside))
+
+
+def _by_misfit(work: FilesAtWork) -> tuple[Begun, Noise]:
+    """The fit by readings that are worth what it leaves of them."""
+    with executor() as workers:
+        for _ in range(_ROUNDS):
+            before = rms(np.array(work.misfit))
+            work.with_misfit(work.fit(workers, to_its_end=False)[0])
+            if abs(rms(np.array(work.misfit)) / before - 1) < _SETTLED:
+                break
+        return work.fit(workers)
 
 
 def diagnose_together(

@@ -11,6 +11,7 @@ from fitting.planning.unseen import unseen
 from instrument.cli.output import Output
 from instrument.cli.print_identification import print_identification
 from instrument.models.files import File
+from instrument.models.other_processes import VARIABLE
 from instrument.models.together import diagnose_together, identify_together
 
 
@@ -302,6 +303,14 @@ def test_where_no_law_fits_there_is_no_chi_square(capsys):
     assert "no chi-square: readings count for as much as the fit leaves of them" in said
     assert "% (noise" not in said
     assert "chi-square per degree" not in said
+
+
+@pytest.mark.long
+def test_another_process_changes_no_law(monkeypatch):
+    given = files([0.2533, 0.573], wander=0.02)
+    alone = identify_together(given).found.result
+    monkeypatch.setenv(VARIABLE, "2")
+    assert np.array_equal(identify_together(given).found.result.law.values, alone.law.values)
 
 
 @pytest.mark.long
