@@ -19,7 +19,7 @@ Seen = tuple[ScoredFit, Form, list[Start]]
 """A single effect, the form of a second one, and that one's starts beside it, best first."""
 
 _LOOKED_AT = 6
-"""Forms that are looked at in one go: few enough that both processes end at about the same time. A choice."""
+"""Forms that are looked at in one go: few enough that all processes end at about the same time. A choice."""
 
 
 class Pairs:

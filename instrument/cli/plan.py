@@ -100,7 +100,7 @@ class Band(click.ParamType):  # type: ignore[type-arg]
     type=click.Path(path_type=Path),
     help="JSON of 'viscorig damping' on the bare plate: known beside the sweep.",
 )
-@click.option("--no-spots", is_flag=True, help="Do not compare other spots: seconds instead of a minute.")
+@click.option("--no-spots", is_flag=True, help="Do not compare other spots: half of the time.")
 @click.option(
     "--experiment",
     type=click.Path(path_type=Path),
