@@ -98,9 +98,19 @@ OF_TEMPERATURE = ("substrate_young_per_k", "constraining_young_per_k")
 """Numbers that play a part where data are of several temperatures."""
 STATED_PER_K = 0.5
 """Of the typical standard deviation of a metal's change for a kelvin, where the file states it."""
-OF_FEW = tuple(s.name for s in _STATED[-10:])
+OF_FEW = (
+    *("substrate_young_y", "substrate_shear", "substrate_angle"),
+    *("constraining_young_y", "constraining_shear", "constraining_angle"),
+    *("glue_thickness", "glue_shear", "patch", "cut"),
+)
 """Numbers that only orthotropic faces, glue and patches have."""
-PLATE = (*(s.name for s in _STATED[:13]), *OF_FEW, "axial")
+PLATE = (
+    *("substrate_young", "substrate_thickness", "substrate_density", "substrate_poisson"),
+    *("constraining_young", "constraining_thickness", "constraining_density", "constraining_poisson"),
+    *("core_thickness", "core_density", "core_poisson", "length", "width"),
+    *OF_FEW,
+    "axial",
+)
 """Those that change a plate's matrices."""
 _FIELDS = {
     "young": "young_pa",

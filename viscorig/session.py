@@ -94,7 +94,7 @@ def _session(contents: Contents) -> Session:
         name=contents.configuration.name,
         reads=contents.configuration.rig.vibrometer.reads,
         specimen=specimen,
-        sweep=as_sweep(session_sweep(contents, contents.specimen)) if contents.points else None,
+        sweep=as_sweep(session_sweep(contents)) if contents.points else None,
         hammer=Damping(contents.damping.result) if contents.damping is not None else None,
         identification=Identification(fit.result, specimen) if fit and fit.result else None,
         diagnosis=Diagnosis(diagnosis.result) if diagnosis and diagnosis.result else None,

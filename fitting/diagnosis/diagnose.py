@@ -206,7 +206,7 @@ def _diagnosis(
         ),
         explanation=(
             *(f"{s[0].upper()}{s[1:]}." for s in seen),
-            *text.explain(problem, judgement, before, after, found, catalogue),
+            *text.explain(problem, judgement, before, after, found),
         ),
         why_aside=reasons(np.zeros(len(problem.sweep), bool), "") if why_aside is None else why_aside,
         warnings=warnings_of(search, judgement),

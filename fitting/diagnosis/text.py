@@ -31,7 +31,6 @@ def explain(
     before: Stage,
     after: Stage,
     found: tuple[FoundEffect, ...],
-    catalogue: dict[str, Effect],
 ) -> tuple[str, ...]:
     """What was left, what explains it, how sure that is, what it did to the material."""
     said = [_left(problem, before)]

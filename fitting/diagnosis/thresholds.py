@@ -159,7 +159,7 @@ class SearchThresholds:
     places_followed: int = 8
     """... of those, how many go on after a few steps: of 36 the best was among the first five by then ..."""
     most_places: int = 30
-    """... and of the rest, where all that lead lean."""
+    """... and of the rest, where all that lead have stated numbers far off (`Singles._leans`)."""
     finished: int = 2
     """Rough fits of a kind that are followed to the end by a thorough search."""
     laws_finished: int = 2

@@ -29,7 +29,7 @@ class ExponentialWindowEffect(Effect):
     needs = FORCE
     parameters = (
         EffectParameter("tau", "s", 0.02, 5.0, 0.3, logarithmic=True, neutral=float("inf")),
-        EffectParameter("integrations", "1", 0.0, 2.0, 0.0, neutral=None, fixed=True),
+        EffectParameter("integrations", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
     )
     chance = 0.04
     discriminating_test = "the same blows without a window, in a record that is long enough to die away in"

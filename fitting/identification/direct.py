@@ -48,7 +48,7 @@ def fit_direct(residuals: Residuals, start: CoreLaw) -> Fit:
 
 
 def refit(residuals: Residuals, start: CoreLaw) -> CoreLaw:
-    """The law nearest to `start` that fits other data: for leave-one-out and held-out segments."""
+    """The law that fits from `start` alone, no other start tried."""
     return start.with_logs(_minimise(residuals, start).x)
 
 

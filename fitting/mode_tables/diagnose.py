@@ -12,7 +12,7 @@ import numpy as np
 from fitting.diagnosis.confounded import hides
 from fitting.diagnosis.predictive import temper
 from fitting.diagnosis.refit import kept
-from fitting.diagnosis.search import ScoredFit
+from fitting.diagnosis.search import ScoredFit, best_of_each
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.diagnosis.verdict import NONE, Judgement, judge
 from fitting.effects.base import Effect
@@ -62,7 +62,7 @@ def diagnose_modes(
         report(_SINGLES * (k + 1) / len(seen))
     found.sort(key=_cost)
     if called_for(work, none, found):
-        found = _best_of_each(
+        found = best_of_each(
             [*found, *best_pairs(work, found, seen, lambda x: report(_SINGLES + (1 - _SINGLES) * x))]
         )
     best = min([none, *found], key=_cost)
@@ -86,19 +86,11 @@ def diagnose_modes(
         return DiagnosedModes(begun, unknown, tuple(every), t, none, odd)
     if judgement.unlisted is not None:
         every = sorted([*every, judgement.unlisted], key=_cost)
-    return DiagnosedModes(begun, _in_light_of_the_law(work, none, seen, judgement), tuple(every), t, none)
+    return DiagnosedModes(begun, _in_light_of_the_law(work, seen, judgement), tuple(every), t, none)
 
 
 def _cost(scored: ScoredFit) -> float:
     return scored.cost
-
-
-def _best_of_each(scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
-    """The cheapest fit of each explanation, best first."""
-    found: dict[frozenset[str], ScoredFit] = {}
-    for scored in sorted(scored_fits, key=_cost):
-        found.setdefault(frozenset(scored.names), scored)
-    return list(found.values())
 
 
 def _too_few(work: Explaining, judgement: Judgement) -> bool:
@@ -127,9 +119,7 @@ def visible(problem: ModalProblem, effect: Effect) -> bool:
     return bool(damps or any(np.any(np.asarray(A) != 0) for A in (made.K, made.K_1, made.M)))
 
 
-def _in_light_of_the_law(
-    work: Explaining, none: ScoredFit, effects: Collection[Effect], judgement: Judgement
-) -> Judgement:
+def _in_light_of_the_law(work: Explaining, effects: Collection[Effect], judgement: Judgement) -> Judgement:
     """`ambiguous` in the place of `none` where a shear pair's mass would hide in its law."""
     begun = work.begun
     if judgement.verdict != "none" or begun.problem.members[0].specimen.kind != "shear-pair":

@@ -139,7 +139,7 @@ def _sweep(
     names = with_next_coarser([s.range_name for s in planned], ranges)
     calibration = calibration_segments(table, names, ranges)
     level = table.level_g * PUBLISHED_G_M_S2
-    segments = tuple(_segment(experiment, forecast, s, settings) for s in planned)
+    segments = tuple(_segment(forecast, s, settings) for s in planned)
     warnings = [w for s in segments for w in _warnings(s, settings)]
     if table.plan == "fixed":
         warnings += [w for s in planned if s.sweep == 1 for w in coarse_remarks(forecast, s)]
@@ -163,9 +163,7 @@ def _sweep(
     return segments, expected_seconds(forecast, every, settings), warnings + ([slow] if slow else [])
 
 
-def _segment(
-    experiment: Experiment, forecast: Forecast, planned: PlannedSegment, settings: SweepSettings
-) -> SegmentForecast:
+def _segment(forecast: Forecast, planned: PlannedSegment, settings: SweepSettings) -> SegmentForecast:
     f, level = np.array(planned.frequencies_hz), np.array(planned.level_m_s2)
     return SegmentForecast(
         segment=planned.segment,

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from fitting.depth.posterior import SAMPLES
 from fitting.errors import OutsideModel
@@ -19,6 +18,7 @@ from instrument.cli.print_uncertainty import print_in_depth
 from instrument.facts.beside import BesideTable
 from instrument.facts.budget import BudgetRow
 from instrument.facts.identification import IdentificationResult
+from instrument.facts.intervals import IntervalsFound
 from instrument.files.dma_file import DmaTable, read_dma
 from instrument.interchange.given import Given
 from instrument.material.beside import beside, beside_table
@@ -116,7 +116,7 @@ def _budget(out: Output, found: Identified) -> tuple[BudgetRow, ...] | None:
     return rows
 
 
-def _in_depth(out: Output, found: Identified, method: Depth, samples: int) -> list[dict[str, Any]]:
+def _in_depth(out: Output, found: Identified, method: Depth, samples: int) -> list[IntervalsFound]:
     looked = in_depth(found, method, samples, bar)
     if looked is None:
         out.say(f"no {method}: these data give no uncertainty, or the method none of its own")

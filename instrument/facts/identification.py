@@ -1,12 +1,12 @@
 """The result of `viscorig identify`, and of the live identification of a run."""
 
 from collections.abc import Mapping
-from typing import Any
 
 from pydantic import Field
 
 from instrument.facts.beside import BesideTable
 from instrument.facts.budget import BudgetRow
+from instrument.facts.intervals import IntervalsFound
 from instrument.facts.number import MaybeNumber, Number
 from instrument.facts.pointwise import BandFound, CausalityTest
 from instrument.facts.result import Result
@@ -118,7 +118,7 @@ class IdentificationResult(Result):
     """Where a hammer test took part."""
     budget: tuple[BudgetRow, ...] | None = None
     """By source, where it was asked for; None too where these data give no uncertainty."""
-    uncertainty: tuple[Mapping[str, Any], ...] | None = None
+    uncertainty: tuple[IntervalsFound, ...] | None = None
     """By profile, posterior or bootstrap, an item each, where it was asked for (docs/uncertainty.md)."""
     pointwise: tuple[BandFound, ...] | None = None
     """Where it was asked for."""

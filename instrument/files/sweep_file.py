@@ -264,23 +264,3 @@ def _check_twice(path: Path, places: list[str], columns: dict[str, Array]) -> No
                 f"({', '.join(names)} all equal), expected each once, or a column sweep that numbers passes"
             )
         seen[key] = place
-
-
-def sweep_text(sweep: Sweep, acceleration_m_s2: float) -> str:
-    """A sweep with its base and its times as CSV, levels in multiples of `acceleration_m_s2`."""
-    assert sweep.base_m_s2 is not None
-    assert sweep.time_s is not None
-    v, a = sweep.velocity_m_s, sweep.base_m_s2
-    columns = {
-        "sweep": [str(n) for n in sweep.sweep],
-        "segment": [str(n) for n in sweep.segment],
-        "level_g": [f"{level / acceleration_m_s2:.10g}" for level in sweep.commanded_m_s2],
-        "frequency_hz": [f"{f:.10g}" for f in sweep.frequency_hz],
-        "velocity_re_m_s": [f"{x:.9e}" for x in v.real],
-        "velocity_im_m_s": [f"{x:.9e}" for x in v.imag],
-        "base_accel_re_m_s2": [f"{x:.9e}" for x in a.real],
-        "base_accel_im_m_s2": [f"{x:.9e}" for x in a.imag],
-        "time_s": [f"{t:.10g}" for t in sweep.time_s],
-    }
-    rows = [",".join(row) for row in zip(*columns.values(), strict=True)]
-    return "\n".join([",".join(columns), *rows]) + "\n"

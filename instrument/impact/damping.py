@@ -181,7 +181,7 @@ def _mode(name: str, plain: Frf, fine: Frf, f: float, centres: Sequence[float], 
         plain.added_decay_1_s,
         max(width, 2 / seconds),
     )
-    accepted, why = _verdict(half, rational, third, lines, apart, seconds, f_n)
+    accepted, why = _verdict(half, rational, third, lines, apart, seconds)
     return Mode(
         frequency_hz=f_n if accepted else f,
         damping_ratio=ratio if accepted else float("nan"),
@@ -225,7 +225,6 @@ def _verdict(
     lines: float,
     apart: float,
     seconds: float,
-    f_n: float,
 ) -> tuple[bool, str]:
     said = []
     if isinstance(rational, Refusal):

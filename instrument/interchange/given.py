@@ -163,7 +163,7 @@ def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given
     if read.kind != contents.specimen.kind:
         raise BadInput(f"{specimen}: a {read.kind}, expected a {contents.specimen.kind} as the session's own")
     modes = session_modes(contents) if own_hammer else None
-    sweep = session_sweep(contents, read)
+    sweep = session_sweep(contents)
     files = files_of(sweep, contents.measured, read, contents.struck)
     read = with_spots(read, contents.measured) if isinstance(read, Specimen) else read
     name = contents.configuration.name

@@ -40,7 +40,7 @@ def identify_session(contents: Contents, progress: Progress = quiet) -> SessionF
     Raises `BadInput` without points, `FittingError` where these points carry no law.
     """
     specimen, modes = contents.specimen, session_modes(contents)
-    sweep = session_sweep(contents, specimen)
+    sweep = session_sweep(contents)
     if not isinstance(specimen, Specimen):
         together = identify_together([File(sweep, specimen)], progress)
         return SessionFit(together.found, together.found.sweep, specimen, None, together)
@@ -56,7 +56,7 @@ def result_of_fit(fit: SessionFit) -> IdentificationResult:
     return identification_from(fit.identified, plate)
 
 
-def session_sweep(contents: Contents, specimen: AnySpecimen) -> Sweep:
+def session_sweep(contents: Contents) -> Sweep:
     """Steps and sentinels, each at its commanded level. Raises `BadInput` where there are none."""
     if not contents.points:
         raise BadInput(f"{contents.path}: no point of a sweep in this session, expected a measured sweep")

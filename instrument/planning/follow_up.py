@@ -63,7 +63,7 @@ def rank_follow_ups(diagnosed: Diagnosed, possible: Possible | None = None) -> t
     expecting = Expecting(rivals, _MOST_RIVALS)
     worth = [one for one in _asked(expecting, possible) if one.told.information > _WORTH]
     return tuple(
-        course.first.measurable.follow_up(expecting.names, *_said(course.first.told, expecting)).but(
+        course.first.measurable.follow_up(*_said(course.first.told, expecting)).but(
             then=course.then, expected_seconds=course.expected_s
         )
         for course in best_courses(worth, expecting, possible.measurements)

@@ -45,9 +45,7 @@ class Measurable:
     held: Support | None = None
     """While it does."""
 
-    def follow_up(
-        self, names: tuple[str, ...], separation: float, resolved: float, between: tuple[str, ...]
-    ) -> FollowUp:
+    def follow_up(self, separation: float, resolved: float, between: tuple[str, ...]) -> FollowUp:
         """As it is offered."""
         given = {
             "kind": self.kind,

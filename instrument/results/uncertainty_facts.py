@@ -1,7 +1,7 @@
 """A deeper look at an identification's uncertainty: by profile, posterior or bootstrap."""
 
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -14,6 +14,7 @@ from fitting.depth.profile import profile
 from fitting.depth.quantities import Quantities
 from fitting.depth.task import DepthTask
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
+from instrument.facts.intervals import IntervalsFound, QuantityInterval
 from instrument.models.identification import Identified
 from instrument.progress import Progress, quiet
 
@@ -61,36 +62,35 @@ def quantities_of(found: Identified) -> Quantities | None:
     return Quantities(DepthTask.of(found.joint.begun), np.array(at))
 
 
-def in_depth_facts(looked: InDepth) -> list[dict[str, Any]]:
+def in_depth_facts(looked: InDepth) -> list[IntervalsFound]:
     """As JSON holds it, an item a method."""
     found = [_intervals(i) for i in looked.intervals]
     p = looked.posterior
     if p is not None:
-        found[0] |= {
-            "samples": p.samples,
-            "seconds": p.seconds,
-            "full_evaluations_in_that_time": p.seconds / p.one_evaluation_s,
-            "acceptance": p.acceptance,
-            "effective_samples": dict(zip(p.intervals.names, p.effective.tolist(), strict=True)),
-            "r_hat": dict(zip(p.intervals.names, p.r_hat.tolist(), strict=True)),
-            "checked_in_full": p.checked,
-            "weights_effective_share": p.weight_share,
-            "weights_log_standard_deviation": p.log_error,
-        }
+        found[0] = found[0].but(
+            samples=p.samples,
+            seconds=p.seconds,
+            full_evaluations_in_that_time=p.seconds / p.one_evaluation_s,
+            acceptance=p.acceptance,
+            effective_samples=dict(zip(p.intervals.names, p.effective.tolist(), strict=True)),
+            r_hat=dict(zip(p.intervals.names, p.r_hat.tolist(), strict=True)),
+            checked_in_full=p.checked,
+            weights_effective_share=p.weight_share,
+            weights_log_standard_deviation=p.log_error,
+        )
     return found
 
 
-def _intervals(i: Intervals) -> dict[str, Any]:
-    quantities = [
-        {
-            "quantity": name,
-            "value": i.found[k],
-            **{
-                f"{what}_{level}_percent": bounds[level][k].tolist()
-                for what, bounds in (("interval", i.bounds), ("linear", i.linear))
-                for level in sorted(bounds)
-            },
-        }
+def _intervals(i: Intervals) -> IntervalsFound:
+    quantities = tuple(
+        QuantityInterval(
+            quantity=name,
+            value=i.found[k],
+            interval_68_percent=i.bounds[68][k],
+            interval_95_percent=i.bounds[95][k],
+            linear_68_percent=i.linear[68][k],
+            linear_95_percent=i.linear[95][k],
+        )
         for k, name in enumerate(i.names)
-    ]
-    return {"method": i.method, "quantities": quantities, "advice": i.advice}
+    )
+    return IntervalsFound(method=i.method, quantities=quantities, advice=i.advice)

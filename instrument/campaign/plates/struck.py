@@ -26,7 +26,7 @@ _REACH, _LEAST = 1.5, 0.03
 
 
 @one_thread
-def mobilities(
+def mobilities_of_free(
     true: TruePlate,
     law: PlateMaterialLaw,
     frequency_hz: Array,

@@ -17,7 +17,7 @@ from instrument.campaign.plates.hidden.clamp import HiddenClampCompliance
 from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.simulate import moduli_of
 from instrument.campaign.plates.solid import Build, Patch, Solid
-from instrument.campaign.plates.struck import lines_about, mobilities, mobility, struck_plate
+from instrument.campaign.plates.struck import lines_about, mobilities_of_free, mobility, struck_plate
 from instrument.cli.main import run
 from instrument.files.specimen_file import read_specimen
 
@@ -32,7 +32,7 @@ NOISE = 2e-3
 
 def test_the_basis_answers_as_the_whole_solid_does():
     f = np.array([40.0, 150.0, 310.0])
-    found = mobilities(P2, LAW, f, FORCES_M[:1], SPOTS_M[1:], (MASS,), COARSE)[0, 0]
+    found = mobilities_of_free(P2, LAW, f, FORCES_M[:1], SPOTS_M[1:], (MASS,), COARSE)[0, 0]
     solid = Solid(P2, Build(free=True, patches=(MASS,)), COARSE)
     push, read = (solid.displacement(*at).toarray().ravel()[solid.free] for at in (FORCES_M[0], SPOTS_M[1]))
     for k, w in enumerate(2 * np.pi * f):
@@ -43,8 +43,8 @@ def test_the_basis_answers_as_the_whole_solid_does():
 
 def test_points_may_change_places_and_slow_pushes_move_it_as_one():
     f = np.array([2.0, 200.0])
-    there = mobilities(P2, LAW, f, FORCES_M[:1], SPOTS_M[:1], fineness=COARSE)[0, 0]
-    back = mobilities(P2, LAW, f, SPOTS_M[:1], FORCES_M[:1], fineness=COARSE)[0, 0]
+    there = mobilities_of_free(P2, LAW, f, FORCES_M[:1], SPOTS_M[:1], fineness=COARSE)[0, 0]
+    back = mobilities_of_free(P2, LAW, f, SPOTS_M[:1], FORCES_M[:1], fineness=COARSE)[0, 0]
     assert there[1] == pytest.approx(back[1], rel=1e-6)
     layers = (P2.substrate, P2.core, P2.constraining)
     mass = P2.length_m * P2.width_m * sum(x.thickness_m * x.density_kg_m3 for x in layers)
@@ -61,7 +61,7 @@ def test_a_plate_is_struck_with_its_effects_free_or_clamped():
     soft = HiddenClampCompliance(3e13, 3e13, 4, 0.02, 0.4)
     given = LAW, f, force, spot
     free = struck_plate(P2, (heavier, soft), moduli_of(LAW, f), force, free=True, fineness=COARSE)
-    expected = mobilities(P2, LAW, f, [force], [spot], (MASS,), COARSE)[0, 0]
+    expected = mobilities_of_free(P2, LAW, f, [force], [spot], (MASS,), COARSE)[0, 0]
     assert mobility(free, *given) == pytest.approx(expected, rel=1e-3)
     clamped = struck_plate(P2, (soft,), moduli_of(LAW, f), force, free=False, fineness=COARSE)
     there, back = mobility(clamped, *given), mobility(clamped, LAW, f, spot, force)
@@ -118,7 +118,7 @@ y_mm = {1e3 * force_m[1]:.6g}
 def written(folder, patches):
     """A hammer at three points, a laser at two: a file for each point of the hammer."""
     f = np.concatenate([np.linspace(a, b, 16) for a, b in ((105, 150), (205, 290), (320, 420))])
-    H = mobilities(P2, LAW, f, FORCES_M, SPOTS_M, patches)
+    H = mobilities_of_free(P2, LAW, f, FORCES_M, SPOTS_M, patches)
     rng = np.random.default_rng(1)
     line = []
     for n, force_m in enumerate(FORCES_M):
@@ -140,7 +140,7 @@ def written(folder, patches):
 @pytest.mark.parametrize(("force", "spot"), [(0, 1), (2, 0)])
 def test_the_model_of_a_struck_plate_is_near_the_solid(tmp_path, force, spot):
     f = np.array([112.0, 142.0, 240.0, 290.0, 370.0])
-    solid = mobilities(P2, LAW, f, FORCES_M[force : force + 1], SPOTS_M[spot : spot + 1])[0, 0]
+    solid = mobilities_of_free(P2, LAW, f, FORCES_M[force : force + 1], SPOTS_M[spot : spot + 1])[0, 0]
     (tmp_path / "plate.toml").write_text(specimen(FORCES_M[force]))
     plate = Plate(read_specimen(tmp_path / "plate.toml").at_pickup(spot))
     omega = 2 * np.pi * f

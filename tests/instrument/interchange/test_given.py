@@ -67,7 +67,7 @@ def test_as_long_as_nothing_was_changed_there_is_one_file(finished):
     with SessionFile(finished.session) as file:
         contents = contents_of(file)
     first = [k for k, p in enumerate(contents.measured) if p.sweep == 1]
-    sweep = session_sweep(contents, contents.specimen).take(np.array(first))
+    sweep = session_sweep(contents).take(np.array(first))
     (whole,) = files_of(sweep, [contents.measured[k] for k in first], contents.specimen)
     assert whole.specimen == contents.specimen
     assert len(whole.sweep) == len(first)
