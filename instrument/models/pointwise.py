@@ -19,7 +19,8 @@ from fitting.pointwise import PointwiseLaw, phase_is_kept, pointwise_law, veloci
 from fitting.pointwise_roots import VelocityOf
 from fitting.rational import RationalSweep, rational_sweep
 from fitting.sweep import Sweep
-from instrument.models.identification import Identified, Joint
+from instrument.models.identification import Identified
+from instrument.models.methods import Joint
 
 
 @dataclass(frozen=True)

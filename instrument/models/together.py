@@ -36,7 +36,8 @@ from instrument.models.file_remarks import (
 )
 from instrument.models.files import File, mounted, numbers_of, one_plate
 from instrument.models.files_at_work import FilesAtWork, SetAside
-from instrument.models.identification import Identified, Joint
+from instrument.models.identification import Identified
+from instrument.models.methods import Joint
 from instrument.models.other_processes import executor
 from instrument.models.quick_look import remarks_on_reading
 from instrument.models.remarks import remarks_on_bend

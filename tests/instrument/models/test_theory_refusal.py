@@ -11,14 +11,17 @@ from conftest import TABLE_4
 
 from fitting.errors import OutsideModel
 from fitting.laws.constant import ConstantModulus
+from fitting.noise import noise_of
 from fitting.sweep import Sweep
 from instrument.cli.main import run
 from instrument.files.structure_file import read_structure
 from instrument.models.diagnosis import diagnose
-from instrument.models.identification import _checked, identify
+from instrument.models.identification import identify
+from instrument.models.methods import DirectMethod, Task
 from instrument.models.specimen_models import Models
 from instrument.models.theory import check_each_theory, theory_remark
 from instrument.paper_case import case_file
+from instrument.progress import quiet
 from instrument.results.identification_from import identification_from
 
 F = np.concatenate([np.linspace(a, b, 12) for a, b in ((14, 24), (80, 110), (230, 290))])
@@ -62,7 +65,7 @@ def test_a_fit_that_is_lost_besides_says_so(coarse):
     sweep = sweep_of(specimen)
     lost = SimpleNamespace(law=specimen.core.law, velocity_m_s=2 * sweep.velocity_m_s)
     with pytest.raises(OutsideModel, match=r"plate theory at .* check units, level and pickup"):
-        _checked(specimen, sweep, lost)
+        DirectMethod(Task(sweep, specimen, noise_of(sweep)), quiet).theory(lost)
 
 
 def test_diagnose_refuses_the_law_it_ends_with(coarse):

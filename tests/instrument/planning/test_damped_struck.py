@@ -52,7 +52,7 @@ def rocking(rivals):
 
 def test_hung_free_it_is_struck_at_one_corner_and_read_at_another(free):
     _, one = free
-    offer = one.follow_up(("gain_error", "spot_offset"), 1.0, 0.5, ("gain_error", "spot_offset"))
+    offer = one.follow_up(1.0, 0.5, ("gain_error", "spot_offset"))
     assert (offer.kind, offer.held, offer.needs_hands) == ("damped_struck", "free", True)
     assert offer.frequencies_hz == offer.segments == ()
     assert offer.level_g is None

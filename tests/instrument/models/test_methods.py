@@ -1,0 +1,44 @@
+from dataclasses import replace
+
+import numpy as np
+
+from fitting.noise import noise_of
+from fitting.sweep import Sweep
+from instrument.models.methods import PaperMethod, Task
+from instrument.models.specimen_models import Models
+from instrument.progress import quiet
+
+F = np.repeat([19.3, 101.0, 280.0], 4) * np.tile([0.97, 0.99, 1.01, 1.03], 3)
+
+
+def task(specimen, models):
+    v = models.predict(specimen.core.law, F)
+    sweep = Sweep(
+        frequency_hz=F,
+        velocity_m_s=v,
+        commanded_m_s2=np.full(len(F), specimen.base_acceleration_m_s2),
+        segment=np.repeat([1, 2, 3], 4),
+        sweep=np.ones(len(F), dtype=np.intp),
+    )
+    return Task(sweep, specimen, noise_of(sweep))
+
+
+def test_the_papers_method_says_that_tolerances_have_no_part_in_it(zn1, zn1_models):
+    given = task(zn1, zn1_models)
+    assert PaperMethod(given, quiet).remarks() == ()
+    (said,) = PaperMethod(replace(given, specimen=replace(zn1, exact=False)), quiet).remarks()
+    assert "tolerances are not in its band" in said
+
+
+def test_models_are_certified_anew_for_a_law_that_ended_outside(zn1, zn1_models):
+    way = PaperMethod(task(zn1, zn1_models), quiet)
+    assert isinstance(way.set_up(), Models)
+    stiff = zn1.core.law.with_logs(np.log(zn1.core.law.values) + np.array([7.0, 7.0, 0.0, 0.0]))
+    within = way.models.domain.modulus[1]
+    way.widen(stiff)
+    assert way.set_up().domain.modulus[1] > np.abs(stiff.modulus(2 * np.pi * F)).max() > within
+
+
+def test_the_papers_method_holds_segments_out(zn1, zn1_models):
+    way = PaperMethod(task(zn1, zn1_models), quiet)
+    assert np.array_equal(way.parts(), way.task.sweep.segment)
