@@ -6,7 +6,7 @@ is the measure; its own uncertainty is kept by taking F instead of chi-square. A
 within about 1/T.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array
 from fitting.chances import chi2_density, chi2_median, f_above
-from fitting.noise import FEWEST, Noise, around, groups_of, local_model
+from fitting.noise import FEWEST, Noise, around, evening, groups_of, local_model
 from fitting.sweep import Sweep
 
 Points = NDArray[np.bool_]
@@ -135,7 +135,9 @@ def mains_hum(sweep: Sweep, noise: Noise) -> HumSeen | None:
 
 
 def _channels(sweep: Sweep, noise: Noise, aside: Points) -> _Channels:
-    response = _deviations(sweep, sweep.response_m_s, noise.std_m_s, aside)
+    even = evening(sweep)
+    response = _deviations(sweep, sweep.response_m_s * even, noise.std_m_s * even, aside)
+    response = replace(response, size=response.size / even)
     if sweep.base_m_s2 is None:
         return _Channels(response, None)
     reading = sweep.base_m_s2 / sweep.commanded_m_s2

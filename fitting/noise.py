@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array
 from fitting.chances import chi2_exceeded
+from fitting.levels import by_level, to_one_level
 from fitting.sweep import Sweep
 
 WINDOW = 7
@@ -58,13 +59,13 @@ def noise_of(sweep: Sweep) -> Noise:
     stated = sweep.response_std_m_s
     if stated is not None:
         return Noise(stated, "stated")
-    relative = np.abs(sweep.response_m_s)
-    std = np.zeros(len(sweep))
+    std, even = np.zeros(len(sweep)), evening(sweep)
+    response = sweep.response_m_s * even
     for group in groups_of(sweep):
         if len(np.unique(sweep.frequency_hz[group])) < FEWEST:
-            return Noise(relative, "unknown")
-        std[group] = _scatter(sweep.frequency_hz[group], sweep.response_m_s[group])
-    return Noise(std, "local scatter")
+            return Noise(np.abs(sweep.response_m_s), "unknown")
+        std[group] = _scatter(sweep.frequency_hz[group], response[group])
+    return Noise(std / even, "local scatter")
 
 
 def scatter_of_left(sweep: Sweep, left: NDArray[Any]) -> Array:
@@ -74,16 +75,17 @@ def scatter_of_left(sweep: Sweep, left: NDArray[Any]) -> Array:
     the local model of readings leaves most of it, and its scatter is many times the noise. Shape (points,)
     of `left`, phasors or amplitudes.
     """
-    std = np.zeros(len(sweep))
+    std, even = np.zeros(len(sweep)), evening(sweep)
+    response, left = sweep.response_m_s * even, left * even
     for group in groups_of(sweep):
         order = group[np.argsort(sweep.frequency_hz[group], kind="stable")]
         # The variance of r_1 - 2 r_2 + r_3.
         square = np.abs(np.diff(left[order], 2)) ** 2 / 6
         parts = 2 if np.iscomplexobj(left) else 1
-        size = np.abs(sweep.response_m_s[order]) ** 2
+        size = np.abs(response[order]) ** 2
         middle = np.arange(1, len(order) - 1)
         std[order] = np.sqrt(_variance(sweep.frequency_hz[order], size, middle, square / parts, parts))
-    return std
+    return np.asarray(std / even)
 
 
 def scatter_over_stated(sweep: Sweep) -> float | None:
@@ -96,9 +98,10 @@ def scatter_over_stated(sweep: Sweep) -> float | None:
     stated = sweep.response_std_m_s
     if stated is None:
         return None
-    ratios, squares = [], []
+    ratios, squares, even = [], [], evening(sweep)
+    response, stated = sweep.response_m_s * even, stated * even
     for group in groups_of(sweep):
-        f, v = sweep.frequency_hz[group], sweep.response_m_s[group]
+        f, v = sweep.frequency_hz[group], response[group]
         if len(np.unique(f)) < FEWEST:
             continue
         ratios.append(_scatter(f, v) / stated[group])
@@ -117,9 +120,18 @@ def scatter_over_stated(sweep: Sweep) -> float | None:
 
 def groups_of(sweep: Sweep) -> list[NDArray[np.intp]]:
     """Points of one segment, one pass and one level: each group a curve of its own. Shape (n,) each."""
-    keys = np.column_stack([sweep.segment, sweep.sweep, np.round(sweep.commanded_m_s2, 9)])
+    keys = np.column_stack([sweep.segment, sweep.sweep])
     _, which = np.unique(keys, axis=0, return_inverse=True)
-    return [np.flatnonzero(which.ravel() == k) for k in range(int(which.max()) + 1)]
+    passes = [np.flatnonzero(which.ravel() == k) for k in range(int(which.max()) + 1)]
+    return [one[level] for one in passes for level in by_level(sweep.commanded_m_s2[one])]
+
+
+def evening(sweep: Sweep) -> Array:
+    """Factor that takes a reading to the one level of its group: a curve is smooth there. Shape (points,)."""
+    factor = np.ones(len(sweep))
+    for group in groups_of(sweep):
+        factor[group] = to_one_level(sweep.commanded_m_s2[group])
+    return factor
 
 
 def _scatter(frequency_hz: Array, response: NDArray[np.complex128] | Array) -> Array:

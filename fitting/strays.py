@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, Mask
-from fitting.noise import FEWEST, WINDOW, around, groups_of, local_model, local_residuals
+from fitting.noise import FEWEST, WINDOW, around, evening, groups_of, local_model, local_residuals
 from fitting.sweep import Sweep
 
 Places = NDArray[np.intp]
@@ -62,13 +62,15 @@ def strays(sweep: Sweep) -> Array:
     off = np.zeros(len(sweep))
     if not sweep.has_phase:
         return off
+    even = evening(sweep)
+    response = sweep.response_m_s * even
     for group in groups_of(sweep):
         # Of a frequency that is there again the first reading lies on the curve, the others are as they are.
         f, first = np.unique(sweep.frequency_hz[group], return_index=True)
         at = group[first]
-        if len(f) >= FEWEST and sweep.response_m_s[at].any():
-            off[at] = _in_group(f, sweep.response_m_s[at])
-    return off
+        if len(f) >= FEWEST and response[at].any():
+            off[at] = _in_group(f, response[at])
+    return off / even
 
 
 def _in_group(f: Array, v: NDArray[Any]) -> Array:

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from fitting.arrays import Array, Complex, Mask
+from fitting.levels import by_level
 from fitting.model_error import AGAIN, AGAIN_WITHIN_S, DRIFT, GAIN
 from fitting.sweep import Sweep
 
@@ -53,6 +54,9 @@ def blow_rows(frequency_hz: Array, v: Complex) -> Complex:
 
 def _passes(sweep: Sweep, inside: Mask) -> Iterator[Mask]:
     """Points of each pass; another level is another pass, whether or not it is numbered so."""
-    each = np.stack([sweep.sweep.astype(float), sweep.commanded_m_s2])
-    for one in np.unique(each[:, inside], axis=1).T:
-        yield inside & np.all(each == one[:, None], axis=0)
+    for number in np.unique(sweep.sweep[inside]):
+        at = np.flatnonzero(inside & (sweep.sweep == number))
+        for level in by_level(sweep.commanded_m_s2[at]):
+            here = np.zeros(len(sweep), dtype=bool)
+            here[at[level]] = True
+            yield here

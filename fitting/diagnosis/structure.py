@@ -14,6 +14,7 @@ from fitting.chances import chi2_exceeded
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.digits import two_digits, written_out
+from fitting.noise import groups_of
 from fitting.sweep import Sweep
 
 LAGS = 8
@@ -102,10 +103,7 @@ def along_frequency(
 
 def _traces(sweep: Sweep, whitened: NDArray[Any], parts: int) -> Iterator[NDArray[Any]]:
     """Residuals along frequency, every pass of a segment and every part for itself."""
-    keys = np.column_stack([sweep.segment, sweep.sweep, np.round(sweep.commanded_m_s2, 9)])
-    _, which = np.unique(keys, axis=0, return_inverse=True)
-    for number in range(int(which.max()) + 1):
-        inside = np.flatnonzero(which.ravel() == number)
+    for inside in groups_of(sweep):
         inside = inside[np.argsort(sweep.frequency_hz[inside], kind="stable")]
         for part in range(parts):
             yield whitened[inside + part * len(sweep)]

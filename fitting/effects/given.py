@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.laws import CoreLaw
+from fitting.levels import count_of_levels
 from fitting.specimen import Drive, Face, Reading
 
 
@@ -35,8 +36,8 @@ class Points:
 
     @property
     def levels(self) -> int:
-        """How many levels there are."""
-        return len(np.unique(np.round(self.acceleration_m_s2, 9)))
+        """How many levels there are, a tenth apart and more."""
+        return count_of_levels(self.acceleration_m_s2)
 
     @property
     def struck(self) -> NDArray[np.bool_]:

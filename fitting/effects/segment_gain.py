@@ -8,9 +8,12 @@ from fitting.arrays import Array, Complex
 from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
+from fitting.levels import by_level
 
 _EVERY = 0.0
 """In the place of a level: all of them."""
+_ALIKE = 0.05
+"""Of a level, that its points may be off its middle: as far as levels lie apart."""
 _HZ = 1.0 / (2 * np.pi)
 
 
@@ -38,16 +41,17 @@ class SegmentGainEffect(Effect):
         return None if len(self._segments(points)) > 1 else "there is one segment"
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        levels = [_EVERY, *(np.unique(points.acceleration_m_s2) if points.levels > 1 else ())]
         return [
-            np.array([1.03, low, high, level]) for low, high in self._segments(points) for level in levels
+            np.array([1.03, low, high, level])
+            for low, high, levels in self._segments(points)
+            for level in (_EVERY, *levels)
         ]
 
     def reading(self, v: Complex, points: Points, u: Array) -> Complex:
         f = points.omega * _HZ
         here = (f >= u[1] * (1 - 1e-9)) & (f <= u[2] * (1 + 1e-9))
         if u[3] != _EVERY:
-            here &= np.isclose(points.acceleration_m_s2, u[3], rtol=1e-9)
+            here &= np.isclose(points.acceleration_m_s2, u[3], rtol=_ALIKE, atol=0)
         return np.asarray(v * np.where(here, u[0], 1.0))
 
     def story(self, u: Mapping[str, float]) -> str:
@@ -58,9 +62,13 @@ class SegmentGainEffect(Effect):
             "alone"
         )
 
-    def _segments(self, points: Points) -> list[tuple[float, float]]:
-        """Their lowest and highest frequencies, Hz."""
+    def _segments(self, points: Points) -> list[tuple[float, float, list[float]]]:
+        """Their lowest and highest frequencies, Hz, and the levels of those that were read at several."""
         if points.segment is None:
             return []
-        each = (points.omega[points.segment == label] * _HZ for label in np.unique(points.segment))
-        return [(float(f.min()), float(f.max())) for f in each]
+        found = []
+        for label in np.unique(points.segment):
+            f, a = (x[points.segment == label] for x in (points.omega * _HZ, points.acceleration_m_s2))
+            levels = [float(np.median(a[part])) for part in by_level(a)]
+            found.append((float(f.min()), float(f.max()), levels if len(levels) > 1 else []))
+        return found

@@ -51,6 +51,22 @@ def test_a_range_may_be_of_one_level():
     assert (ratio[len(F) :][SEGMENT == 1] == 1.1).all()
 
 
+def test_an_amplitude_of_each_point_is_no_level():
+    one = points()
+    each = replace(one, acceleration_m_s2=9.81 * (1 + 0.01 * np.sin(np.arange(len(F)))))
+    assert all(u[3] == 0 for u in EFFECT.starts(None, each))
+
+
+def test_a_level_is_read_with_its_gain_where_it_scatters():
+    two = points((4.9, 9.81))
+    each = replace(two, acceleration_m_s2=two.acceleration_m_s2 * (1 + 0.01 * np.sin(np.arange(2 * len(F)))))
+    starts = EFFECT.starts(None, each)
+    assert len(starts) == 9
+    ratio = EFFECT.reading(np.ones(2 * len(F), complex), each, np.array([1.1, *starts[2][1:]]))
+    assert (ratio[: len(F)] == 1).all()
+    assert (ratio[len(F) :][SEGMENT == 1] == 1.1).all()
+
+
 def test_one_segment_has_none():
     one = replace(points(), segment=np.ones(len(F), int))
     assert EFFECT.objection(one, None)
