@@ -22,7 +22,9 @@ WINDOW = 7
 """Points that a local model is laid through: three more than it has unknowns for phasors, one for
 amplitudes."""
 FEWEST = 15
-"""Points a segment needs before its scatter says anything."""
+"""Points a segment needs before its scatter says anything by itself."""
+_FEWEST_IN_ALL = 31
+"""Points a sweep of shorter segments needs: more than the few of which each is predicted from the others."""
 _LEAST = 0.15
 """Of the points, that lie in no window of a resonance however sharp: a choice."""
 _SPLITS = 24
@@ -59,12 +61,17 @@ def noise_of(sweep: Sweep) -> Noise:
     stated = sweep.response_std_m_s
     if stated is not None:
         return Noise(stated, "stated")
-    std, even = np.zeros(len(sweep)), evening(sweep)
-    response = sweep.response_m_s * even
-    for group in groups_of(sweep):
-        if len(np.unique(sweep.frequency_hz[group])) < FEWEST:
-            return Noise(np.abs(sweep.response_m_s), "unknown")
-        std[group] = _scatter(sweep.frequency_hz[group], response[group])
+    groups, even = groups_of(sweep), evening(sweep)
+    f, response = sweep.frequency_hz, sweep.response_m_s * even
+    shortest = shortest_group(sweep)
+    if shortest >= FEWEST:
+        std = np.zeros(len(sweep))
+        for group in groups:
+            std[group] = _scatter(f[group], response[group])
+    elif shortest > WINDOW and len(sweep) >= _FEWEST_IN_ALL:
+        std = _scatter_of_all(groups, f, response)
+    else:
+        return Noise(np.abs(sweep.response_m_s), "unknown")
     return Noise(std / even, "local scatter")
 
 
@@ -126,6 +133,11 @@ def groups_of(sweep: Sweep) -> list[NDArray[np.intp]]:
     return [one[level] for one in passes for level in by_level(sweep.commanded_m_s2[one])]
 
 
+def shortest_group(sweep: Sweep) -> int:
+    """Frequencies of the group that has fewest."""
+    return min(len(np.unique(sweep.frequency_hz[group])) for group in groups_of(sweep))
+
+
 def evening(sweep: Sweep) -> Array:
     """Factor that takes a reading to the one level of its group: a curve is smooth there. Shape (points,)."""
     factor = np.ones(len(sweep))
@@ -143,6 +155,21 @@ def _scatter(frequency_hz: Array, response: NDArray[np.complex128] | Array) -> A
     std = np.empty(len(f))
     std[order] = np.sqrt(_variance(f, np.abs(v) ** 2, middle, square, parts))
     return std
+
+
+def _scatter_of_all(
+    groups: list[NDArray[np.intp]], f: Array, response: NDArray[np.complex128] | Array
+) -> Array:
+    """One floor and one share for all groups: each alone has too few points. Shape (points,)."""
+    parts = 2 if np.iscomplexobj(response) else 1
+    middles, squares = [], []
+    for group in groups:
+        order = group[np.argsort(f[group], kind="stable")]
+        middle, left_over = local_residuals(f[order], response[order])
+        middles.append(order[middle])
+        squares.append(np.abs(left_over) ** 2 / parts)
+    size = np.abs(response) ** 2
+    return np.sqrt(_variance(f, size, np.concatenate(middles), np.concatenate(squares), parts))
 
 
 def local_residuals(f: Array, v: NDArray[Any]) -> tuple[NDArray[np.intp], NDArray[Any]]:
@@ -196,7 +223,7 @@ def _variance(f: Array, size_squared: Array, middle: NDArray[np.intp], square: A
     edges = _splits(float(np.min(size_squared[middle])) / (largest or 1.0))
     floor = (edges[1:] + edges[:-1]) / 2
     relative = f / np.exp(np.mean(np.log(f)))
-    tilts = _TILTS if f[-1] > _WIDE_BAND * f[0] else (0.0,)
+    tilts = _TILTS if f.max() > _WIDE_BAND * f.min() else (0.0,)
     # var = s (floor tilt + (1 - floor) |v|^2 / largest); s has an inverse gamma distribution for each.
     whole = np.array(
         [

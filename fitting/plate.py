@@ -11,18 +11,16 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting import element
 from fitting.arrays import Array
+from fitting.edge_twist import EdgeTwist
 from fitting.element import G_X, G_Y, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
 from fitting.element_matrices import element_matrices
 from fitting.errors import OutsideModel
 from fitting.mesh import cells_of, mesh_of, treated_nodes
-from fitting.specimen import Face, Specimen
+from fitting.specimen import Specimen
 
 _STILL = 1e-9
 """A reading row below this reads nothing but rounding."""
-EDGE_WIDTH = 0.63 / 2
-"""Of the thickness: so wide a strip carries no twist at a free edge (decision 13)."""
 _SUPPORTED = {"x": (V_C, V_B, W, THETA_X, G_Y), "y": (U_C, U_B, W, THETA_Y, G_X)}
 """What a simple support holds of the nodes on an edge of constant x or y."""
 _WHOLE = 1e-9
@@ -131,10 +129,11 @@ class Plate:
 
     @cached_property
     def edge_twist(self) -> sp.csr_array:
-        """Stiffness that the faces' free edges lack in twist, `EDGE_WIDTH` of it. Shape (n, n).
+        """Stiffness that the faces' free edges lack in twist. Shape (n, n).
 
-        2 E h^3 / (12 (1 + nu)) int kappa_xy^2 ds over a width of `EDGE_WIDTH` h, at each free edge. Patches
-        have edges of their own; a foil's share is its thickness to the fourth power, and left out.
+        An edge along s gives way until no moment twists it, over a width of `EDGE_WIDTH` h: that takes
+        `EdgeTwist.stiffness` int (w_ns + coupling w_ss)^2 ds of twice the energy. Patches have edges of their
+        own; a foil's share is its thickness to the fourth power, and left out.
         """
         s, mesh = self.specimen, self.mesh
         node = np.arange(mesh.nodes).reshape(mesh.n_x + 1, mesh.n_y + 1)
@@ -151,16 +150,25 @@ class Plate:
             faces = faces[:1]
         elif s.both_sides:
             faces += faces[1:]
-        lacking = sum(twisting_stiffness(f, 2 * EDGE_WIDTH * f.thickness_m) for f in faces)
-        for edge, (nodes, dof, step) in zip(s.edges, along, strict=True):
-            if edge == "free":
-                slope = sp.csr_array(
-                    (np.ones(len(nodes)), (np.arange(len(nodes)), nodes * mesh.dofs + dof)),
-                    shape=(len(nodes), mesh.size),
-                )
-                turn = slope[1:] - slope[:-1]
-                found = found + lacking / step * (turn.T @ turn)
+        for edge, (nodes, across, step) in zip(s.edges, along, strict=True):
+            if edge != "free":
+                continue
+            # The rotations are w_y and -w_x.
+            own, other = (self._turns(nodes, dof) for dof in (across, THETA_X + THETA_Y - across))
+            lost = [EdgeTwist.of(face, along_x=across == THETA_X) for face in faces]
+            for coupling in dict.fromkeys(e.coupling for e in lost):
+                turn = own - coupling * other
+                stiffness = sum(e.stiffness for e in lost if e.coupling == coupling)
+                found = found + stiffness / step * (turn.T @ turn)
         return sp.csr_array(found[self.free][:, self.free])
+
+    def _turns(self, nodes: NDArray[np.intp], dof: int) -> sp.csr_array:
+        """By how much a rotation changes from each node to the next. Shape (nodes - 1, all dofs)."""
+        each = sp.csr_array(
+            (np.ones(len(nodes)), (np.arange(len(nodes)), nodes * self.mesh.dofs + dof)),
+            shape=(len(nodes), self.mesh.size),
+        )
+        return sp.csr_array(each[1:] - each[:-1])
 
     def scatter(self, Ae: Array, elements: NDArray[np.intp] | slice = slice(None)) -> sp.csc_array:
         """An element's matrix (28, 28) assembled over some elements. Shape (n, n)."""
@@ -306,13 +314,6 @@ class Plate:
         dofs = self.mesh.element_dofs()[i * self.mesh.n_y + j]
         row[dofs] = self.mesh.shape.deflection(x_m - i * a, y_m - j * b)
         return row[self.free]
-
-
-def twisting_stiffness(face: Face, times: float = 1.0) -> float:
-    """G h^3 / 6 of a face about the plate's axes, in N m, times something."""
-    if face.rolled is None:
-        return times * face.young_pa * face.thickness_m**3 / (12 * (1 + face.poisson))
-    return times * float(element.face_plane_stress(face)[2, 2]) * face.thickness_m**3 / 6
 
 
 def _sum(each: list[sp.csc_array]) -> sp.csc_array:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from instrument.facts.modes import ModesResult
-from instrument.models.specimen_modes import specimen_modes
+from instrument.models.specimen_modes import edge_twist_remark, specimen_modes
 from instrument.progress import bar
 from instrument.results.modes_from import modes_from
 from viscorig.facts import Facts
@@ -57,4 +57,4 @@ def modes(specimen: Specimen, count: int = 8) -> Modes:
     """
     model = specimen.model
     law = model.core.law if model.core is not None else None
-    return Modes(modes_from(specimen_modes(model, count, bar), law))
+    return Modes(modes_from(specimen_modes(model, count, bar), law, remark=edge_twist_remark(model, count)))

@@ -14,7 +14,7 @@ from instrument.cli.options import file_argument, force_option, json_option
 from instrument.cli.output import Output
 from instrument.files.plausible import question_specimen
 from instrument.files.structure_file import read_structure
-from instrument.models.specimen_modes import specimen_modes
+from instrument.models.specimen_modes import edge_twist_remark, specimen_modes
 from instrument.progress import bar
 from instrument.results.modes_from import modes_from
 
@@ -37,14 +37,16 @@ def modes(specimen: Path, count: int, insist: bool, json_path: str | None) -> No
     law = read.core.law if read.core is not None else None
     found: Sequence[ModalValue]
     stretched: list[bool] = []
+    twist = ""
     if isinstance(read, Specimen):
         found = specimen_modes(read, count, bar)
+        twist = edge_twist_remark(read, count)
     else:
         found = shapes = small_modes(read, law, count)
         stretched = along(read, shapes) if isinstance(read, Beam) else []
     rows = [[str(k + 1), f"{m.frequency_hz:.3f}", f"{m.loss_factor:.5f}"] for k, m in enumerate(found)]
     out.table("", ["mode", "frequency/Hz", "loss factor"], rows)
-    result = modes_from(found, law, stretched)
+    result = modes_from(found, law, stretched, twist)
     for remark in result.notes:
         out.say(f"note: {remark}")
     out.result(result)

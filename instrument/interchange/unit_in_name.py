@@ -205,11 +205,16 @@ def amplitude_factor(name: str) -> float:
 
 def stated_factor(name: str) -> float | None:
     """The same, None where the name does not say how the size is stated."""
-    said = " " + re.sub(r"[^a-z0-9]+", " ", plain(name)) + " "
+    said = f" {_letters(name)} "
     return next((float(factor) for words, factor in _PEAKS if re.search(rf" (?:{words}) ", said)), None)
 
 
 def _without_size(unit: str) -> str:
     """A unit without how the size is stated: `m/s rms`."""
     first, _, rest = unit.strip().partition(" ")
-    return first if any(re.fullmatch(words, rest.lower()) for words, _ in _PEAKS) else unit
+    return first if any(re.fullmatch(words, _letters(rest)) for words, _ in _PEAKS) else unit
+
+
+def _letters(text: str) -> str:
+    """Small letters and digits, one space for whatever is between: `Pk-Pk` is pk pk."""
+    return re.sub(r"[^a-z0-9]+", " ", plain(text)).strip()

@@ -14,7 +14,13 @@ from fitting.structures import AnySpecimen, Beam, ShearPair
 from fitting.structures.shear_pair import EDGE
 from instrument.models.clamp_remarks import remarks_on_clamps
 from instrument.models.files import File
-from instrument.models.remarks import remarks_on_law, remarks_on_noise, remarks_on_patches, remarks_on_strays
+from instrument.models.remarks import (
+    remarks_on_law,
+    remarks_on_noise,
+    remarks_on_patches,
+    remarks_on_strays,
+    remarks_on_tolerances,
+)
 
 _WORTH_SAYING = 0.01
 """Of the modulus: a correction that is left out."""
@@ -29,7 +35,7 @@ _TIMES_NOISE = 4.0
 
 
 def remarks_on_files(files: Sequence[File]) -> tuple[str, ...]:
-    """Of their noise, their laws, and what a pair's discs and a beam's clamps leave out; each once."""
+    """Of their noise, tolerances, laws, and what a pair's discs and a beam's clamps leave out; each once."""
     named: dict[str, dict[str, None]] = {}
     """What is said, and of which files; of none by name where it is of the law."""
     for file in files:
@@ -37,6 +43,7 @@ def remarks_on_files(files: Sequence[File]) -> tuple[str, ...]:
         of_file = (
             *remarks_on_strays(file.sweep),
             *remarks_on_noise(file.sweep.take(strays(file.sweep) == 0)),
+            *remarks_on_tolerances(s),
             *remarks_on_patches(s),
             *remarks_on_edges(s),
             *remarks_on_clamps(s),

@@ -6,7 +6,7 @@ from fitting.arrays import Array
 from fitting.bent_law import BentLaw
 from fitting.laws import CoreLaw
 from fitting.mesh import shifts_of
-from fitting.noise import scatter_over_stated
+from fitting.noise import noise_of, scatter_over_stated, shortest_group
 from fitting.specimen import Specimen
 from fitting.strays import BEYOND, strays
 from fitting.structures import AnySpecimen
@@ -21,7 +21,7 @@ _DIFFERS = 1.5
 """Times, median over the points: a stated noise so far off the scatter is not this sweep's."""
 
 
-def remarks_on_tolerances(specimen: Specimen) -> tuple[str, ...]:
+def remarks_on_tolerances(specimen: AnySpecimen) -> tuple[str, ...]:
     """Where typical tolerances stand in for ones that were not named."""
     missing, every = not_named(specimen), asked(specimen)
     if not missing:
@@ -75,7 +75,13 @@ def remarks_on_bend(found: CoreLaw, usual: float) -> tuple[str, ...]:
 
 
 def remarks_on_noise(sweep: Sweep) -> tuple[str, ...]:
-    """Where a sweep scatters otherwise than its file says, or than each of its dwells does."""
+    """Where a sweep shows no noise, or scatters otherwise than its file or each of its dwells says."""
+    if not noise_of(sweep).is_known:
+        return (
+            f"{len(sweep)} points in segments of {shortest_group(sweep)} and more do not show their noise: "
+            "errors are by what the fit leaves, and the model's own error is not in them; read more points, "
+            "or state velocity_std_m_s",
+        )
     ratio = scatter_over_stated(sweep)
     if ratio is None or 1 / _DIFFERS < ratio < _DIFFERS:
         return ()

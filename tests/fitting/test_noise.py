@@ -92,6 +92,29 @@ def test_few_points_leave_the_noise_unknown(table5):
     assert not noise.is_known
 
 
+@pytest.mark.parametrize(("each", "source"), [(12, "local scatter"), (8, "local scatter"), (7, "unknown")])
+def test_short_segments_share_one_floor_and_one_share(each, source):
+    rng = np.random.default_rng(2)
+    f = np.concatenate([np.linspace(r * 0.85, r * 1.15, each) for r in (19.0, 60.0, 101.0, 180.0, 280.0)])
+    # A sharper one leaves more in its windows than noise.
+    v = peak(f, np.repeat((19.0, 60.0, 101.0, 180.0, 280.0), each), loss=0.4)
+    true, number, ratios = 0.006 * np.abs(v), np.repeat(np.arange(5), each), []
+    for _ in range(40):
+        noisy = v + true * (rng.normal(size=len(f)) + 1j * rng.normal(size=len(f)))
+        found = noise_of(replace(sweep_of(f, noisy), segment=number))
+        assert found.source == source
+        ratios.append(found.std_m_s / true)
+    if source != "unknown":
+        assert np.median(ratios) == pytest.approx(1, abs=0.1)
+        assert np.all(np.abs(np.mean(ratios, axis=0) - 1) < 0.45)
+
+
+def test_thirty_points_in_short_segments_leave_it_unknown():
+    f = np.concatenate([np.linspace(r * 0.85, r * 1.15, 10) for r in (19.0, 60.0, 101.0)])
+    short = replace(sweep_of(f, peak(f, 60.0)), segment=np.repeat([1, 2, 3], 10))
+    assert noise_of(short).source == "unknown"
+
+
 def test_levels_and_passes_are_judged_apart():
     rng = np.random.default_rng(1)
     f = np.tile(np.linspace(14, 26, 61), 2)

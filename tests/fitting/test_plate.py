@@ -121,7 +121,7 @@ def test_edges_one_by_one_are_the_boundary_that_has_a_name(coarse):
 
 def test_default_mesh_is_within_a_thousandth_of_its_limit_and_errors_shrink_quadratically(zn1, monkeypatch):
     # Of the elements: what free edges lack in twist shrinks them from the other side.
-    monkeypatch.setattr("fitting.plate.EDGE_WIDTH", 0.0)
+    monkeypatch.setattr("fitting.edge_twist.EDGE_WIDTH", 0.0)
     finer, meshes = 1.5, [(16, 12), (24, 18), (36, 27), zn1.mesh]
     *f, default = (hertz(real_modes(Plate(replace(zn1, elements=m)), 0.5e6, 8)) for m in meshes)
     # Richardson: the limit from the two finer meshes at the rate the three show.

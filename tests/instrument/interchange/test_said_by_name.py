@@ -36,6 +36,8 @@ def test_an_rms_value_is_a_sines_amplitude_over_root_two(size, places):
 def test_a_value_from_peak_to_peak_is_two_amplitudes(size):
     assert amplitude_factor(f"Velocity {size} [m/s]") == 0.5
     assert amplitude_factor("Velocity peak [m/s]") == amplitude_factor("Upper velocity [m/s]") == 1.0
+    name = f"Velocity amplitude [mm/s {size}]"
+    assert (amplitude_factor(name), unit_in(name).factor) == (0.5, pytest.approx(1e-3))
 
 
 def test_what_is_made_of_an_rms_value_is_said():
