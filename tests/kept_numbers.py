@@ -82,10 +82,15 @@ def probe():
 
 
 def lasting(facts):
-    """Facts without how long it took, and without what the posterior beside it says in another form."""
+    """Facts without how long it took, and without what the posterior beside it says in another form.
+
+    What a measurement will take is computed, and stays.
+    """
     if isinstance(facts, dict):
         return {
-            k: lasting(v) for k, v in facts.items() if not re.search(r"(^|_)seconds$", k) and k != "law_known"
+            k: lasting(v)
+            for k, v in facts.items()
+            if (not re.search(r"(^|_)seconds$", k) or "needs_hands" in facts) and k != "law_known"
         }
     return [lasting(v) for v in facts] if isinstance(facts, list) else facts
 

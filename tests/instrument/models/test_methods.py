@@ -11,11 +11,10 @@ from instrument.progress import quiet
 F = np.repeat([19.3, 101.0, 280.0], 4) * np.tile([0.97, 0.99, 1.01, 1.03], 3)
 
 
-def task(specimen, models):
-    v = models.predict(specimen.core.law, F)
+def task(specimen):
     sweep = Sweep(
         frequency_hz=F,
-        velocity_m_s=v,
+        velocity_m_s=np.exp(1j * F),
         commanded_m_s2=np.full(len(F), specimen.base_acceleration_m_s2),
         segment=np.repeat([1, 2, 3], 4),
         sweep=np.ones(len(F), dtype=np.intp),
@@ -23,22 +22,22 @@ def task(specimen, models):
     return Task(sweep, specimen, noise_of(sweep))
 
 
-def test_the_papers_method_says_that_tolerances_have_no_part_in_it(zn1, zn1_models):
-    given = task(zn1, zn1_models)
+def test_the_papers_method_says_that_tolerances_have_no_part_in_it(coarse):
+    given = task(coarse)
     assert PaperMethod(given, quiet).remarks() == ()
-    (said,) = PaperMethod(replace(given, specimen=replace(zn1, exact=False)), quiet).remarks()
+    (said,) = PaperMethod(replace(given, specimen=replace(coarse, exact=False)), quiet).remarks()
     assert "tolerances are not in its band" in said
 
 
-def test_models_are_certified_anew_for_a_law_that_ended_outside(zn1, zn1_models):
-    way = PaperMethod(task(zn1, zn1_models), quiet)
+def test_models_are_certified_anew_for_a_law_that_ended_outside(coarse):
+    way = PaperMethod(task(coarse), quiet)
     assert isinstance(way.set_up(), Models)
-    stiff = zn1.core.law.with_logs(np.log(zn1.core.law.values) + np.array([7.0, 7.0, 0.0, 0.0]))
+    stiff = coarse.core.law.with_logs(np.log(coarse.core.law.values) + np.array([7.0, 7.0, 0.0, 0.0]))
     within = way.models.domain.modulus[1]
     way.widen(stiff)
     assert way.set_up().domain.modulus[1] > np.abs(stiff.modulus(2 * np.pi * F)).max() > within
 
 
-def test_the_papers_method_holds_segments_out(zn1, zn1_models):
-    way = PaperMethod(task(zn1, zn1_models), quiet)
+def test_the_papers_method_holds_segments_out(coarse):
+    way = PaperMethod(task(coarse), quiet)
     assert np.array_equal(way.parts(), way.task.sweep.segment)
