@@ -7,6 +7,7 @@ band that is wide the floor is as likely flat in displacement or in acceleration
 an accelerometer's is not flat in what is made of its reading.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -23,8 +24,11 @@ WINDOW = 7
 amplitudes."""
 FEWEST = 15
 """Points a segment needs before its scatter says anything by itself."""
+_NOTHING = 1e-300
+"""In the place of a reading that is nothing."""
 _FEWEST_IN_ALL = 31
-"""Points a sweep of shorter segments needs: more than the few of which each is predicted from the others."""
+"""Points that must tell what shorter segments scatter by: more than the few that are each predicted from
+the others."""
 _LEAST = 0.15
 """Of the points, that lie in no window of a resonance however sharp: a choice."""
 _SPLITS = 24
@@ -57,22 +61,39 @@ class Noise:
 
 
 def noise_of(sweep: Sweep) -> Noise:
-    """Stated where the file says it, local scatter where segments are dense, else unknown."""
+    """Stated where the file says it, local scatter where segments are dense enough, else unknown.
+
+    A segment of few points, or one frequency read again, scatters as the others do together.
+    """
     stated = sweep.response_std_m_s
     if stated is not None:
         return Noise(stated, "stated")
     groups, even = groups_of(sweep), evening(sweep)
     f, response = sweep.frequency_hz, sweep.response_m_s * even
-    shortest = shortest_group(sweep)
-    if shortest >= FEWEST:
-        std = np.zeros(len(sweep))
-        for group in groups:
-            std[group] = _scatter(f[group], response[group])
-    elif shortest > WINDOW and len(sweep) >= _FEWEST_IN_ALL:
-        std = _scatter_of_all(groups, f, response)
-    else:
-        return Noise(np.abs(sweep.response_m_s), "unknown")
+    long = [group for group in groups if _frequencies(sweep, group) >= FEWEST]
+    std = np.zeros(len(sweep))
+    if len(long) < len(groups):
+        telling = [group for group in groups if _frequencies(sweep, group) > WINDOW]
+        if sum(map(len, telling)) < _FEWEST_IN_ALL:
+            return Noise(np.abs(sweep.response_m_s), "unknown")
+        std = _scatter_of_all(telling, f, response)
+    for group in long:
+        std[group] = _scatter(f[group], response[group])
     return Noise(std / even, "local scatter")
+
+
+def noises_of(sweeps: Sequence[Sweep]) -> list[Noise]:
+    """Of sweeps of one laboratory: one that shows no noise has that of the others, by its readings' size."""
+    each = [noise_of(sweep) for sweep in sweeps]
+    shares = [
+        np.median(noise.std_m_s / np.maximum(np.abs(sweep.response_m_s), _NOTHING))
+        for noise, sweep in zip(each, sweeps, strict=True)
+        if noise.is_known
+    ]
+    if not shares:
+        return each
+    share = float(np.median(shares))
+    return [n if n.is_known else Noise(share * n.std_m_s, "local scatter") for n in each]
 
 
 def scatter_of_left(sweep: Sweep, left: NDArray[Any]) -> Array:
@@ -135,7 +156,11 @@ def groups_of(sweep: Sweep) -> list[NDArray[np.intp]]:
 
 def shortest_group(sweep: Sweep) -> int:
     """Frequencies of the group that has fewest."""
-    return min(len(np.unique(sweep.frequency_hz[group])) for group in groups_of(sweep))
+    return min(_frequencies(sweep, group) for group in groups_of(sweep))
+
+
+def _frequencies(sweep: Sweep, group: NDArray[np.intp]) -> int:
+    return len(np.unique(sweep.frequency_hz[group]))
 
 
 def evening(sweep: Sweep) -> Array:
@@ -160,7 +185,7 @@ def _scatter(frequency_hz: Array, response: NDArray[np.complex128] | Array) -> A
 def _scatter_of_all(
     groups: list[NDArray[np.intp]], f: Array, response: NDArray[np.complex128] | Array
 ) -> Array:
-    """One floor and one share for all groups: each alone has too few points. Shape (points,)."""
+    """One floor and one share by all of `groups`, of every point: each alone has too few. Shape (points,)."""
     parts = 2 if np.iscomplexobj(response) else 1
     middles, squares = [], []
     for group in groups:

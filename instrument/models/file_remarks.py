@@ -9,6 +9,7 @@ from fitting.digits import two_digits
 from fitting.identification.result import CORE_PA
 from fitting.identification.validation import HeldOutSegment, rms
 from fitting.laws import CoreLaw
+from fitting.noise import noise_of
 from fitting.strays import strays
 from fitting.structures import AnySpecimen, Beam, ShearPair
 from fitting.structures.shear_pair import EDGE
@@ -38,11 +39,13 @@ def remarks_on_files(files: Sequence[File]) -> tuple[str, ...]:
     """Of their noise, tolerances, laws, and what a pair's discs and a beam's clamps leave out; each once."""
     named: dict[str, dict[str, None]] = {}
     """What is said, and of which files; of none by name where it is of the law."""
-    for file in files:
+    clean = [file.sweep.take(strays(file.sweep) == 0) for file in files]
+    known = any(noise_of(sweep).is_known for sweep in clean)
+    for file, sweep in zip(files, clean, strict=True):
         s = file.specimen
         of_file = (
             *remarks_on_strays(file.sweep),
-            *remarks_on_noise(file.sweep.take(strays(file.sweep) == 0)),
+            *remarks_on_noise(sweep, others_known=known),
             *remarks_on_tolerances(s),
             *remarks_on_patches(s),
             *remarks_on_edges(s),

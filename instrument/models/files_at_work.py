@@ -23,7 +23,7 @@ from fitting.digits import two_digits
 from fitting.errors import OutsideModel
 from fitting.identification.result import BIASED
 from fitting.laws import CoreLaw
-from fitting.noise import Noise, noise_of
+from fitting.noise import Noise, noises_of
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.strays import strays
@@ -105,8 +105,7 @@ class FilesAtWork:
         members: list[DiagnosisProblem] = []
         reduced: list[ReducedPlate | None] = []
         noises = []
-        for k, (file, sweep) in enumerate(zip(self.files, sweeps, strict=True)):
-            noise = noise_of(sweep)
+        for k, (file, sweep, noise) in enumerate(zip(self.files, sweeps, noises_of(sweeps), strict=True)):
             if isinstance(file.specimen, Specimen):
                 member, of_it = plates[k]
                 members.append(member)

@@ -74,14 +74,19 @@ def remarks_on_bend(found: CoreLaw, usual: float) -> tuple[str, ...]:
     )
 
 
-def remarks_on_noise(sweep: Sweep) -> tuple[str, ...]:
-    """Where a sweep shows no noise, or scatters otherwise than its file or each of its dwells says."""
+def remarks_on_noise(sweep: Sweep, *, others_known: bool = False) -> tuple[str, ...]:
+    """Where a sweep shows no noise, or scatters otherwise than its file or each of its dwells says.
+
+    `others_known`: whether files beside it show theirs.
+    """
     if not noise_of(sweep).is_known:
-        return (
-            f"{len(sweep)} points in segments of {shortest_group(sweep)} and more do not show their noise: "
-            "errors are by what the fit leaves, and the model's own error is not in them; read more points, "
-            "or state velocity_std_m_s",
+        few = f"{len(sweep)} points in segments of {shortest_group(sweep)} and more do not show their noise"
+        so = (
+            "it is taken for that of the other files, in shares of the readings"
+            if others_known
+            else "errors are by what the fit leaves, and the model's own error is not in them"
         )
+        return (f"{few}: {so}; read more points, or state velocity_std_m_s",)
     ratio = scatter_over_stated(sweep)
     if ratio is None or 1 / _DIFFERS < ratio < _DIFFERS:
         return ()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from conftest import DATA
 
-from fitting.noise import around, noise_of, scatter_of_left
+from fitting.noise import around, noise_of, noises_of, scatter_of_left
 from fitting.sweep import Sweep, resonance_points, segments_by_gap
 from instrument.files.sweep_file import read_sweep
 
@@ -183,3 +183,32 @@ def test_of_a_resonance_with_a_few_points_what_a_fit_leaves_says_what_readings_d
     # A peak's readings, noisier than its neighbours', are in their jumps too.
     assert 0.9 < np.mean(ratios) < 1.5
     assert np.mean(local) > 1.4 * np.mean(ratios)
+
+
+def test_a_frequency_read_again_scatters_as_the_sweep_does():
+    """A sentinel is a pass of one frequency: it leaves the noise of all others as it is."""
+    rng = np.random.default_rng(4)
+    f = np.linspace(14, 26, 61)
+    v = peak(f, loss=0.3)
+    noisy = v + 0.004 * np.abs(v) * (rng.normal(size=61) + 1j * rng.normal(size=61))
+    plain = sweep_of(f, noisy)
+    again = np.repeat(19.0, 5)
+    more = sweep_of(np.append(f, again), np.append(noisy, peak(again, loss=0.3)))
+    more = replace(more, sweep=np.repeat([1, 2], [61, 5]))
+    found = noise_of(more)
+    assert found.source == "local scatter"
+    assert np.array_equal(found.std_m_s[:61], noise_of(plain).std_m_s)
+    assert found.std_m_s[61:] / np.abs(peak(19.0, loss=0.3)) == pytest.approx(0.004, rel=0.25)
+
+
+def test_a_sweep_of_few_points_scatters_as_the_others_of_its_laboratory_do(table5):
+    rng = np.random.default_rng(6)
+    f = np.linspace(14, 26, 61)
+    v = peak(f, loss=0.3)
+    long = sweep_of(f, v + 0.004 * np.abs(v) * (rng.normal(size=61) + 1j * rng.normal(size=61)))
+    few = long.take(np.arange(0, 61, 12))
+    assert not any(n.is_known for n in noises_of([few, table5]))
+    known, lent = noises_of([long, few])
+    assert np.array_equal(known.std_m_s, noise_of(long).std_m_s)
+    assert (known.source, lent.source) == ("local scatter", "local scatter")
+    assert lent.std_m_s / np.abs(few.response_m_s) == pytest.approx(0.004, rel=0.25)

@@ -101,3 +101,15 @@ def test_a_fit_that_leaves_far_more_than_noise_says_so_though_tolerances_explain
     assert remarks_on_rest(0.7, held_out) == ()
     assert remarks_on_rest(1.6, ()) == ()
     assert remarks_on_rest(1.6, [HeldOutSegment(1, 3.1, float("nan"))]) == ()
+
+
+def test_a_file_whose_noise_is_not_seen_says_whose_it_is_taken_for():
+    specimen = replace(PAIR, exact=True)
+    few, many = (sweep(specimen, points=n) for n in (5, 60))
+    alone = remarks_on_files([File(few, specimen, name="few.csv")])
+    beside = remarks_on_files([File(few, specimen, name="few.csv"), File(many, specimen, name="many.csv")])
+    (said,) = (one for one in alone if "do not show their noise" in one)
+    assert "the model's own error is not in them" in said
+    (said,) = (one for one in beside if "do not show their noise" in one)
+    assert said.startswith("few.csv: 5 points")
+    assert "taken for that of the other files" in said
