@@ -26,9 +26,9 @@ FEWEST = 15
 """Points a segment needs before its scatter says anything by itself."""
 _NOTHING = 1e-300
 """In the place of a reading that is nothing."""
-_FEWEST_IN_ALL = 31
-"""Points that must tell what shorter segments scatter by: more than the few that are each predicted from
-the others."""
+_FEWEST_LEFT = 12
+"""Numbers that local models must leave to tell what shorter segments scatter by, two of a phasor: known to a
+fifth then."""
 _LEAST = 0.15
 """Of the points, that lie in no window of a resonance however sharp: a choice."""
 _SPLITS = 24
@@ -74,7 +74,8 @@ def noise_of(sweep: Sweep) -> Noise:
     std = np.zeros(len(sweep))
     if len(long) < len(groups):
         telling = [group for group in groups if _frequencies(sweep, group) > WINDOW]
-        if sum(map(len, telling)) < _FEWEST_IN_ALL:
+        parts = 2 if sweep.has_phase else 1
+        if parts * sum(len(group) - WINDOW + 1 for group in telling) < _FEWEST_LEFT:
             return Noise(np.abs(sweep.response_m_s), "unknown")
         std = _scatter_of_all(telling, f, response)
     for group in long:

@@ -298,7 +298,8 @@ class SeveralResponse(SweepResponse):
         count = len(self.nuisances)
         self.parameters = (*(STATED_NUMBER,) * count, *(q for e in effects for q in e.parameters))
         self._of_member: list[tuple[SweepResponse, NDArray[np.intp]]] = []
-        references: dict[int, Reference] = {}
+        # One core, whatever is made of it: what softens it at a strain does so in every file.
+        reference = Reference()
         for k, m in enumerate(problem.members):
             places, inner, start = [problem.places[k]], [], count
             for e in effects:
@@ -309,10 +310,9 @@ class SeveralResponse(SweepResponse):
                     places.append(start + (np.arange(len(form.parameters)) if own is None else own))
                 start += len(e.parameters)
             number = problem.plates[k]
-            plate = reference = None
+            plate = None
             if problem.plates.count(number) > 1:
                 plate = problem.taken.of(number, m, spans_of(m, inner))
-                reference = references.setdefault(number, Reference())
             response = SweepResponse(m, inner, m.coarse if coarse else None, plate, reference)
             self._of_member.append((response, np.concatenate(places)))
 

@@ -39,7 +39,7 @@ _KEPT = 8
 class Reference:
     """The strain that softening is told for: the largest at 1 g, or at 1 N of a force, when first asked for.
 
-    Sweeps of one plate have one: of the first of them.
+    Sweeps of one core have one, of the first of them: shear pairs with other masses strain otherwise.
     """
 
     strain: float | None = None

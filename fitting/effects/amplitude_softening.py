@@ -136,7 +136,7 @@ class PadSofteningEffect(AmplitudeSofteningEffect):
     """The same of a pad in shear, seen from two levels on."""
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
-        if points.drive == "force":
+        if points.drive == "force" or (self.keeps and not points.timed):
             return super().objection(points, plate)
         # Over one level the strain of a pad goes up and down once over a wide band, as a law may.
         return None if points.levels > 1 else "one level does not tell softening from the law"

@@ -71,6 +71,14 @@ def is_near(frequency_hz: float, near_hz: float) -> bool:
     return abs(frequency_hz - near_hz) <= 0.05 * near_hz
 
 
-def corrected(frequency_hz: float, ratio: float, added_decay_1_s: float) -> float:
-    """Measured ratio less what an exponential window exp(-t/T_w) added: 1/(2 pi f T_w)."""
-    return ratio - added_decay_1_s / (2 * np.pi * frequency_hz)
+def corrected(frequency_hz: float, ratio: float, added_decay_1_s: float) -> tuple[float, float]:
+    """Natural frequency and ratio without what an exponential window exp(-t/T_w) added to the decay, 1/T_w.
+
+    The damped frequency is as it was; the modulus of the pole is not.
+    """
+    if not added_decay_1_s:
+        return frequency_hz, ratio
+    omega = 2 * np.pi * frequency_hz
+    decay = ratio * omega - added_decay_1_s
+    own = float(np.hypot(omega * np.sqrt(1 - ratio**2), decay))
+    return own / (2 * np.pi), decay / own

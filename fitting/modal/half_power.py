@@ -46,7 +46,7 @@ def half_power(
     # A crossing moves by noise over slope; the slope there is about peak/(sqrt(2) half bandwidth).
     error = noise / peak * ratio * 2 if noise > 0 else float("nan")
     error = float(np.hypot(error, ratio * cut_off(np.pi * (f2 - f1) * record_s)))
-    return DampingEstimate(f_n or f_peak, corrected(f_n, ratio, frf.added_decay_1_s), error)
+    return DampingEstimate(*corrected(f_n or f_peak, ratio, frf.added_decay_1_s), error)
 
 
 def cut_off(decays: float) -> float:

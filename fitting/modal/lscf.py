@@ -83,9 +83,8 @@ def lscf(
     omega_n = np.abs(best)
     ratios = np.array([-p.real / abs(p) for p in best])
     f_n = float(np.median(omega_n) / (2 * np.pi))
-    return DampingEstimate(
-        f_n, corrected(f_n, float(np.median(ratios)), added_decay_1_s), float(np.std(ratios))
-    )
+    own = corrected(f_n, float(np.median(ratios)), added_decay_1_s)
+    return DampingEstimate(*own, float(np.std(ratios)))
 
 
 def _stable(before: complex, now: complex) -> bool:

@@ -186,10 +186,8 @@ class _Fitted:
     def estimate(self, window: Frf) -> DampingEstimate:
         """Of the first pole, what a window added taken off."""
         omega_n = float(abs(self.poles[0]))
-        f_n = omega_n / (2 * np.pi)
         return DampingEstimate(
-            f_n,
-            corrected(f_n, float(self.ratios[0]), window.added_decay_1_s),
+            *corrected(omega_n / (2 * np.pi), float(self.ratios[0]), window.added_decay_1_s),
             float(self.errors[0]) / omega_n,
             float(self.frequency_errors[0]) / (2 * np.pi),
         )

@@ -26,6 +26,8 @@ HALF_POWER_END = 0.01
 """Where its exponential window ends."""
 DISAGREEMENT = 0.10
 """Relative, of two methods' ratios: well beyond what half power is off by in the tests (3 %). A choice."""
+_SIGMAS = 3.0
+"""Of their noise, that two ways of reading a ratio may differ: more has another reason."""
 _UNDECAYED = 0.2
 """A record that ends at more than this share of a mode's start gives no half-power value."""
 _CUT = 0.05
@@ -173,6 +175,8 @@ def _mode(name: str, plain: Frf, fine: Frf, f: float, centres: Sequence[float], 
     apart = min(others, default=np.inf) / (2 * ratio * f_n)
     noise = fit.noise / np.sqrt(PADDING) if isinstance(fit, RationalFit) else 0.0
     half = _half_power(fine, f, ratio, f_n, lines, apart, seconds, noise)
+    if isinstance(half, DampingEstimate) and isinstance(rational, DampingEstimate):
+        half = _no_surer_than_apart(half, rational)
     width = 2 * ratio * f_n if ratio == ratio else 2 / seconds
     reach = max(_LSCF_LINES / seconds, _LSCF_BANDWIDTHS * width)
     third = lscf(
@@ -195,6 +199,13 @@ def _mode(name: str, plain: Frf, fine: Frf, f: float, centres: Sequence[float], 
         why=why,
         fit=fit if isinstance(fit, RationalFit) else None,
     )
+
+
+def _no_surer_than_apart(half: DampingEstimate, rational: DampingEstimate) -> DampingEstimate:
+    """A width, the difference to the fit an error of it where noise is none: a neighbour's share."""
+    off = abs(half.ratio - rational.ratio)
+    noise = np.hypot(np.nan_to_num(half.standard_error), np.nan_to_num(rational.standard_error))
+    return half if off <= _SIGMAS * noise else half.wider(off, 0.0)
 
 
 def _half_power(

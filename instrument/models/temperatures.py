@@ -133,7 +133,7 @@ def identify_shifted(
     stated = list(specimens) if isinstance(specimens, Sequence) else [specimens]
     T = np.array([one.temperature_c for one in every])
     _check(every, stated, kind, T)
-    reference = float(np.sort(T)[(len(T) - 1) // 2]) if reference_c is None else reference_c
+    reference = _reference(T, kind, reference_c)
     began = perf_counter()
     if temperature_k is None:
         temperature_k = 0.0 if all(s.exact for s in stated) else THERMOMETER_K
@@ -153,6 +153,11 @@ def identify_shifted(
     cause = next(iter(serving(causes)), None)
     fit = cause.fit if cause is not None else fit
     remarks = (*members.remarks, *remarks_at_temperatures(members), *_theories(members, fit))
+    if reference_c is not None and reference != reference_c:
+        remarks += (
+            f"one factor a temperature says nothing between them: the law is at {reference:g} degC, the "
+            f"nearest to {reference_c:g}",
+        )
     joined = task.joined
     return Shifted(
         fit,
@@ -165,6 +170,13 @@ def identify_shifted(
         joined.adjusted(fit.one.z, fit.stated_errors),
         joined.modes(fit.one.velocity_m_s),
     )
+
+
+def _reference(T: Array, kind: Kind, wanted_c: float | None) -> float:
+    """The temperature of the law: as wanted, or the middle one; with a factor each, one that was measured."""
+    if wanted_c is None:
+        return float(np.sort(T)[(len(T) - 1) // 2])
+    return float(T[np.argmin(np.abs(T - wanted_c))]) if kind == "free" else wanted_c
 
 
 def _check(every: Sequence[AtTemperature], stated: Sequence[AnySpecimen], kind: Kind, T: Array) -> None:

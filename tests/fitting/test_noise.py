@@ -109,10 +109,13 @@ def test_short_segments_share_one_floor_and_one_share(each, source):
         assert np.all(np.abs(np.mean(ratios, axis=0) - 1) < 0.45)
 
 
-def test_thirty_points_in_short_segments_leave_it_unknown():
-    f = np.concatenate([np.linspace(r * 0.85, r * 1.15, 10) for r in (19.0, 60.0, 101.0)])
-    short = replace(sweep_of(f, peak(f, 60.0)), segment=np.repeat([1, 2, 3], 10))
-    assert noise_of(short).source == "unknown"
+@pytest.mark.parametrize(("segments", "source"), [(3, "local scatter"), (2, "unknown")])
+def test_twelve_numbers_left_tell_it_and_eight_do_not(segments, source):
+    f = np.concatenate([np.linspace(r * 0.85, r * 1.15, 8) for r in (19.0, 60.0, 101.0)[:segments]])
+    short = replace(sweep_of(f, peak(f, 60.0)), segment=np.repeat(np.arange(segments), 8))
+    assert noise_of(short).source == source
+    # Amplitudes are half as many.
+    assert noise_of(replace(short, velocity_m_s=np.abs(short.velocity_m_s))).source == "unknown"
 
 
 def test_levels_and_passes_are_judged_apart():

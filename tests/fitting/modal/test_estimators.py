@@ -63,8 +63,10 @@ def test_half_power_refuses_what_it_cannot_read():
 def test_exponential_window_is_taken_off():
     # sigma = zeta omega_n grows by 1/T_w
     T_w = 0.7
-    measured = 0.002 + 1 / (2 * np.pi * 100 * T_w)
-    assert corrected(100, measured, 1 / T_w) == pytest.approx(0.002)
+    omega_d, sigma = 2 * np.pi * 100 * np.sqrt(1 - 0.002**2), 2 * np.pi * 100 * 0.002 + 1 / T_w
+    measured = np.hypot(omega_d, sigma)
+    found = corrected(measured / (2 * np.pi), sigma / measured, 1 / T_w)
+    assert found == pytest.approx((100.0, 0.002), rel=1e-12)
 
 
 def truncated(modes, seconds, rate=1024.0):

@@ -48,8 +48,11 @@ def test_factors_lie_in_their_intervals_and_the_law_is_known_two_decades_further
 
 def test_free_factors_are_those_of_the_form_that_made_them(plate):
     truth = wlf()
-    found = identify_shifted(sweeps(plate, [OneProcess(a) for a in truth]), plate, "free", REFERENCE)
+    found = identify_shifted(sweeps(plate, [OneProcess(a) for a in truth]), plate, "free", REFERENCE + 1)
     assert np.all(np.abs(found.fit.log_shift - truth) < 3.5 * found.fit.log_shift_errors + 1e-9)
+    # Nothing is known between them.
+    assert found.fit.shift.reference_c == REFERENCE
+    assert any(f"the law is at {REFERENCE:g} degC, the nearest to" in one for one in found.warnings)
 
 
 def test_readings_lost_at_one_temperature_are_left_out_and_said(plate):

@@ -225,6 +225,22 @@ def test_softening_is_told_by_two_levels(without):
     assert two.effects[0].name == "amplitude_softening"
 
 
+@pytest.mark.long
+def test_what_softens_at_a_strain_does_so_under_every_mass():
+    """One rubber: the same share at the same strain, though a heavy mass strains it six times as far."""
+    given = [
+        File(sweep(pair(m), points=60, softening=60.0, level=a, seed=k), pair(m))
+        for k, (m, a) in enumerate((m, a) for m in (0.2, 0.5, 1.2) for a in (9.81, 2.5))
+    ]
+    rivals = all_but("amplitude_softening", "added_mass", "temperature_difference", "gain_error")
+    found = diagnose_together(given, without=rivals).found.result
+    (effect,) = found.effects
+    assert effect.name == "amplitude_softening"
+    assert effect.parameters["file"].value == 0
+    assert found.after.chi2_per_dof < 1.2
+    assert law_error(found.after.law).max() < 0.02
+
+
 def test_a_resonance_of_the_fixture_is_set_aside():
     given = files(points=200)
     disturbed = given[0].sweep
