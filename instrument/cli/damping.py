@@ -16,6 +16,7 @@ from instrument.cli.options import (
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.files.records import Named, read_records
+from instrument.files.repeated import refuse_repeats
 from instrument.impact.damping import Damping, damping_of_frfs, damping_of_hits
 from instrument.impact.judge import judge
 from instrument.impact.record import Hit
@@ -96,6 +97,7 @@ def damping(
     out = Output(json_path)
     if rate is not None and not rate < _HIGHEST_RATE:
         raise BadInput(f"--rate {rate:g}, expected samples a second below {_HIGHEST_RATE:g}")
+    refuse_repeats(records)
     named = Named(force, tuple(response.split(",")) if response else (), rate)
     read = [read_records(path, named) for path in records]
     if any(isinstance(r, dict) for r in read):

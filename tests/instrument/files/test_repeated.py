@@ -36,3 +36,9 @@ def test_the_commands_refuse_it_before_anything_else(tmp_path, capsys, command):
     paths = files(tmp_path, "1,2\n", "1,2\n")
     assert run([command, *map(str, paths), "--specimen", str(tmp_path / "none.toml")]) == 2
     assert "1.csv: the same data as" in capsys.readouterr().err
+
+
+def test_a_record_of_blows_is_no_second_hit_under_another_name(tmp_path, capsys):
+    paths = files(tmp_path, "1,2\n", "1,2\n")
+    assert run(["damping", *map(str, paths)]) == 2
+    assert "1.csv: the same data as" in capsys.readouterr().err
