@@ -31,6 +31,11 @@ def by_level(amplitude: Array) -> list[NDArray[np.intp]]:
     return [np.sort(p) for p in parts]
 
 
+def are_of(level: float, amplitude: Array) -> NDArray[np.bool_]:
+    """Which points are of a level, whose middle is given. Shape (points,)."""
+    return np.asarray(np.maximum(amplitude / level, level / amplitude) <= _APART)
+
+
 def count_of_levels(amplitude: Array) -> int:
     """How many there are that lie a tenth apart and more. Shape (points,)."""
     count, last = 0, 0.0

@@ -8,12 +8,10 @@ from fitting.arrays import Array, Complex
 from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
-from fitting.levels import by_level
+from fitting.levels import are_of, by_level
 
 _EVERY = 0.0
 """In the place of a level: all of them."""
-_ALIKE = 0.05
-"""Of a level, that its points may be off its middle: as far as levels lie apart."""
 _HZ = 1.0 / (2 * np.pi)
 
 
@@ -51,7 +49,7 @@ class SegmentGainEffect(Effect):
         f = points.omega * _HZ
         here = (f >= u[1] * (1 - 1e-9)) & (f <= u[2] * (1 + 1e-9))
         if u[3] != _EVERY:
-            here &= np.isclose(points.acceleration_m_s2, u[3], rtol=_ALIKE, atol=0)
+            here &= are_of(float(u[3]), points.acceleration_m_s2)
         return np.asarray(v * np.where(here, u[0], 1.0))
 
     def story(self, u: Mapping[str, float]) -> str:

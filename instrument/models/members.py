@@ -33,7 +33,7 @@ from instrument.models.files import File
 from instrument.models.files_at_work import FilesAtWork
 from instrument.models.modal import remark_on_misread, widened
 from instrument.models.modal_look import numbering_doubt
-from instrument.models.remarks import remarks_on_strays
+from instrument.models.remarks import remarks_on_noise, remarks_on_strays
 from instrument.models.set_up import Hammer, set_up
 from instrument.progress import quiet
 
@@ -129,9 +129,11 @@ class Members:
         specimen, sweep = self.specimen(one), one.data
         assert isinstance(sweep, Sweep)
         assert specimen.core is not None
-        self.remarks += [f"{one.name}: {said}" for said in remarks_on_strays(sweep)]
+        clean = sweep.take(strays(sweep) == 0)
+        said = (*remarks_on_strays(sweep), *remarks_on_noise(clean))
+        self.remarks += [f"{one.name}: {text}" for text in said]
         if isinstance(specimen, Specimen):
-            sweep = sweep.take(strays(sweep) == 0)
+            sweep = clean
             noise = noise_of(sweep)
             ready = set_up(sweep, specimen, self.hammer, with_effects=with_effects)
             found = begin(ready.problem, ready.reduced, noise, ready.bare, specimen.core.law)

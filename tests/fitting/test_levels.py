@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fitting.hum import mains_hum
-from fitting.levels import by_level, count_of_levels, to_one_level
+from fitting.levels import are_of, by_level, count_of_levels, to_one_level
 from fitting.noise import groups_of, noise_of
 from fitting.strays import strays
 from fitting.sweep import Sweep
@@ -74,3 +74,12 @@ def test_a_level_of_each_point_hides_no_stray_and_makes_no_hum(level):
     found = strays(replace(each, velocity_m_s=spoilt))
     assert np.flatnonzero(found).tolist() == [60]
     assert found / level == pytest.approx(strays(expected) / 9.81, rel=1e-9)
+
+
+def test_a_level_holds_what_scatters_about_its_middle_and_not_the_next():
+    two = np.concatenate([JITTER, 1.2 * JITTER.max() * np.ones(5)])
+    middle = float(np.median(JITTER))
+    near = np.abs(JITTER / middle - 1) < 0.04
+    found = are_of(middle, two)
+    assert found[: len(JITTER)][near].all()
+    assert not found[len(JITTER) :].any()
