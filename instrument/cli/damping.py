@@ -147,7 +147,10 @@ def _print(out: Output, found: Damping) -> None:
     ]
     columns = ["f/Hz", "rational fit/%", "half power/%", "LSCF/%", "lines", "channel", "remarks"]
     low, high = found.band_hz
-    title = "damping ratio by three methods, +- one standard error by these hits' noise"
+    title = (
+        "damping ratio by three methods, +- one standard error by these hits' noise, half power's with what "
+        "it is off the fit"
+    )
     out.table(f"{low:.3g} to {high:.4g} Hz: {title}", columns, rows)
     for warning in found.warnings:
         out.say(f"note: {warning}")

@@ -85,7 +85,8 @@ def print_damping(out: Output, found: DampingFound) -> None:
         for m in found.result.modes
     ]
     out.table(
-        "bare plate: damping ratio by three methods, +- one standard error by these hits' noise",
+        "bare plate: damping ratio by three methods, +- one standard error by these hits' noise, half "
+        "power's with what it is off the fit",
         ["f/Hz", "rational fit/%", "half power/%", "LSCF/%", "remarks"],
         rows,
     )

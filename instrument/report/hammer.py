@@ -71,8 +71,8 @@ def _modes(result: DampingResult) -> TableBlock:
     )
     columns = ("f / Hz", "rational fit / %", "half power / %", "LSCF / %", "lines in bandwidth", "remarks")
     return TableBlock(
-        "Damping ratios by three methods, ± one standard error by these hits' noise (another mounting is "
-        "not in it); the rational fit is adopted",
+        "Damping ratios by three methods, ± one standard error by these hits' noise, half power's with what "
+        "it is off the fit (another mounting is not in it); the rational fit is adopted",
         columns,
         rows,
     )
