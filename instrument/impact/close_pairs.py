@@ -34,8 +34,9 @@ _SAME_POLE = 0.5
 """Half bandwidths within which two channels show one pole."""
 _SHOWS = 2.0
 """Standard errors by which two poles have another ratio, from which it is said."""
-_NEAR = 1.25
-"""Bandwidths apart, at most: further off each has a peak, or a shoulder that is named as a doubt."""
+_NEAR = 4.0
+"""Bandwidths apart, at most: of opposite sign two have one peak to 2.2, and a lower one hides to 4 in the
+other's flank; the window reaches six."""
 
 
 @dataclass(frozen=True)

@@ -44,6 +44,18 @@ def test_a_pair_less_than_a_bandwidth_apart_is_two_modes(bandwidths, sign):
     assert np.sqrt(np.mean(np.square(off))) < 2.5
 
 
+@pytest.mark.parametrize(
+    ("bandwidths", "sign"), [(1.9, -1.0), (1.9, -0.5), pytest.param(3.5, -0.25, marks=pytest.mark.long)]
+)
+def test_a_pair_of_opposite_sign_that_has_one_peak_is_two_modes(bandwidths, sign):
+    f, ratio, amplitude = pair(bandwidths, sign, (RATIO, 1.3 * RATIO))
+    two = about(found_in(f, ratio, amplitude, 0))
+    assert len(two) == 2
+    for mode, true_hz, true in zip(two, f[1:3], ratio[1:3], strict=True):
+        assert abs(mode.damping_ratio - true) < 3 * mode.rational_fit.standard_error
+        assert abs(mode.frequency_hz - true_hz) < 3 * mode.rational_fit.frequency_error_hz
+
+
 @pytest.mark.parametrize("seed", range(6))
 def test_a_single_mode_is_one(seed):
     f, ratio, amplitude = pair(1.0, 0.0)
