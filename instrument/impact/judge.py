@@ -35,6 +35,8 @@ _SILENT = 10.0
 """A channel peaks at least so many times above its own scatter before the blow."""
 _LONG_PULSE = 0.05
 """Share of the record above which a force is no blow."""
+_RINGS = 0.25
+"""Of the peak, to the other side: a hammer only pushes, and a sensor's undershoot is less."""
 
 
 @dataclass(frozen=True)
@@ -90,7 +92,7 @@ def _force_faults(hit: Hit, pulse: slice) -> list[str]:
     peak = float(force.max(initial=0.0))
     if peak <= 0 or peak < _SILENT * robust_scatter(force):
         return ["the force channel is silent"]
-    if np.mean(np.abs(force) > PULSE_LEVEL * peak) > _LONG_PULSE:
+    if np.mean(np.abs(force) > PULSE_LEVEL * peak) > _LONG_PULSE or force.min() < -_RINGS * peak:
         return ["the force rings on like a response: are the channels swapped?"]
     faults = []
     if _is_flat(force):

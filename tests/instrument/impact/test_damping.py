@@ -126,6 +126,8 @@ def faulty(clean, fault):
         response[:] = 0.0
     elif fault == "silent force":
         force = 1e-3 * np.random.default_rng(0).normal(size=len(force))
+    elif fault == "swapped, soon over":
+        force, response = response * np.exp(-np.arange(len(response)) / 60.0), force
     elif fault == "swapped":
         force, response = response, force
     return hit_of(force, response)
@@ -141,6 +143,7 @@ def faulty(clean, fault):
         ("silent response", "silent"),
         ("silent force", "silent"),
         ("swapped", "swapped"),
+        ("swapped, soon over", "swapped"),
     ],
 )
 def test_a_spoilt_hit_is_named_and_the_good_ones_are_used(clean, fault, said):
