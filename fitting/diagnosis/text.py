@@ -15,6 +15,7 @@ from fitting.diagnosis.thresholds import VERDICT
 from fitting.diagnosis.verdict import NONE, Judgement
 from fitting.digits import all_digits, two_digits, written_out
 from fitting.effects.base import Effect
+from fitting.identification.quoted import quoted_hz
 
 _WORTH_SAYING = 0.01
 """Of the largest change of a response: less is left out of the sentence."""
@@ -236,12 +237,10 @@ def _held_out(before: Stage, after: Stage, found: tuple[FoundEffect, ...]) -> st
 
 def _law(before: Stage, after: Stage) -> str:
     parts = []
-    for f in (20.0, 100.0, 280.0):
+    for f in quoted_hz(before.band.frequency_hz):
         k = np.flatnonzero(before.band.frequency_hz == f)
-        if not len(k):
-            continue
         G = [b.storage_modulus_pa[k[0]] / 1e6 for b in (before.band, after.band)]
         eta = [b.loss_factor[k[0]] for b in (before.band, after.band)]
         stiff, lossy = (" -> ".join(all_digits(v, n) for v in pair) for pair, n in ((G, 4), (eta, 3)))
-        parts.append(f"at {f:g} Hz G' {stiff} MPa, eta {lossy}")
-    return f"The core without and with it: {'; '.join(parts)}." if parts else "The core's law follows."
+        parts.append(f"at {f:.4g} Hz G' {stiff} MPa, eta {lossy}")
+    return f"The core without and with it: {'; '.join(parts)}."

@@ -13,14 +13,13 @@ from fitting.identification.adjusted import Adjusted
 from fitting.identification.as_stated import is_unlikely, pulled_together
 from fitting.identification.fit import Fit
 from fitting.identification.known_curve import KnownCurve, known_curve
+from fitting.identification.quoted import REFERENCE_FREQUENCIES_HZ
 from fitting.identification.uncertainty import Uncertainty, uncertainty_of
 from fitting.identification.validation import Validation, rms
 from fitting.laws import CoreLaw
 from fitting.noise import Noise
 from fitting.sweep import Sweep
 
-REFERENCE_FREQUENCIES_HZ = (20.0, 100.0, 280.0)
-"""Where the band is always stated, as far as they lie inside the measured range."""
 BIASED, ASTRAY = "the law may be biased beyond its band", "the fit does not follow the"
 """How a fit says that it lacks something: whoever passes a law on looks for it (`doubts_itself`)."""
 _BAND_POINTS = 41

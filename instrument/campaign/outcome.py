@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.diagnosis.result import Diagnosis, Stage
-from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
+from fitting.identification.quoted import REFERENCE_FREQUENCIES_HZ
 from fitting.laws import CoreLaw
 from instrument.campaign.cases import Case
 from instrument.campaign.materials import TrueLaw

@@ -6,6 +6,7 @@ import click
 import numpy as np
 
 from drivers.simulated.plant.law import ZN1
+from fitting.identification.quoted import REFERENCE_FREQUENCIES_HZ
 from instrument.cli.demo_paper import show_paper_case
 from instrument.cli.options import json_option
 from instrument.cli.output import Output
@@ -23,8 +24,6 @@ from instrument.session.configuration import read_whole_experiment
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.simulated_case import DEFAULT_EFFECT, chosen_effect, write_case
-
-_AT_HZ = (20.0, 100.0, 280.0)
 
 
 @click.command()
@@ -98,7 +97,7 @@ def _print_beside_plant(out: Output, finished: Finished) -> None:
     if found is None:
         return
     rows = []
-    for f in _AT_HZ:
+    for f in REFERENCE_FREQUENCIES_HZ:
         known = [row for stage in found.stages if (row := law_at(stage.law, f)) is not None]
         if len(known) < len(found.stages):
             continue

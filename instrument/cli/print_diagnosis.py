@@ -3,7 +3,7 @@
 import textwrap
 from math import isnan
 
-from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
+from fitting.identification.quoted import quoted_hz
 from instrument.cli.output import Output
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import (
@@ -127,13 +127,13 @@ def _print_candidates(out: Output, found: DiagnosisResult) -> None:
 
 def _print_law(out: Output, found: DiagnosisResult) -> None:
     rows = []
-    for f in REFERENCE_FREQUENCIES_HZ:
+    for f in quoted_hz(row.frequency_hz for row in found.stages[0].law):
         pair = [row for stage in found.stages if (row := law_at(stage.law, f)) is not None]
         if len(pair) < len(found.stages):
             continue
         rows.append(
             [
-                f"{f:g}",
+                f"{f:.4g}",
                 *(_banded(r.storage_modulus_pa, r.storage_modulus_standard_error_pa, 1e-6) for r in pair),
                 *(_banded(r.loss_factor, r.loss_factor_standard_error) for r in pair),
             ]

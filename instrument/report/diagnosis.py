@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
+from fitting.identification.quoted import quoted_hz
 from fitting.structures import AnySpecimen
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.report.blocks import Block, FigureBlock, ReportSection, Sentence, TableBlock
@@ -141,14 +141,14 @@ def _candidates(found: DiagnosisResult) -> TableBlock:
 
 def _law(found: DiagnosisResult) -> TableBlock:
     rows, stages = [], [found.stage(name) for name in laws_apart(found)]
-    for f in REFERENCE_FREQUENCIES_HZ:
+    for f in quoted_hz(row.frequency_hz for row in stages[0].law):
         pair = [law_at(stage.law, f) for stage in stages]
         known = [r for r in pair if r is not None]
         if len(known) < len(stages):
             continue
         G = (with_error(r.storage_modulus_pa, r.storage_modulus_standard_error_pa, 1e-6) for r in known)
         eta = (with_error(r.loss_factor, r.loss_factor_standard_error) for r in known)
-        rows.append((f"{f:g}", *G, *eta))
+        rows.append((f"{f:.4g}", *G, *eta))
     columns: tuple[str, ...] = ("f / Hz", "G' / MPa before", "after", "loss factor before", "after")
     if len(stages) == 1:
         columns = ("f / Hz", "G' / MPa", "loss factor")

@@ -7,7 +7,8 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.identification.known_curve import known_curve
-from fitting.identification.result import REFERENCE_FREQUENCIES_HZ, LawBand
+from fitting.identification.quoted import REFERENCE_FREQUENCIES_HZ
+from fitting.identification.result import LawBand
 from fitting.identification.uncertainty import Uncertainty
 from fitting.identification.validation import rms
 from fitting.laws import CoreLaw

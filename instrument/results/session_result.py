@@ -6,13 +6,14 @@ from math import isfinite
 
 from fitting.digits import written_out
 from fitting.gravity import STANDARD_GRAVITY_M_S2
-from fitting.identification.result import BIASED, REFERENCE_FREQUENCIES_HZ, doubts_itself
+from fitting.identification.quoted import quoted_hz
+from fitting.identification.result import BIASED, doubts_itself
 from fitting.sweep import Sweep
 from instrument.facts.diagnosis import DiagnosisResult, StageFitted
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.rows import LawRow
 from instrument.facts.session_result import SessionResult, Standing
-from instrument.results.diagnosis_words import law_at, verdict_line
+from instrument.results.diagnosis_words import verdict_line
 from instrument.results.numbers import with_error
 from instrument.session.contents import Contents
 from instrument.stream.derived import DiagnosisFound, FitUpdated, PointMeasured
@@ -158,12 +159,8 @@ def _said(
 
 
 def _shown(law: Sequence[LawRow]) -> tuple[LawRow, ...]:
-    """At the reference frequencies, or at the ends."""
-    inside = [row for f in REFERENCE_FREQUENCIES_HZ if (row := law_at(law, f)) is not None]
-    if inside or not law:
-        return tuple(inside)
-    ends = {k: law[k] for k in (0, len(law) - 1)}
-    return tuple(ends.values())
+    quoted = quoted_hz(row.frequency_hz for row in law)
+    return tuple(row for row in law if row.frequency_hz in quoted)
 
 
 def law_words(row: LawRow) -> str:

@@ -13,7 +13,7 @@ from fitting.depth.posterior import SAMPLES, Posterior, sample
 from fitting.depth.profile import profile
 from fitting.depth.quantities import Quantities
 from fitting.depth.task import DepthTask
-from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
+from fitting.identification.quoted import REFERENCE_FREQUENCIES_HZ
 from instrument.facts.intervals import IntervalsFound, QuantityInterval
 from instrument.models.identification import Identified
 from instrument.progress import Progress, quiet

@@ -137,7 +137,7 @@ def _error_cells(row: ComparedMeasure, scale: float) -> list[Cell]:
 
 def _one_law_cells(f: float, b: At) -> list[Cell]:
     return [
-        Cell(f"{f:g}"),
+        Cell(f"{f:.4g}"),
         Cell(with_error(b.storage_mpa, b.storage_error_mpa), bold=True),
         Cell(with_error(b.loss, b.loss_error), bold=True),
     ]
@@ -145,7 +145,7 @@ def _one_law_cells(f: float, b: At) -> list[Cell]:
 
 def _law_cells(f: float, b: At, a: At) -> list[Cell]:
     return [
-        Cell(f"{f:g}"),
+        Cell(f"{f:.4g}"),
         Cell(with_error(b.storage_mpa, b.storage_error_mpa)),
         Cell(with_error(a.storage_mpa, a.storage_error_mpa), bold=True),
         Cell(f"{100 * (a.storage_mpa / b.storage_mpa - 1):+.2f} %"),

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
+from fitting.identification.quoted import quoted_hz
 from gui.pages.law.curve import LawCurve
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import percent_of
@@ -59,4 +59,4 @@ def laws(found: DiagnosisResult) -> tuple[LawCurve, LawCurve]:
 def references_hz(found: DiagnosisResult) -> list[float]:
     """Where both laws are stated in numbers."""
     curves = laws(found)
-    return [f for f in REFERENCE_FREQUENCIES_HZ if all(c.at(f) is not None for c in curves)]
+    return [f for f in quoted_hz(curves[0].frequency_hz) if all(c.at(f) is not None for c in curves)]

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from fitting.arrays import Array
-from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
+from fitting.identification.quoted import quoted_hz
 from fitting.laws import CoreLaw
 from fitting.sweep import segments_by_gap
 from instrument.facts.diagnosis import PointLeft
@@ -115,6 +115,6 @@ def together(points: Sequence[P]) -> list[P]:
 
 def places_hz(resonances: dict[int, float], curve: LawCurve) -> list[tuple[float, str]]:
     """Where the law is stated in numbers: frequency, and what is there."""
-    places = [(f, "") for f in REFERENCE_FREQUENCIES_HZ]
+    places = [(f, "") for f in quoted_hz(curve.frequency_hz)]
     places += [(f, f"peak of segment {n}") for n, f in resonances.items()]
     return sorted(p for p in places if curve.at(p[0]) is not None)
