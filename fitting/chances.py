@@ -19,6 +19,10 @@ def normal_exceeded(chance: Any) -> Any:
     return -ndtri(chance)
 
 
+Z_95 = float(normal_exceeded(0.025))
+"""Standard errors to either side that hold a normal value in 95 of 100."""
+
+
 def chi2_above(x: Any, freedom: Any) -> Any:
     """P(X > x) of a chi-square X; NaN without a degree of freedom. Numbers or arrays that broadcast."""
     return np.where(np.asarray(freedom) > 0, chdtrc(freedom, np.maximum(x, 0.0)), np.nan)[()]

@@ -16,6 +16,7 @@ from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 from fitting.linear import factorise
 from fitting.plate import Plate
+from fitting.progress import Report, unheard
 from fitting.real_modes import real_modes
 
 _SPARE = 4
@@ -71,7 +72,7 @@ def complex_modes(
     plate: Plate,
     law: CoreLaw | None,
     count: int,
-    progress: Callable[[float], None] = lambda fraction: None,
+    progress: Report = unheard,
 ) -> list[ComplexMode]:
     """The first `count` elastic modes; `law` None for a bare plate.
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fitting.robust import robust_scatter
 from fitting.sweep import Sweep
 
 LEAST_PERCENT = 1.0
@@ -12,8 +13,6 @@ _STANDARD_ERRORS = 3.0
 """Beyond, one sweep in 370 shows as much by chance."""
 _FEWEST = 3
 """Points that show a scatter."""
-_MAD_TO_STD = 1.4826
-"""Of a normal distribution."""
 _MEDIAN_TO_MEAN = np.sqrt(np.pi / 2)
 """Standard error of a median over that of a mean, for a normal distribution."""
 
@@ -42,7 +41,7 @@ def level_error(sweep: Sweep) -> LevelOff | None:
         return None
     ratio = np.abs(sweep.base_m_s2) / sweep.commanded_m_s2
     factor = float(np.median(ratio))
-    scatter = _MAD_TO_STD * float(np.median(np.abs(ratio - factor)))
+    scatter = robust_scatter(ratio)
     found = LevelOff(
         factor=factor,
         standard_error=float(_MEDIAN_TO_MEAN * scatter / np.sqrt(len(ratio))),

@@ -9,7 +9,6 @@ so a law costs one sum a frequency, and its derivative as little. All moduli of 
 the responses at a few of them, so that the sum has about half as many terms as the reduced plate has vectors.
 """
 
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array, Complex
+from fitting.progress import Report, unheard
 from fitting.reduced import ReducedPlate
 
 NODES_A_DECADE = 4
@@ -69,9 +69,7 @@ class RationalSweep:
         return RationalSweep(self.omega[index], self.G_ref, self.c[index], self.mu[index])
 
 
-def rational_sweep(
-    plate: ReducedPlate, omega: Array, progress: Callable[[float], None] = lambda fraction: None
-) -> RationalSweep:
+def rational_sweep(plate: ReducedPlate, omega: Array, progress: Report = unheard) -> RationalSweep:
     """Diagonalise the reduced plate at each frequency of `omega` (rad/s, shape (points,))."""
     return rational_sweeps(plate, omega, progress).of(0, 1)
 
@@ -91,9 +89,7 @@ class RationalSweeps:
         return RationalSweep(self.omega, self.G_ref, self.c[driven, read], self.mu)
 
 
-def rational_sweeps(
-    plate: ReducedPlate, omega: Array, progress: Callable[[float], None] = lambda fraction: None
-) -> RationalSweeps:
+def rational_sweeps(plate: ReducedPlate, omega: Array, progress: Report = unheard) -> RationalSweeps:
     """Diagonalise the reduced plate at each frequency of `omega` (rad/s, shape (points,)).
 
     Driven at the load alone where there are no further spots.

@@ -5,7 +5,6 @@ frequency the real modes belong to K_0' + G'(omega) K_1, so all of them live in 
 a few moduli: the eigenproblem is solved there, once a frequency as the paper does.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +12,7 @@ import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
 from fitting.plate import Plate
+from fitting.progress import Report, unheard
 from fitting.real_modes import real_modes
 
 MODES = 8
@@ -69,9 +69,7 @@ class RealModePlate:
         return np.asarray((np.where(used, x_N, 0) * seen).sum(axis=1))
 
 
-def real_mode_plate(
-    plate: Plate, modulus: tuple[float, float], progress: Callable[[float], None] = lambda fraction: None
-) -> RealModePlate:
+def real_mode_plate(plate: Plate, modulus: tuple[float, float], progress: Report = unheard) -> RealModePlate:
     """Span the real modes of all core moduli in `modulus` (Pa)."""
     moduli = np.geomspace(*modulus, _MODULI) if plate.specimen.core is not None else [0.0]
     spanned = []

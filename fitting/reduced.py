@@ -23,6 +23,7 @@ from fitting.half_plate import HalfPlate
 from fitting.linear import times
 from fitting.part_matrices import moving_part, on_motions, projected_parts, stated_steps
 from fitting.plate import Plate
+from fitting.progress import Report, unheard
 from fitting.resonance_parts import Answers
 from fitting.specimen import Specimen
 
@@ -153,7 +154,7 @@ def reduce_plate(
     plate: Plate,
     damping: LowRankDamping,
     domain: Domain,
-    progress: Callable[[float], None] = lambda fraction: None,
+    progress: Report = unheard,
 ) -> ReducedPlate:
     """Build the basis: a few spread snapshots, then two at a time where the residual is worst.
 

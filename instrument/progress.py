@@ -10,8 +10,8 @@ from rich.console import Console
 from rich.progress import BarColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.progress import Progress as Bars
 
-Report = Callable[[float], None]
-"""Told the fraction done, 0 to 1."""
+from fitting.progress import Report
+
 Progress = Callable[[str], AbstractContextManager[Report]]
 """Opens a piece of work by its name."""
 LINES = "VISCORIG_PROGRESS"

@@ -9,9 +9,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from fitting.chances import Z_95
 from instrument.facts.diagnosis import PointLeft, StageName
 from instrument.facts.rows import PointSetAside
-from instrument.results.drawing import BAND_95, DATA, MARK, MODEL, TWO_STD, label, legend, mark_set_aside
+from instrument.results.drawing import DATA, MARK, MODEL, TWO_STD, label, legend, mark_set_aside
 from viscorig.shown import Columns
 
 Array = NDArray[np.float64]
@@ -41,7 +42,7 @@ def plot_laws(ax: Axes | None, laws: Mapping[str, Columns]) -> Axes:
     for (name, law), style in zip(laws.items(), _STYLES, strict=False):
         for side, key, unit, scale, color, symbol in sides:
             f, value = law["frequency_hz"], scale * law[key + unit]
-            spread = BAND_95 * scale * law[f"{key}_standard_error{unit}"]
+            spread = Z_95 * scale * law[f"{key}_standard_error{unit}"]
             side.plot(f, value, style, color=color, label=f"{symbol} {name}".strip())
             if np.isfinite(spread).all():
                 side.fill_between(f, value - spread, value + spread, color=color, alpha=0.2, linewidth=0)

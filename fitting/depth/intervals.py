@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.chances import Z_95
 from fitting.depth.quantities import Quantities
 
-LEVELS = {68: 1.0, 95: 1.959964}
+LEVELS = {68: 1.0, 95: Z_95}
 """Percent, and how many standard deviations a normal distribution has there."""
 _TAILS = {68: (15.8655, 84.1345), 95: (2.5, 97.5)}
 """Percentiles with as much on either side: 68.27 %, a normal distribution's standard deviation, and 95 %."""

@@ -6,7 +6,6 @@ turn. Walkers never look at each other, so that R-hat means what it says. Some s
 their weights say how far the short cut is off.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
@@ -20,6 +19,7 @@ from fitting.depth.many import ManyResiduals
 from fitting.depth.marginal import MarginalLaw
 from fitting.depth.quantities import Quantities
 from fitting.errors import OutsideModel
+from fitting.progress import Report
 
 WALKERS = 80
 """Side by side: one call works on all of them. A choice."""
@@ -33,7 +33,6 @@ _STEPS = ((1.0, 0.3), (0.6, 0.4), (0.25, 0.3))
 """Length of a step, and its share."""
 _CHECKED = 60
 """Samples whose weight is worked out in full, for the share that is given beside the posterior."""
-Report = Callable[[float], None]
 
 
 @dataclass(frozen=True)

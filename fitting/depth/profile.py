@@ -4,7 +4,7 @@ An interval holds the values at which chi-square rises by less than the quantile
 degree of freedom (Venzon and Moolgavkar, Applied Statistics 37, 1988). A quantity is held by a stiff row.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -13,6 +13,7 @@ from scipy.optimize import least_squares
 from fitting.arrays import Array
 from fitting.depth.intervals import LEVELS, Intervals
 from fitting.depth.quantities import Quantities
+from fitting.progress import Report
 
 _STIFF = 300.0
 """Times the quantity's own standard error, by which a value is held."""
@@ -24,7 +25,6 @@ _STRETCH = 3.0
 """Times that a look goes further or less far than the linear error says; a choice against wild jumps."""
 _MOST_EVALUATIONS = 40
 """A bound on time: a fit starts at most a few standard errors beside its end."""
-Report = Callable[[float], None]
 
 
 def profile(

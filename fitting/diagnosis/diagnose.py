@@ -27,6 +27,7 @@ from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 from fitting.noise import Noise, noise_of
+from fitting.progress import Report, unheard
 from fitting.reduced import ReducedPlate
 from fitting.sweep import Sweep
 
@@ -36,7 +37,6 @@ _BEYOND = 0.005
 _OF_SEARCH, _OF_REPEATED = 0.8, 0.15
 """Share of a diagnosis that its search is, and of that the first one where it is repeated."""
 
-Report = Callable[[float], None]
 Settle = Callable[[Search, Judgement], Judgement]
 
 
@@ -70,7 +70,7 @@ def diagnose_task(
     start: CoreLaw,
     channels: tuple[FoundEffect, ...] = (),
     why_aside: Reasons | None = None,
-    report: Report = lambda fraction: None,
+    report: Report = unheard,
     accepted_by_hand: Sequence[str] | None = None,
     executor: Executor = ALONE,
     remade: Callable[[Sweep], DiagnosisProblem] | None = None,

@@ -12,8 +12,8 @@ from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit, Search, best_of_each
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
+from fitting.progress import Report, unheard
 
-Report = Callable[[float], None]
 A = TypeVar("A")
 Seen = tuple[ScoredFit, Form, list[Start]]
 """A single effect, the form of a second one, and that one's starts beside it, best first."""
@@ -121,7 +121,7 @@ class Pairs:
         self,
         do: Callable[[tuple[Refitted, Sequence[Form]]], list[A]],
         asked: Sequence[tuple[Refitted, Sequence[Form]]],
-        report: Report = lambda fraction: None,
+        report: Report = unheard,
         moving: Sequence[Refitted] = (),
     ) -> list[A]:
         """What is seen of every form beside its fit, in order; some at a time, as that fit is one.

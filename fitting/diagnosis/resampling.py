@@ -23,10 +23,9 @@ from fitting.identification.result import differences_percent
 from fitting.identification.validation import MOST_POINTS_ONE_BY_ONE, rms
 from fitting.laws import CoreLaw
 from fitting.noise import Noise, noise_of
+from fitting.progress import Report, unheard
 from fitting.reduced import ReducedPlate
 from fitting.sweep import Sweep
-
-Report = Callable[[float], None]
 
 SMALL = MOST_POINTS_ONE_BY_ONE
 """Points up to which resampling is always done."""
@@ -53,7 +52,7 @@ class Again:
         """Every effect alone, as the search of the data themselves begins."""
         begun = begin(problem, self.reduced, noise_of(problem.sweep), self.bare, self.start)
         search = Search(begun.problem, begun.evidence, begun.none, self.effects, Executor())
-        return search, Singles(search, lambda fraction: None).best()
+        return search, Singles(search, unheard).best()
 
     def gain_without_effect(self, seed: int) -> float:
         """What the best explanation gains on a sweep drawn from the fit without effects."""

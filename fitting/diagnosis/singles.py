@@ -1,6 +1,6 @@
 """Every effect beside the law, one at a time: what promises most first, what leads gone into twice."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -11,8 +11,7 @@ from fitting.diagnosis.looks import Start, has_place
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.thresholds import SEARCH, VERDICT
-
-Report = Callable[[float], None]
+from fitting.progress import Report, unheard
 
 
 class Singles:
@@ -153,7 +152,7 @@ class Singles:
             if name not in self._found or scored.cost < self._found[name].cost:
                 self._found[name] = scored
 
-    def _finish(self, rough: Iterable[tuple[Form, Refitted]], report: Report = lambda fraction: None) -> None:
+    def _finish(self, rough: Iterable[tuple[Form, Refitted]], report: Report = unheard) -> None:
         """What may come near to what explains everything, if anything does, followed to its end, once."""
         new = {f: form for form, f in rough if f not in self._finished and self._may_matter(f)}
         self._to_the_end([(form, f, self._goal(f)) for f, form in new.items()], report)
@@ -169,9 +168,7 @@ class Singles:
         winds = any(is_over_decades(e) for e in rough.effects)
         return winds or rough.chi2 - SEARCH.more_than_owed * rough.owed < goal
 
-    def _to_the_end(
-        self, asked: Iterable[tuple[Form, Refitted, float]], report: Report = lambda fraction: None
-    ) -> None:
+    def _to_the_end(self, asked: Iterable[tuple[Form, Refitted, float]], report: Report = unheard) -> None:
         """Rough fits, each with its goal as `refit` takes it; none again that has gone as far."""
         tasks = [one for one in asked if one[2] > self._finished.get(one[1], -np.inf)]
         self._finished |= {f: goal for _, f, goal in tasks}

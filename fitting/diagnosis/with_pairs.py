@@ -1,12 +1,11 @@
 """Single effects, and two together where one gains anything: all explanations that may matter."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from fitting.diagnosis.pairs import Pairs
 from fitting.diagnosis.search import ScoredFit, Search, best_of_each
 from fitting.diagnosis.thresholds import SEARCH
-
-Report = Callable[[float], None]
+from fitting.progress import Report
 
 _ROUNDS = 2
 """How often pairs are looked for, each time about the best single effect so far. A bound on time."""

@@ -1,6 +1,6 @@
 """The reduced plate widened: full responses to what each effect stirs, condensed and projected once."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
@@ -18,6 +18,7 @@ from fitting.element import THETA_X, THETA_Y, W
 from fitting.linear import times
 from fitting.part_matrices import moving_part, on_motions, projected_parts
 from fitting.parts import coefficients, layers_of, loaded, names_of
+from fitting.progress import Report, unheard
 
 SNAPSHOTS = 12
 """Points of frequency and modulus that are solved in full, each a factorisation. A choice; `TOLERANCE` is of
@@ -34,7 +35,7 @@ def enriched(
     full: FullPlate,
     basis: Array,
     spans: Sequence[Span],
-    progress: Callable[[float], None] = lambda fraction: None,
+    progress: Report = unheard,
     reach_hz: float = USUAL_HZ,
 ) -> EnrichedReducedPlate:
     """Build it to hold up to `reach_hz`.

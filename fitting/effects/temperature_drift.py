@@ -32,6 +32,10 @@ _PAUSE_S = 300.0
 _LEAST_CYCLES, _MOST_CYCLES, _STEP = 0.75, 12.0, 0.5
 """Looked for in a sweep: fewer are what settles; a step apart a linear one finds those between."""
 
+_FEW_ENOUGH = 30
+"""Points without times of which an even sweep upwards is assumed, and said: a published table, read by hand.
+A file of more has lost its times; what it measured when, nobody knows. A choice."""
+
 
 def time_scale(warmer_k: Array | float) -> Array:
     """a_T: what a core's times shorten by where it is so much warmer. Of the shape of `warmer_k`."""
@@ -67,7 +71,7 @@ class TemperatureDriftEffect(Effect):
         )
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
-        if not points.timed and len(points.omega) > 30:
+        if not points.timed and len(points.omega) > _FEW_ENOUGH:
             return "the points carry no time"
         return None
 

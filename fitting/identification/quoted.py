@@ -11,7 +11,7 @@ _FEWEST = 2
 
 
 def quoted_hz(listed_hz: Iterable[float]) -> tuple[float, ...]:
-    """The reference frequencies within those a law is listed at; with fewer than two, its ends and middle too.
+    """The reference frequencies in the range of a list; with fewer than two, its ends and middle too.
 
     Returns them ascending. Who lists a law lists its references as well.
     """

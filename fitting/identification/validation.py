@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Mask
+from fitting.progress import Report, unheard
 
 Learnt = Callable[[Mask], Array]
 """Points to learn from, to 100 (|predicted| - |measured|)/|measured| at every point."""
@@ -44,7 +45,7 @@ def validate(
     points_needed: int,
     differences_percent: Learnt,
     noise_percent: Array,
-    progress: Callable[[float], None] = lambda fraction: None,
+    progress: Report = unheard,
 ) -> Validation:
     """Leave-one-out up to 30 points, else every segment from the others. Shape (points,)."""
     count = len(segment)

@@ -4,7 +4,7 @@ Frequencies and loss factors see neither channels nor levels: gain, delay, drift
 Two effects at once are looked for where there is one (`pairs`).
 """
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,10 +23,10 @@ from fitting.mode_tables.kin import kin_of_modes
 from fitting.mode_tables.misread import Misread, misread
 from fitting.mode_tables.pairs import best_pairs, called_for
 from fitting.mode_tables.problem import ModalProblem
+from fitting.progress import Report, unheard
 
 _SINGLES = 0.6
 """Share of the time that single effects take, where pairs are looked for too."""
-Report = Callable[[float], None]
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ def diagnose_modes(
     problem: ModalProblem,
     effects: Sequence[Effect],
     start: CoreLaw,
-    report: Report = lambda fraction: None,
+    report: Report = unheard,
 ) -> DiagnosedModes:
     """Try every effect that modes can see. Raises `TooFewPoints`, `OutsideModel`."""
     begun = begin_modal(problem, start, scale_known=problem.scale_known)

@@ -4,7 +4,7 @@ A table has few numbers: pairs are ranked by marginal likelihood as single effec
 they predict modes that were left out better than no effect does.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -13,12 +13,12 @@ from fitting.diagnosis.search import ScoredFit
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
 from fitting.mode_tables.explaining import Explaining
+from fitting.progress import Report
 
 LEADERS = 3
 """Single effects that a second one is looked for beside."""
 FOLLOWED, FOLLOWED_A_LEADER = 8, 4
 """Pairs that are fitted, and of those, with one leader: each has its say. Choices, for time."""
-Report = Callable[[float], None]
 
 
 def called_for(work: Explaining, none: ScoredFit, singles: Sequence[ScoredFit]) -> bool:

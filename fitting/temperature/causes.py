@@ -17,6 +17,7 @@ from fitting.diagnosis.result import FoundEffect
 from fitting.diagnosis.stage import found_effects
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.effects.base import Effect
+from fitting.progress import Report, unheard
 from fitting.temperature.joint import TemperatureProblem, fit_shifted
 from fitting.temperature.members import Alone, Begun, Joined
 from fitting.temperature.shifted_fit import ShiftedFit
@@ -32,7 +33,6 @@ _ENOUGH = 0.5
 _LEADING = 3
 """Causes fitted to all sweeps, of those that explain the worst sweep best; a choice."""
 
-Report = Callable[[float], None]
 Join = Callable[[Sequence[Begun]], Joined]
 """Fits of members by themselves, side by side."""
 
@@ -72,7 +72,7 @@ def causes_of(
     effects: Sequence[Effect],
     join: Join,
     executor: Executor = ALONE,
-    report: Report = lambda fraction: None,
+    report: Report = unheard,
 ) -> list[Cause]:
     """The causes that come nearest, with one law beside them; the best first.
 

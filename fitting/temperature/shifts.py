@@ -14,7 +14,7 @@ from fitting.arrays import Array
 Kind = Literal["wlf", "arrhenius", "free"]
 GAS_J_MOL_K = 8.314462618
 """Molar gas constant, CODATA 2018 (exact since 2019)."""
-_ZERO_K = 273.15
+ZERO_K = 273.15
 """0 degrees Celsius."""
 FARTHEST = 5.0
 """Standard deviations that a temperature is moved at most: beyond, it is a mistake and no scatter."""
@@ -100,7 +100,7 @@ class Shift:
             return np.asarray(-_LN10 * p[0] * off / (p[1] + off))
         if self.kind == "arrhenius":
             # ln a_T = E_a / R (1/T - 1/T_0)
-            inverse = 1 / (T + _ZERO_K) - 1 / (self.reference_c + _ZERO_K)
+            inverse = 1 / (T + ZERO_K) - 1 / (self.reference_c + ZERO_K)
             return np.asarray(p[0] / GAS_J_MOL_K * inverse)
         known = {t: float(v) for t, v in zip(self._moved, p, strict=True)}
         if temperature_c is None:

@@ -30,6 +30,7 @@ from fitting.identification.adjusted import Adjusted
 from fitting.laws import CoreLaw
 from fitting.noise import Noise
 from fitting.nuisance import Nuisance
+from fitting.progress import unheard
 from fitting.reduced import ReducedPlate
 
 
@@ -51,7 +52,7 @@ class AloneSweep:
         """As `members.Alone`."""
         b = self.begun
         search = Search(b.problem, b.evidence, b.none, effects, executor)
-        singles = Singles(search, lambda fraction: None).best()
+        singles = Singles(search, unheard).best()
         near = [s for s in singles if s.cost < singles[0].cost + SEARCH.near]
         return [s.fitted.effects[0] for s in near]
 

@@ -6,8 +6,9 @@ from itertools import islice
 import numpy as np
 from matplotlib.figure import Figure
 
+from fitting.chances import Z_95
 from instrument.batch.run import BatchRow
-from instrument.results.drawing import BAND_95, DATA, frequency_in_octaves, label, panels
+from instrument.results.drawing import DATA, frequency_in_octaves, label, panels
 
 MOST = 400
 """Laws drawn; of more, every second, third, ... one."""
@@ -30,7 +31,7 @@ def laws_figure(rows: Iterable[BatchRow], count: int) -> Figure:
             (left, "storage_modulus_pa", "storage_modulus_standard_error_pa", 1e-6),
             (right, "loss_factor", "loss_factor_standard_error", 1.0),
         ):
-            value, wide = law[key] * scale, BAND_95 * law[error] * scale
+            value, wide = law[key] * scale, Z_95 * law[error] * scale
             name = row.task.data.rsplit("/", 1)[-1] if few else None
             (line,) = ax.plot(f, value, color=colour, linewidth=1.2 if few else 0.6, label=name)
             line.set_alpha(1.0 if few else max(0.15, 4 / drawn))

@@ -16,6 +16,7 @@ from time import monotonic, sleep
 from typing import BinaryIO
 
 from drivers.errors import DriverError
+from fitting.progress import Report
 from instrument.check.piece import Region, TimedPiece
 from instrument.engine.asking import HelpedOperator, RemoteOperator
 from instrument.engine.interruption import Interruption
@@ -42,7 +43,6 @@ from instrument.engine.messages import (
 from instrument.engine.stoppable import StoppableShaker
 from instrument.engine.wire import read
 from instrument.errors import RigStopped
-from instrument.progress import Report
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl
 from instrument.run.operator import Operator, SimulatedOperator

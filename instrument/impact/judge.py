@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.robust import robust_scatter
 from instrument.impact.record import Hit
 
 PULSE_LEVEL = 0.1
@@ -141,11 +142,6 @@ def _visits(side: Array, share: float, top: float) -> int:
         bool(np.any(side[start:stop] > (1 - share) * top))
         for start, stop in zip(edges[::2], edges[1::2], strict=True)
     )
-
-
-def robust_scatter(samples: Array) -> float:
-    """Standard deviation of samples that are mostly noise, by their median. Shape (samples,)."""
-    return float(1.4826 * np.median(np.abs(samples - np.median(samples))))
 
 
 def _is_flat(samples: Array) -> bool:

@@ -7,7 +7,8 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.modal.frf import Frf
-from instrument.impact.judge import Judged, robust_scatter
+from fitting.robust import robust_scatter
+from instrument.impact.judge import Judged
 
 Estimator = Literal["h1", "h2", "hv"]
 

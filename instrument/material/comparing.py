@@ -7,13 +7,11 @@ import numpy as np
 
 from fitting.arrays import Array, Mask
 from fitting.bent_law import REACH
-from fitting.chances import chi2_above
+from fitting.chances import Z_95, chi2_above
 from instrument.facts.comparison import ComparedAt, ComparedPair
 from instrument.material.alike import alike_in
 from instrument.material.found_law import MaterialLaw
 
-SURELY = 1.96
-"""Joint standard deviations beyond which a difference at one frequency is listed."""
 LEVEL = 0.05
 """Of the p-value below which two laws differ as a whole."""
 RESOLUTION = 1e-3
@@ -60,11 +58,11 @@ class Comparison:
         if not count or not np.isfinite(self.joint_error).all():
             return None
         storage, eta = self.joint_error[k], self.joint_error[count + k]
-        return float(self.frequency_hz[k]), SURELY * float(storage), SURELY * float(eta)
+        return float(self.frequency_hz[k]), Z_95 * float(storage), Z_95 * float(eta)
 
     def where(self, z: Array) -> list[tuple[float, float]]:
         """Ranges of frequency in Hz over which a difference is beyond its joint uncertainty."""
-        return _ranges(self.frequency_hz, np.abs(np.nan_to_num(z)) > SURELY)
+        return _ranges(self.frequency_hz, np.abs(np.nan_to_num(z)) > Z_95)
 
 
 def compare(

@@ -4,6 +4,8 @@ from typing import Literal, Self
 
 from pydantic import BaseModel, Field, FiniteFloat, model_validator
 
+from fitting.temperature.shifts import GAS_J_MOL_K, ZERO_K
+
 _NEEDED = {"wlf": {"c1", "c2_k"}, "arrhenius": {"activation_energy_j_mol"}, "free": set[str]()}
 """Parameters by the kind of the shift."""
 
@@ -42,7 +44,10 @@ class FoundShift(BaseModel):
         if self.shift == "wlf":
             form = f"log10 a_T = -{p['c1']:.6g} (T - {T0:g}) / ({p['c2_k']:.6g} + T - {T0:g}), T in degrees C"
         elif self.shift == "arrhenius":
-            form = f"ln a_T = {p['activation_energy_j_mol']:.6g} / 8.314463 (1/T - 1/{T0 + 273.15:g}), T in K"
+            form = (
+                f"ln a_T = {p['activation_energy_j_mol']:.6g} / {GAS_J_MOL_K:.7g} "
+                f"(1/T - 1/{T0 + ZERO_K:g}), T in K"
+            )
         else:
             form = "log10 a_T = " + ", ".join(
                 f"{at.log10_shift:.4f} at {at.temperature_c:g} degrees C" for at in self.temperatures

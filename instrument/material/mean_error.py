@@ -15,9 +15,8 @@ import numpy as np
 from scipy.special import stdtrit
 
 from fitting.arrays import Array
+from fitting.chances import Z_95
 
-SURELY = 1.96
-"""Standard errors to either side that everyone takes for 95 %: a mean of few laws has so much larger ones."""
 _UPPER = 0.975
 """Of Student's t: two-sided 95 %."""
 
@@ -32,7 +31,7 @@ def mean_error(y: Array, error: Array, stated: Array, same: Sequence[str | None]
     p = w / np.sum(w)
     n = len(y)
     scatter = float(np.sum(p * (y - np.sum(p * y)) ** 2) / (n - 1))
-    few = float(stdtrit(n - 1, _UPPER)) / SURELY
+    few = float(stdtrit(n - 1, _UPPER)) / Z_95
     noise, shared = p**2 * error**2, 0.0
     for mine in _shared(same):
         noise[mine] -= (p * stated)[mine] ** 2

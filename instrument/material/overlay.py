@@ -4,10 +4,11 @@ from pathlib import Path
 
 import numpy as np
 
+from fitting.chances import Z_95
 from instrument.errors import BadInput
 from instrument.files.dma_file import DmaTable
 from instrument.material.found_law import MaterialLaw
-from instrument.results.drawing import BAND_95, DATA, frequency_in_octaves, label, legend, panels
+from instrument.results.drawing import DATA, frequency_in_octaves, label, legend, panels
 
 _MARKS = "osD^v<>ph*"
 
@@ -29,7 +30,7 @@ def save_overlay(law: MaterialLaw, table: DmaTable, folder: Path) -> Path:
     ):
         ax.plot(f, value * scale, color=DATA, label="identified")
         if np.isfinite(error).all():
-            wide = BAND_95 * error
+            wide = Z_95 * error
             ax.fill_between(f, (value - wide) * scale, (value + wide) * scale, color=DATA, alpha=0.2)
         for k, t in enumerate(table.temperatures()):
             rows = np.isnan(table.temperature_c) if np.isnan(t) else table.temperature_c == t

@@ -1,6 +1,6 @@
 """One specimen at one temperature, fitted by itself: what a fit over temperatures begins with."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
@@ -20,6 +20,7 @@ from fitting.mode_tables.misread import misread
 from fitting.mode_tables.standing import standing
 from fitting.mode_tables.table import ModalTable
 from fitting.noise import noise_of
+from fitting.progress import Report, unheard
 from fitting.specimen import Specimen
 from fitting.strays import strays
 from fitting.structures import AnySpecimen, Beam
@@ -36,8 +37,6 @@ from instrument.models.modal_look import numbering_doubt
 from instrument.models.remarks import remarks_on_noise, remarks_on_strays
 from instrument.models.set_up import Hammer, set_up
 from instrument.progress import quiet
-
-Report = Callable[[float], None]
 
 
 @dataclass(frozen=True)
@@ -171,7 +170,7 @@ class Members:
             ]
             most = max(its, key=lambda table: float(table.mode.max()))
             reach = reach_over(max(its, key=lambda table: float(table.frequency_hz.max())).frequency_hz)
-            widen = partial(widened, report=lambda fraction: None, reach_hz=reach) if with_effects else None
+            widen = partial(widened, report=unheard, reach_hz=reach) if with_effects else None
             self._plates[key] = member_of(most, specimen, widen)
         return replace(self._plates[key], table=one.data)
 

@@ -22,6 +22,7 @@ from fitting.identification.result import LOST_PERCENT, differences_percent
 from fitting.identification.validation import Validation, rms, validate
 from fitting.laws import CoreLaw
 from fitting.noise import Noise
+from fitting.progress import Report
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
@@ -36,7 +37,7 @@ from instrument.models.remarks import (
 from instrument.models.set_up import Hammer, SetUp, set_up
 from instrument.models.specimen_models import Models
 from instrument.models.theory import theory_over
-from instrument.progress import Progress, Report
+from instrument.progress import Progress
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """Tables of modes with their specimens: a law identified, the theory checked."""
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import partial
 from time import perf_counter
@@ -29,6 +29,7 @@ from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.standing import standing
 from fitting.mode_tables.table import FREQUENCY_STD, LOSS_STD, ModalTable
 from fitting.plate import Plate
+from fitting.progress import Report
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
 from fitting.structures.beam import Beam
@@ -45,7 +46,6 @@ from instrument.models.remarks import (
 from instrument.models.theory import check_each_theory
 from instrument.progress import Progress, quiet
 
-Report = Callable[[float], None]
 _LOST = 0.1
 """Relative: stated numbers within their tolerances move frequencies by a tenth of that."""
 _MISFIT = 3.0

@@ -16,7 +16,8 @@ from typing import Any
 
 from loky import ProcessPoolExecutor
 
-from fitting.diagnosis.executor import ALONE, Call, Executor, Report
+from fitting.diagnosis.executor import ALONE, Call, Executor
+from fitting.progress import Report, unheard
 from instrument.errors import BadInput
 from instrument.models.background import step_back
 
@@ -66,7 +67,7 @@ class SeveralProcesses(Executor):
         for other in self._others:
             other.end()
 
-    def together(self, calls: Sequence[Call], report: Report = lambda fraction: None) -> Iterator[Any]:
+    def together(self, calls: Sequence[Call], report: Report = unheard) -> Iterator[Any]:
         """The same, the methods' own object sent over once to each."""
         left = deque(enumerate(calls))
         found: dict[int, Any] = {}

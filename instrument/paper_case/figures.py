@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fitting.arrays import Array
+from fitting.chances import Z_95
 from fitting.identification.result import LawBand
 from fitting.specimen import Specimen
 from instrument.files.specimen_file import read_specimen
@@ -121,7 +122,7 @@ def _draw_band(left: Axes, right: Axes, b: LawBand, label: str, color: str) -> N
         (right, b.loss_factor, b.loss_factor_standard_error, 1.0),
     ):
         ax.plot(b.frequency_hz, value * scale, color=color, label=label)
-        low, high = (value - 1.96 * error) * scale, (value + 1.96 * error) * scale
+        low, high = (value - Z_95 * error) * scale, (value + Z_95 * error) * scale
         ax.fill_between(b.frequency_hz, low, high, color=color, alpha=0.18, linewidth=0)
 
 

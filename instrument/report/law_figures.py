@@ -5,11 +5,11 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
+from fitting.chances import Z_95
 from instrument.interchange.identified import SessionFit
 from instrument.report.fitted import ReportedFit
 from instrument.report.measured import Measured
 from instrument.results.drawing import (
-    BAND_95,
     DATA,
     MODEL,
     TWO_STD,
@@ -31,7 +31,7 @@ def law_figure(fit: SessionFit, name: str = "identified") -> Figure:
         (left, b.storage_modulus_pa, b.storage_modulus_standard_error_pa, 1e-6, "Storage modulus G' / MPa"),
         (right, b.loss_factor, b.loss_factor_standard_error, 1.0, "Loss factor η"),
     ):
-        low, high = (value - BAND_95 * error) * scale, (value + BAND_95 * error) * scale
+        low, high = (value - Z_95 * error) * scale, (value + Z_95 * error) * scale
         if np.isfinite(error).all():
             ax.fill_between(b.frequency_hz, low, high, color=DATA, alpha=0.2, linewidth=0, label="95 % band")
         ax.plot(b.frequency_hz, value * scale, color=DATA, label=name)

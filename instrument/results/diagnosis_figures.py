@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from fitting.arrays import Array
+from fitting.chances import Z_95
 from fitting.digits import two_digits
 from fitting.sweep import segments_by_gap
 from instrument.errors import BadInput
@@ -16,7 +17,6 @@ from instrument.facts.diagnosis import DiagnosisResult, PointLeft, StageName
 from instrument.facts.result import Result
 from instrument.results.diagnosis_words import log_odds, probability_words, segment_place, with_verdict
 from instrument.results.drawing import (
-    BAND_95,
     DATA,
     MARK,
     MODEL,
@@ -163,7 +163,7 @@ def law_figure(found: DiagnosisResult) -> Figure:
             (left, "storage_modulus_pa", "storage_modulus_standard_error_pa", 1e-6),
             (right, "loss_factor", "loss_factor_standard_error", 1.0),
         ):
-            value, spread = scale * _column(law, key), BAND_95 * scale * _column(law, error)
+            value, spread = scale * _column(law, key), Z_95 * scale * _column(law, error)
             name = stage if len(apart) > 1 else one_fit_words(found)
             ax.plot(f, value, style if len(apart) > 1 else "-", color=colour, label=name)
             if np.isfinite(spread).all():

@@ -20,8 +20,6 @@ _SET_ASIDE: dict[str, Any] = {"marker": "v", "color": "#b3261e", "mfc": "none", 
 _FOOT = 0.04
 """Of an axis's height: where what has no place on its scale is marked."""
 _COLUMNS_AT_MOST = 4
-BAND_95 = 1.96
-"""Standard errors either side of what is found: 95 % of a normal distribution."""
 TWO_STD = 2.0
 """Standard deviations of a reading either side: what is usually drawn as its noise."""
 

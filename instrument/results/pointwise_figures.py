@@ -7,13 +7,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fitting.arrays import Array
+from fitting.chances import Z_95
 from fitting.identification.result import LawBand
 from fitting.kramers_kronig import FIRST_ORDER, KramersKronig
 from fitting.pointwise import PointwiseLaw
 from instrument.errors import BadInput
 from instrument.models.pointwise import Pointwise
 from instrument.results.drawing import (
-    BAND_95,
     DATA,
     MARK,
     MODEL,
@@ -63,7 +63,7 @@ def pointwise_figure(found: PointwiseLaw, band: LawBand, causal: KramersKronig |
 
 
 def _law(ax: Axes, band: LawBand, value: Array, error: Array, scale: float) -> None:
-    low, high = (value - BAND_95 * error) * scale, (value + BAND_95 * error) * scale
+    low, high = (value - Z_95 * error) * scale, (value + Z_95 * error) * scale
     if np.isfinite(error).all():
         ax.fill_between(
             band.frequency_hz, low, high, color=DATA, alpha=0.2, linewidth=0, label="95 % band of the law"
@@ -80,7 +80,7 @@ def _points(ax: Axes, known: PointwiseLaw, value: Array, error: Array, scale: fl
         ax.errorbar(
             known.frequency_hz[which],
             value[which] * scale,
-            BAND_95 * error[which] * scale,
+            Z_95 * error[which] * scale,
             fmt="o",
             color=MODEL,
             alpha=alpha,
@@ -92,7 +92,7 @@ def _points(ax: Axes, known: PointwiseLaw, value: Array, error: Array, scale: fl
         )
     if not well.any():
         return
-    value, bar = value[well] * scale, BAND_95 * error[well] * scale
+    value, bar = value[well] * scale, Z_95 * error[well] * scale
     top = ax.get_ylim()[1]
     # Whole bars where there is room, every value in any case.
     highest = max(float(value.max()), min(float((value + bar).max()), _ROOM * top))

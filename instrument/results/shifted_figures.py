@@ -7,6 +7,7 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from fitting.chances import Z_95
 from instrument.models.temperatures import Shifted
 from instrument.results.drawing import DATA, MODEL, WIDTH_IN, label, legend, panels
 
@@ -79,7 +80,7 @@ def _each_alone(wicket: Axes, cole: Axes, curves: Axes, found: Shifted) -> None:
 def _shift_factors(ax: Axes, found: Shifted) -> None:
     fit = found.fit
     T, ten = fit.shift.temperature_c, np.log(10)
-    ax.errorbar(T, fit.log_shift / ten, 1.96 * fit.log_shift_errors / ten, fmt="o", ms=4, capsize=3)
+    ax.errorbar(T, fit.log_shift / ten, Z_95 * fit.log_shift_errors / ten, fmt="o", ms=4, capsize=3)
     wide = np.linspace(T.min(), T.max(), 100)
     ax.plot(wide, fit.shift.log_shift(fit.parameters, wide) / ten, color=MODEL, lw=0.8)
     label(ax, x="temperature / °C", y="log10 a_T", title=f"shift factors: {fit.shift.kind}")

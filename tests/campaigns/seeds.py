@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.simulated.plant.law import ZN1
+from fitting.chances import Z_95
 from instrument.run.experiment import Finished, run_experiment
 from instrument.session.configuration import read_whole_experiment
 from instrument.simulated_case import FILES, case_file
 
 AT_HZ = (20.0, 100.0, 280.0)
-BAND_95 = 1.96
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Outcome:
     @property
     def inside(self) -> bool:
         """All of it inside the stated 95 % band."""
-        return bool(np.abs([self.storage_z, self.loss_z]).max() < BAND_95)
+        return bool(np.abs([self.storage_z, self.loss_z]).max() < Z_95)
 
 
 def run_seed(folder: Path, seed: int, effects: str = "") -> Finished:

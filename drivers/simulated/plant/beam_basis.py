@@ -9,9 +9,9 @@ from drivers.arrays import Array
 from drivers.simulated.plant import air
 from drivers.simulated.plant.basis import basis_of, motions
 from drivers.simulated.plant.one_thread import one_thread
+from drivers.simulated.plant.progress import Report
 from drivers.simulated.plant.solid_beam import SolidBeam
 
-Report = Callable[[float], None]
 Factor = Callable[[Array], Array]
 
 _MODES = 12

@@ -4,7 +4,6 @@ The basis holds real modes at several moduli of the core and the motion under a 
 will stir. It is found again for every specimen, in seconds.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import isnan
 
@@ -18,11 +17,10 @@ from drivers.simulated.plant.effects import Effects
 from drivers.simulated.plant.law import MaxwellLaw, even_loss
 from drivers.simulated.plant.mounted import Mounted
 from drivers.simulated.plant.one_thread import one_thread
+from drivers.simulated.plant.progress import Report
 from drivers.simulated.plant.solid_beam import PIECES, BeamBuild, BeamStated, RootSprings, SolidBeam
 from drivers.simulated.plant.solid_pad import PairStated, SolidPad
 from drivers.simulated.plant.structure import Branch, Structure
-
-Report = Callable[[float], None]
 
 _HEEDED = {
     "plate": (

@@ -1,6 +1,5 @@
 """A cantilever plate as it is mounted: its solid on a basis of modes, and what it hides; and bare, struck."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,10 +12,9 @@ from drivers.simulated.plant.law import MaxwellLaw, even_loss
 from drivers.simulated.plant.lines import Line
 from drivers.simulated.plant.mounted import Mounted
 from drivers.simulated.plant.one_thread import one_thread
+from drivers.simulated.plant.progress import Report
 from drivers.simulated.plant.solid_plate import PIECES, PlateStated, SolidPlate
 from drivers.simulated.plant.structure import Branch, Structure, modal_damping
-
-Report = Callable[[float], None]
 
 _MODES, _BARE_MODES = 14, 32
 _DAMPED_AT_RAD_S = 2 * np.pi * 100.0

@@ -7,10 +7,11 @@ import numpy as np
 from drivers.arrays import Array
 from drivers.simulated.plant import air
 from drivers.simulated.plant.basis import basis_of, moduli, motions
-from drivers.simulated.plant.built_plate import ReducedPlate, Report
+from drivers.simulated.plant.built_plate import ReducedPlate
 from drivers.simulated.plant.effects import LOOSE, Effects, PartialDebond
 from drivers.simulated.plant.law import MaxwellLaw
 from drivers.simulated.plant.one_thread import one_thread
+from drivers.simulated.plant.progress import Report
 from drivers.simulated.plant.solid_plate import PIECES, PlateStated, SolidPlate
 from drivers.simulated.plant.structure import Branch, Structure, condensed
 

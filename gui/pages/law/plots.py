@@ -8,12 +8,13 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSplitter, QVBoxLayout, QWidget
 
 from fitting.arrays import Array
+from fitting.chances import Z_95
 from gui.pages.law.corner import emptiest_corner
 from gui.pages.law.curve import LawCurve
 from gui.plots import Axis, Plot
 from gui.theme import Role
 
-_BANDS = {"± 1 standard error": 1.0, "95 % (± 1.96 standard errors)": 1.96}
+_BANDS = {"± 1 standard error": 1.0, "95 % (± 1.96 standard errors)": Z_95}
 
 
 @dataclass(frozen=True)

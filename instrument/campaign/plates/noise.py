@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.signal import lfilter
 
 from fitting.arrays import Complex
 from instrument.campaign.noise import NoiseFigures
@@ -32,12 +33,9 @@ class PlateNoise:
         if self.wander:
             keep = np.exp(-1 / self.wander_points)
             kicks = rng.standard_normal((count, 2)) @ np.array([1, 1j])
-            walk = np.empty(count, complex)
-            state = kicks[0]
-            for k, kick in enumerate(kicks):
-                state = keep * state + np.sqrt(1 - keep**2) * kick if k else state
-                walk[k] = state
-            factor[in_time] += self.wander * walk
+            # The first kick alone is the walk's start, of its whole size.
+            kicks[1:] *= np.sqrt(1 - keep**2)
+            factor[in_time] += self.wander * lfilter([1.0], [1.0, -keep], kicks)
         if self.gain_drift:
             for number in np.unique(schedule.sweep):
                 inside = np.flatnonzero(schedule.sweep == number)

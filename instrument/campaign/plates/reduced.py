@@ -139,7 +139,6 @@ def reduced(
         forces += [lattice.force(shapes, free)] if lattice is not None else []
         columns.append(solve(np.ascontiguousarray(np.hstack(forces))))
     middle = K_0 + order[0] * K_1 if K_1 is not None else K_0
-    V = np.zeros((solid.size, 0))
     basis = _independent(np.hstack(columns), middle)
     V = np.zeros((solid.size, basis.shape[1]))
     V[free] = basis

@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from fitting.chances import Z_95
 from fitting.diagnosis.kin import UNLISTED
 from instrument.campaign.plates.answers import LAW, Band, PlateOutcome, explains
 from instrument.campaign.plates.cases import KINDS, NONE, PAIR
@@ -13,7 +14,7 @@ from instrument.campaign.plates.cases import KINDS, NONE, PAIR
 UNKNOWN = "unknown"
 MOST_IN_GROUP = 3
 """A larger group names nothing."""
-_ONE_SIGMA, _TWO_SIGMA = 1.0, 1.959964
+_ONE_SIGMA, _TWO_SIGMA = 1.0, Z_95
 _TRACES = (-np.inf, 10.0, 20.0, 40.0, 100.0, np.inf)
 """Of chi-square: a rare effect costs some 6, the numbers that it brings as much."""
 _EDGES = (0.0, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0)

@@ -9,9 +9,10 @@ from conftest import TABLE_4
 from diagnosed_session import diagnosed_session
 from found_law_cases import ERRORS, HIGH, LOW, facts
 
+from fitting.chances import Z_95
 from instrument.cli.main import run
 from instrument.errors import BadInput
-from instrument.material.comparing import SURELY, compare
+from instrument.material.comparing import compare
 from instrument.material.found_law import read_law
 
 
@@ -49,8 +50,8 @@ def test_what_would_be_seen_is_beyond_the_joint_error(law_of):
     at, storage, eta = c.would_be_seen
     assert LOW < at < HIGH
     middle = len(c.frequency_hz) // 2
-    assert storage == pytest.approx(SURELY * c.joint_error[middle])
-    assert eta == pytest.approx(SURELY * c.joint_error[len(c.frequency_hz) + middle])
+    assert storage == pytest.approx(Z_95 * c.joint_error[middle])
+    assert eta == pytest.approx(Z_95 * c.joint_error[len(c.frequency_hz) + middle])
     assert compare(law_of(TABLE_4, high=50.0), law_of(TABLE_4, low=60.0)).would_be_seen is None
 
 
@@ -61,7 +62,7 @@ def test_a_stiffer_core_is_found_where_it_is_stiffer(law_of):
     ((low, high),) = c.where(c.storage_z)
     assert low == pytest.approx(LOW)
     assert high < HIGH
-    assert np.abs(c.storage_z[0]) > SURELY
+    assert np.abs(c.storage_z[0]) > Z_95
     assert c.storage_difference[0] > c.storage_difference[-1] > -0.01
 
 

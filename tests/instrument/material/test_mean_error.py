@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from instrument.material.mean_error import SURELY, mean_error
+from fitting.chances import Z_95
+from instrument.material.mean_error import mean_error
 
 
 def coverage(count, spread, noise, stated, *, shared, seed=1, tries=1500):
@@ -16,7 +17,7 @@ def coverage(count, spread, noise, stated, *, shared, seed=1, tries=1500):
         y = spread * rng.standard_normal(count) + noise * rng.standard_normal(count) + off
         same = ["one"] * count if shared else [str(k) for k in range(count)]
         found = mean_error(y, error, np.full(count, stated), same, spread)
-        inside.append(abs(np.mean(y)) < SURELY * found)
+        inside.append(abs(np.mean(y)) < Z_95 * found)
     return np.mean(inside)
 
 

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+from fitting.chances import Z_95
 from instrument.errors import BadInput
 from instrument.files.dma_file import DmaTable
 from instrument.material.found_law import MaterialLaw
 from instrument.material.overlay import save_overlay
-from instrument.results.drawing import BAND_95
 
 F = np.array([10.0, 100.0])
 LAW = MaterialLaw(
@@ -60,7 +60,7 @@ def test_the_law_stands_with_its_band_among_the_rows_of_the_table(drawn):
         np.testing.assert_allclose(law.get_ydata(), value)
         np.testing.assert_allclose(marks.get_ydata(), rows)
         band = ax.collections[0].get_paths()[0].vertices[:, 1]
-        assert (band.min(), band.max()) == pytest.approx((value - BAND_95 * error, value + BAND_95 * error))
+        assert (band.min(), band.max()) == pytest.approx((value - Z_95 * error, value + Z_95 * error))
 
 
 def test_each_temperature_has_marks_of_its_own_with_its_name(drawn):

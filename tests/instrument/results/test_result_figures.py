@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from shear_pair_temperatures import LOG_A, REFERENCE, T, alone, fitted, shifted
 
+from fitting.chances import Z_95
 from fitting.identification.result import LawBand
 from fitting.pointwise import PointwiseLaw
 from instrument.errors import BadInput
 from instrument.facts.plan import LawOutlook, PlannedStep, PlanResult, SpotCompared
 from instrument.models.pointwise import Pointwise
 from instrument.models.temperatures import Shifted
-from instrument.results.drawing import BAND_95
 from instrument.results.plan_figures import errors_figure, save_plan_figures, spots_figure
 from instrument.results.pointwise_figures import pointwise_figure, save_pointwise_figure
 from instrument.results.shifted_figures import save_shifted_figures
@@ -104,13 +104,13 @@ def test_bands_have_bars_of_95_percent_over_the_law_s_own_band():
     np.testing.assert_allclose(lines(left)["fitted law"], [F, np.full(3, 2.0)])
     np.testing.assert_allclose(lines(right)["fitted law"][1], 0.5)
     law = left.collections[0].get_paths()[0].vertices
-    assert (law[:, 1].min(), law[:, 1].max()) == pytest.approx((2 - BAND_95 * 0.1, 2 + BAND_95 * 0.1))
+    assert (law[:, 1].min(), law[:, 1].max()) == pytest.approx((2 - Z_95 * 0.1, 2 + Z_95 * 0.1))
     # Those hardly known stand faint behind, those well known in front.
     faint, well = left.containers
     assert faint.lines[0].get_xdata().tolist() == [30.0]
     assert well.lines[0].get_xdata().tolist() == [10.0, 100.0]
     (low, high) = well.lines[2][0].get_segments()[0][:, 1]
-    assert (low, high) == pytest.approx((2 - BAND_95 * 0.04, 2 + BAND_95 * 0.04))
+    assert (low, high) == pytest.approx((2 - Z_95 * 0.04, 2 + Z_95 * 0.04))
 
 
 def test_bands_that_say_nothing_are_ticks_at_the_foot_and_an_unknown_law_error_has_no_band():

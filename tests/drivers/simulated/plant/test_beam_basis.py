@@ -8,6 +8,7 @@ from scipy.sparse.linalg import spsolve
 from drivers.simulated.plant.basis import moduli
 from drivers.simulated.plant.beam_basis import Place, on_basis
 from drivers.simulated.plant.law import MaxwellLaw
+from drivers.simulated.plant.progress import Report
 from drivers.simulated.plant.solid_beam import BeamStated, Sheet, SolidBeam
 
 LAW = MaxwellLaw(0.5e6, (0.3e6, 0.6e6, 2e6), (5e-3, 5e-4, 5e-5))
@@ -89,3 +90,10 @@ def test_a_small_mass_at_the_tip_lowers_a_mode_by_its_own_kinetic_energy():
         np.sqrt(eigh(K, M, eigvals_only=True)[:2]) for M in (beam.M, beam.M + light * np.outer(row, row))
     )
     np.testing.assert_allclose(np.log(moved / f), -2e-4, rtol=0.02)
+
+
+def test_building_tells_how_far_it_has_come():
+    told = list[float]()
+    report: Report = told.append
+    on_basis(SolidBeam(FREE, 2), np.array([1e6, 3e6]), PLACES, report=report)
+    assert told == [0.5, 1.0]
