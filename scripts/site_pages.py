@@ -67,7 +67,7 @@ def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Fil
     here = page.file.src_uri
     source = _SOURCES.get(here, f"docs/{here}")
     if here == f"{DECISIONS}/README.md":
-        for left_out in (p.name for p in _decisions() if f"]({p.name})" not in markdown):
+        for left_out in (p.name for p in _decisions() if f"]({p.name}) |" not in markdown):
             log.warning("%s does not list %s", source, left_out)
 
     def turned(link: re.Match[str]) -> str:
