@@ -9,7 +9,7 @@ Of one beam, its stated numbers moved, or of many at once: every number may be a
     3   of the core's slip          as the sandwich slips, per G
     3   of a free layer             its stretching, what couples it to bending, and its bending, per G
     8   of faces that move apart    by slip, by their rising, by how far the core is stretched, per G
-    13  of inertia                  of all, of each face, of what turns, of faces that move apart
+    15  of inertia                  of all, of each face, of what turns, of faces that move apart
 """
 
 from collections.abc import Mapping, Sequence
@@ -30,9 +30,9 @@ Layer = dict[str, Number]
 
 
 def coefficients(beam: StatedBeam, by: Mapping[str, Number]) -> Complex:
-    """Of the parts of `beam_shapes.BeamMatrices`, of what it carries, and the loads. Shape (37 or more,).
+    """Of the parts of `beam_shapes.BeamMatrices`, of what it carries, and the loads. Shape (39 or more,).
 
-    Of many beams at once (37 or more, beams), `by` of shape (beams,) each. A mass that it carries is part of
+    Of many beams at once (39 or more, beams), `by` of shape (beams,) each. A mass that it carries is part of
     the inertia, and a load where the base drives.
     """
     b, c, v = (_moved(beam, name, by) for name in ("substrate", "constraining", "core"))
@@ -48,7 +48,10 @@ def coefficients(beam: StatedBeam, by: Mapping[str, Number]) -> Complex:
     K_0 = [E_b * h_b / L, twice * E_c * h_c / L]
     K_0 += [E_b * h_b**3 / 12 / L**3, twice * E_c * h_c**3 / 12 / L**3]
     core = _between_faces(beam, b, c, v, L, by) if v and c else _free_layer(beam, b, c, v, L)
-    M = [core.mass * L, m_b * L, twice * m_c * L, *core.inertia, *(x * L for x in core.moved_apart)]
+    turn = 0.0 if beam.slender else 1 / 12 / L
+    turning = [m_b * h_b**2 * turn, twice * m_c * h_c**2 * turn]
+    M = [core.mass * L, m_b * L, twice * m_c * L, *core.inertia, *turning]
+    M += [x * L for x in core.moved_apart]
     load = width * core.mass * L if beam.force_m is None else 1.0
     heavier = np.exp(by.get("mass", 0.0))
     carried = [m.mass_kg * heavier for m in beam.masses]
@@ -65,7 +68,7 @@ class _OfCore:
     mass: Number
     """Of all layers, per area."""
     inertia: Sequence[Number]
-    """Of a core that slips as its faces do, twice, and of what turns."""
+    """Of a core that slips as its faces do, twice, and of how it turns with them."""
     slip: Sequence[Number] = (0.0,) * 3
     free: Sequence[Number] = (0.0,) * 3
     apart: Sequence[Number] = (0.0,) * 8
@@ -91,7 +94,7 @@ def _between_faces(
     by_rising = [2 / 3, 2 / 3 * d / L, 2 / 3 * more / L, 8 / 15 * H / L]
     # What its two faces differ by turns it.
     turned = 0.0 if beam.slender else m_v / 12
-    turning = m_v / 4 * e**2 + turned * (d - H) ** 2 + _turning(beam, b, c, v)
+    turning = m_v / 4 * e**2 + turned * (d - H) ** 2
     return _OfCore(
         mass=m_b + m_c + m_v,
         inertia=(m_v / 4 * L, m_v / 4 * e, turning / L),
@@ -115,24 +118,12 @@ def _free_layer(beam: StatedBeam, b: Layer, c: Layer, v: Layer, L: Number) -> _O
     low, high = h_b / 2, h_b / 2 + H
     first = 0.0 if beam.both_sides else (high**2 - low**2) / 2
     moments = (sides * H, first, sides * (high**3 - low**3) / 3)
+    turns = 0.0 if beam.slender or not v else v["density"] * moments[2]
     return _OfCore(
         mass=m_b + sides * m_v,
-        inertia=(0.0, 0.0, _turning(beam, b, c, v) / L),
+        inertia=(0.0, 0.0, turns / L),
         free=[_young_per_shear(beam) * x / L**n for n, x in enumerate(moments, 1)],
     )
-
-
-def _turning(beam: StatedBeam, b: Layer, c: Layer, v: Layer) -> Number:
-    """Inertia of what turns with the sections, per area: of layers about their own middles, in kg."""
-    if beam.slender:
-        return 0.0
-    sides = 2 if beam.both_sides else 1
-    own = [(1, b), (sides, c)] if c else [(1, b)]
-    found = sum(n * x["density"] * x["thickness"] ** 3 / 12 for n, x in own)
-    if v and not c:
-        low, high = b["thickness"] / 2, b["thickness"] / 2 + v["thickness"]
-        found = found + sides * v["density"] * (high**3 - low**3) / 3
-    return found
 
 
 def _young_per_shear(beam: StatedBeam) -> float:

@@ -66,16 +66,20 @@ def _summed(section: BeamSection, which: str) -> Array:
 @lru_cache(maxsize=64)
 def sectioned(section: BeamSection) -> BeamMatrices:
     """Those of its ends with what its width does; K_0 has what is more where that is held before the pull."""
-    plain = matrices_of(section.ends, section.share)
+    plain = matrices_of(section.ends, section.share, section.arms)
     faces, pull = plain.K_0[:4], plain.K_0[4:]
     if section.is_slender:
         return replace(plain, K_0=np.concatenate([faces, np.zeros_like(faces), pull]))
     free, held = (_across(section, held=held) for held in (False, True))
-    L = section.length_m
-    K_0 = faces + free
+    s, K_0 = section.shapes, faces + free
     for n, k, nu in _faces(section):
-        bend = _bend(section, n)
-        K_0[2 + n] -= sheared(bend, bend, give_of_face(section.thickness_m[k] / L, nu), section.ends)
+        give, bend = give_of_face(section.thickness_m[k] / section.length_m, nu), _bend(section, n)
+        if section.is_sandwich:
+            # The core pulls on its sections too: their shear is an unknown.
+            angle = s.rows(("p_b", "p_c")[n], PLACES)
+            K_0[2 + n] += square(bend, WEIGHT) + square(angle, WEIGHT) / give - faces[2 + n]
+        else:
+            K_0[2 + n] -= sheared(bend, bend, give, section.ends)
     return replace(plain, K_0=np.concatenate([K_0, held - free, pull]), K_1=plain.K_1 + _core_across(section))
 
 
@@ -117,9 +121,10 @@ def _core_stretched(section: BeamSection) -> Array:
 
 
 def _bend(section: BeamSection, face: int) -> Array:
-    """Curvature of one of the two faces at the places of quadrature. Shape (size, places)."""
+    """By which the sections of one of the two faces turn along it. Shape (size, places)."""
     s = section.shapes
-    return s.rows("w", PLACES, 2) + (face - section.share) * s.rows("a", PLACES, 2)
+    curvature = s.rows("w", PLACES, 2) + (face - section.share) * s.rows("a", PLACES, 2)
+    return curvature - s.rows(("p_b", "p_c")[face], PLACES, 1) if section.is_sandwich else curvature
 
 
 def _faces(section: BeamSection) -> list[tuple[int, int, float]]:
@@ -290,7 +295,9 @@ def _asked_for(section: BeamSection) -> dict[str, Array]:
         found |= {f"root.strip_{key}": A for key, A in strip(section).items()}
     if section.is_doubled:
         return found
-    by_pieces = np.einsum("p,kpij->kij", section.coefficients[SLIP], slip_by_pieces(section.ends))
+    by_pieces = np.einsum(
+        "p,kpij->kij", section.coefficients[SLIP], slip_by_pieces(section.ends, section.arms)
+    )
     found |= {f"strips_x.{k:03d}": A for k, A in enumerate(by_pieces)}
     found["grading_x.K_1"] = _slip(section, x - 0.5)
     for name, shape in THICKER.items():
@@ -301,7 +308,9 @@ def _asked_for(section: BeamSection) -> dict[str, Array]:
 def _slip(section: BeamSection, share: Array | float = 1.0) -> Array:
     """The core's shear for a modulus of one, times a share at every place of quadrature."""
     x, weight = gauss(2 * ORDER)
-    return np.tensordot(section.coefficients[SLIP], section.shapes.slip(x, weight * share), axes=1)
+    return np.tensordot(
+        section.coefficients[SLIP], section.shapes.slip(x, weight * share, section.arms), axes=1
+    )
 
 
 def _root_springs(section: BeamSection) -> dict[str, Array]:

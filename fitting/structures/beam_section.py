@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.structures.beam_shapes import Shapes, shapes_of
+from fitting.structures.beam_shapes import NO_ARMS, Arms, Shapes, shapes_of
 from fitting.structures.beam_width import reach
 
-PARTS = {"K_0": slice(0, 9), "K_1": slice(9, 23), "M": slice(23, 36)}
+PARTS = {"K_0": slice(0, 9), "K_1": slice(9, 23), "M": slice(23, 38)}
 """Where coefficients of `beam_shapes.BeamMatrices` are; those of loads follow."""
 SLIP = slice(9, 12)
 """Those of the core's shear."""
@@ -64,14 +64,23 @@ class BeamSection:
         if self.is_doubled:
             found[s.place["b"]] = False
         if not self.is_sandwich or self.is_slender:
-            found[s.place["a"]] = found[s.place["m"]] = False
+            for name in ("a", "m", "p_b", "p_c"):
+                found[s.place[name]] = False
         return found
 
     @property
     def of_core(self) -> NDArray[np.bool_]:
         """Which are of how the core stretches across. Shape (size,)."""
-        place = self.shapes.place
-        return np.arange(self.shapes.size) >= min(place["a"].start, place["m"].start)
+        return self.shapes.is_of("a") | self.shapes.is_of("m")
+
+    @property
+    def arms(self) -> Arms:
+        """Of the faces' own shear in the core's; none where it is not counted, or there is no core."""
+        h_b, h_v, h_c = self.thickness_m
+        if not self.is_sandwich or self.is_slender:
+            return NO_ARMS
+        apart = h_v + (h_b + h_c) / 2
+        return h_b / 2 / apart, h_c / 2 / apart
 
     @property
     def faces_poisson(self) -> float:

@@ -1,8 +1,9 @@
 """Matrices of a beam of unit length over polynomials of its deflection and of its layers' stretching.
 
-Unknowns are the coefficients of u_b, u_c, w and a over 0 < x < 1, a how far the faces move apart across the
-core: of each first those that meet the conditions at the ends, then those that a held end lets go where it
-yields. There the faces move as one, but where the upper one is not held.
+Unknowns are the coefficients of u_b, u_c, w, a and m over 0 < x < 1, a how far the faces move apart across
+the core, m how far its middle rises beside them: of each first those that meet the conditions at the ends,
+then those that a held end lets go where it yields. There the faces move as one, but where the upper one is
+not held. Two more, p_b and p_c, are the faces' own shear: their sections turn by w' - p (Timoshenko).
 """
 
 from dataclasses import dataclass
@@ -20,6 +21,9 @@ ORDER = 18
 """Polynomials of w, and of each u, that meet the conditions: ten modes to 1e-6."""
 PIECES = 40
 """Along the beam: for a core that is another one from place to place."""
+Arms = tuple[float, float]
+"""Half of each face's thickness over the distance of their middles: what its shear takes off the core's."""
+NO_ARMS: Arms = (0.0, 0.0)
 IN_A_PIECE = 8
 """Places of quadrature: the shear's square is nearly a cubic over a fortieth of the length."""
 
@@ -46,13 +50,14 @@ class Shapes:
 
     @cached_property
     def _each(self) -> dict[str, tuple[Polynomial, list[Polynomial]]]:
-        """Of u_b, u_c, w and a the factor that meets the conditions, and what a held end lets go."""
+        """Of each unknown the factor that meets the conditions, and what a held end lets go."""
         (w, u), (loose_w, loose_u) = _HELD[self.ends], _RELEASED[self.ends]
-        return {"b": (u, loose_u), "c": (u, loose_u), "w": (w, loose_w), "a": (w, loose_w), "m": (w, [])}
+        loose = {"b": (u, loose_u), "c": (u, loose_u), "w": (w, loose_w), "a": (w, loose_w)}
+        return loose | {"m": (w, []), "p_b": (u, []), "p_c": (u, [])}
 
     @cached_property
     def place(self) -> dict[str, slice]:
-        """Of u_b, u_c, w and a among the unknowns."""
+        """Of each among the unknowns."""
         found, start = {}, 0
         for name, (_, loose) in self._each.items():
             found[name] = slice(start, start + ORDER + len(loose))
@@ -62,7 +67,7 @@ class Shapes:
     @property
     def size(self) -> int:
         """How many unknowns there are."""
-        return self.place["m"].stop
+        return self.place["p_c"].stop
 
     @cached_property
     def is_held(self) -> NDArray[np.bool_]:
@@ -70,7 +75,7 @@ class Shapes:
         return np.concatenate([np.arange(ORDER + len(loose)) < ORDER for _, loose in self._each.values()])
 
     def is_of(self, which: str) -> NDArray[np.bool_]:
-        """Which unknowns are of u_b, u_c, w or a. Shape (size,)."""
+        """Which unknowns are of one of them. Shape (size,)."""
         found = np.zeros(self.size, bool)
         found[self.place[which]] = True
         return found
@@ -101,15 +106,20 @@ class Shapes:
         found[self.place[which]] = np.vstack([held, *(_derived(p, derivative)(x)[None] for p in loose)])
         return found
 
-    def slip(self, x: Array, weight: Array, derivative: int = 0) -> Array:
-        """The core's shear: (u_c - u_b)^2, 2 (u_c - u_b) w' and w'^2, integrated; or its derivative's.
+    def turning(self, x: Array, arms: Arms) -> Array:
+        """W' less what the faces' own shear takes off, as the core's shear has it. Shape (size, places)."""
+        below, above = arms
+        return self.rows("w", x, 1) - below * self.rows("p_b", x) - above * self.rows("p_c", x)
+
+    def slip(self, x: Array, weight: Array, arms: Arms) -> Array:
+        """The core's shear: (u_c - u_b)^2, 2 (u_c - u_b) t and t^2, integrated, t its faces' `turning`.
 
         Shape (3, size, size).
         """
-        across = self.rows("c", x, derivative) - self.rows("b", x, derivative)
-        slope = self.rows("w", x, derivative + 1)
-        crossed = _both(across, slope, weight)
-        return np.array([_both(across, across, weight), crossed + crossed.T, _both(slope, slope, weight)])
+        across = self.rows("c", x) - self.rows("b", x)
+        turning = self.turning(x, arms)
+        crossed = _both(across, turning, weight)
+        return np.array([_both(across, across, weight), crossed + crossed.T, _both(turning, turning, weight)])
 
 
 @dataclass(frozen=True)
@@ -117,11 +127,11 @@ class BeamMatrices:
     """Over all unknowns. Shapes (parts, size, size), (size,)."""
 
     K_0: Array
-    """Stretching of u_b and u_c, bending of both, and what a pull along is to w."""
+    """Stretching of u_b and u_c, bending of both as Euler has it, and what a pull along is to w."""
     K_1: Array
     """Three of slip, three of a free layer, three of what moving apart adds to slip, and stretch across."""
     M: Array
-    """Of w, u_b and u_c, three of the core between, and two of moving apart."""
+    """Of w, u_b and u_c, three of the core between, two of faces that turn, and seven of moving apart."""
     load: Array
     """Of a base that lifts with unit acceleration."""
 
@@ -133,7 +143,7 @@ def shapes_of(ends: str) -> Shapes:
 
 
 @lru_cache(maxsize=64)
-def matrices_of(ends: str, share: float = 0.0) -> BeamMatrices:
+def matrices_of(ends: str, share: float = 0.0, arms: Arms = NO_ARMS) -> BeamMatrices:
     """For unit coefficients; the substrate takes `share` of what the faces move apart.
 
     How a core stretches across is left out: it is one of its sizes.
@@ -143,6 +153,7 @@ def matrices_of(ends: str, share: float = 0.0) -> BeamMatrices:
     w, b, c = (s.rows(name, x) for name in ("w", "b", "c"))
     slope, bend, stretch = s.rows("w", x, 1), s.rows("w", x, 2), s.rows("b", x, 1)
     a, parting, bent_apart = (s.rows("a", x, d) for d in (0, 1, 2))
+    turning, below, above = s.turning(x, arms), s.rows("p_b", x), s.rows("p_c", x)
     m, rising = (s.rows("m", x, d) for d in (0, 1))
     across = c - b
 
@@ -166,15 +177,17 @@ def matrices_of(ends: str, share: float = 0.0) -> BeamMatrices:
         ),
         K_1=np.array(
             [
-                *(*s.slip(x, weight), squared(stretch), -mixed(stretch, bend), squared(bend)),
-                *(mixed(across, parting), mixed(slope, parting), squared(parting)),
-                *(mixed(across, rising), mixed(slope, rising), mixed(parting, rising), squared(rising)),
+                *(*s.slip(x, weight, arms), squared(stretch), -mixed(stretch, bend), squared(bend)),
+                *(mixed(across, parting), mixed(turning, parting), squared(parting)),
+                *(mixed(across, rising), mixed(turning, rising), mixed(parting, rising), squared(rising)),
                 np.zeros((s.size, s.size)),
             ]
         ),
         M=np.array(
             [
                 *(squared(w), squared(b), squared(c), squared(total), mixed(total, slope), squared(slope)),
+                squared(slope - share * parting - below),
+                squared(slope + (1 - share) * parting - above),
                 *(mixed(w, a), squared(a), mixed(w, m), mixed(a, m), squared(m)),
                 *(squared(across), mixed(across, slope)),
             ]
@@ -184,22 +197,22 @@ def matrices_of(ends: str, share: float = 0.0) -> BeamMatrices:
 
 
 @lru_cache(maxsize=8)
-def slip_by_pieces(ends: str) -> Array:
+def slip_by_pieces(ends: str, arms: Arms) -> Array:
     """Of `PIECES` of the beam, as `Shapes.slip` has it. Shape (pieces, 3, size, size)."""
     s, edges = shapes_of(ends), np.linspace(0, 1, PIECES + 1)
     x, weight = np.hstack([gauss(IN_A_PIECE, low, high) for low, high in pairwise(edges)])
     # Their polynomials at all places at once: at eight at a time, calls took longer than sums.
-    across, slope = (
+    across, turning = (
         rows.reshape(s.size, PIECES, IN_A_PIECE).swapaxes(0, 1)
-        for rows in (s.rows("c", x) - s.rows("b", x), s.rows("w", x, 1))
+        for rows in (s.rows("c", x) - s.rows("b", x), s.turning(x, arms))
     )
     weight = weight.reshape(PIECES, 1, IN_A_PIECE)
-    crossed = (across * weight) @ slope.swapaxes(1, 2)
+    crossed = (across * weight) @ turning.swapaxes(1, 2)
     return np.stack(
         [
             (across * weight) @ across.swapaxes(1, 2),
             crossed + crossed.swapaxes(1, 2),
-            (slope * weight) @ slope.swapaxes(1, 2),
+            (turning * weight) @ turning.swapaxes(1, 2),
         ],
         axis=1,
     )

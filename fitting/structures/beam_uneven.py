@@ -67,7 +67,7 @@ def loads_of_uneven(section: BeamSection, V: Array) -> dict[str, Array]:
 
 def _sheared(section: BeamSection, coefficients: Array, share: Array | float) -> Array:
     x, weight = gauss(2 * ORDER)
-    return np.tensordot(coefficients, section.shapes.slip(x, weight * share), axes=1)
+    return np.tensordot(coefficients, section.shapes.slip(x, weight * share, section.arms), axes=1)
 
 
 def _core_mass(section: BeamSection) -> float:

@@ -25,7 +25,7 @@ SANDWICH = Beam(0.2, 0.02, "clamped-free", ALUMINIUM, constraining=FOIL, core=CO
 @pytest.mark.parametrize("shape", [Polynomial((-0.5, 1)), Polynomial((-2 / 3, 4, -4))])
 def test_a_core_of_uneven_thickness_is_that_of_pieces_each_as_thick_as_it_is(shape):
     beam = replace(SANDWICH, slender=True)
-    pieces, size = slip_by_pieces(beam.section.ends), 0.3
+    pieces, size = slip_by_pieces(beam.section.ends, beam.section.arms), 0.3
 
     def slip(core):
         return np.array(replace(beam, core=core).section.coefficients[SLIP])
