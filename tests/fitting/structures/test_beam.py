@@ -198,8 +198,8 @@ SHEARED_BY_THEIR_CORE = {
         (0.00742, 0.04680, 0.09894, 0.15794),
     ),
 }
-"""Faces, core and length; frequencies and shares of the core in the energy of a solid in plane stress: 160 by
-11 elements with quadratic sides, finer towards the clamp. Faces without Poisson's ratio make no width felt."""
+"""Faces, core, length; frequencies, and shares of the core in the energy, of a solid in plane stress: 160 by
+11 elements with quadratic sides, finer towards the clamp. Without Poisson's ratio no width is felt."""
 
 
 @pytest.mark.parametrize("case", SHEARED_BY_THEIR_CORE)
