@@ -176,6 +176,11 @@ def coefficients(specimen: Specimen, reference: Specimen) -> Coefficients:
     )
 
 
+def substrate_coefficients(face: Face) -> Complex:
+    """Of `STIFFNESS`, of a substrate alone on the reference's sides, its axes the plate's. Shape (16,)."""
+    return np.concatenate([_stretch(face, 1.0, 1.0), _stretch(None, 1.0, 1.0), _bend(face)])
+
+
 def layers_of(specimen: Specimen) -> Array:
     """What `coefficients` asks of substrate, constraining layer and core, in the order of `_LAYER`.
 
