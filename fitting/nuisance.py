@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.plate_numbers import plate_numbers, tolerance
 from fitting.specimen import Specimen
-from fitting.tolerances import OF_CHANNELS, OF_THEORY, STATED, Unit, plate_numbers, tolerance
+from fitting.tolerances import OF_CHANNELS, OF_THEORY, STATED, Unit
 
 _UNHEARD = 1e-6
 """Share of a mode that the plate's motions carry, below which its ratio plays no part."""

@@ -12,6 +12,7 @@ from fitting.arrays import Array
 from fitting.edges import Edges, edges_of, named
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
+from fitting.patches import Patch
 
 Reading = Literal["relative", "absolute"]
 Drive = Literal["base", "force"]
@@ -116,22 +117,6 @@ class Core:
         if not self.glue:
             return 0.0
         return 1 / sum(g.thickness_m / (g.shear_pa * (1 + 1j * g.loss_factor)) for g in self.glue)
-
-
-@dataclass(frozen=True)
-class Patch:
-    """A rectangle of the plate that is treated."""
-
-    from_x_m: float
-    to_x_m: float
-    from_y_m: float
-    to_y_m: float
-
-    def common_m2(self, other: "Patch") -> float:
-        """Area they have in common."""
-        x = min(self.to_x_m, other.to_x_m) - max(self.from_x_m, other.from_x_m)
-        y = min(self.to_y_m, other.to_y_m) - max(self.from_y_m, other.from_y_m)
-        return max(x, 0.0) * max(y, 0.0)
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,8 @@ from math import exp, pi
 from typing import Any
 
 from fitting.arrays import Array
-from fitting.mesh import OF_PATCHES, shift_of
 from fitting.nuisance import Nuisance
+from fitting.patches import OF_PATCHES, shift_of
 from fitting.specimen import Glue, Specimen, StatedSpecimen
 from fitting.tolerances import ADDED
 

@@ -22,8 +22,9 @@ from fitting.identification.bare_plate import (
 from fitting.nuisance import Nuisance
 from fitting.nuisances import Nuisances
 from fitting.plate import Plate
+from fitting.plate_numbers import moved, plate_numbers
 from fitting.real_modes import real_modes
-from fitting.tolerances import STATED, moved, plate_numbers
+from fitting.tolerances import STATED
 from instrument.campaign.bench import synthetic_sweep
 from instrument.cli.main import run
 from instrument.models.identification import identify
