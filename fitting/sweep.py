@@ -53,6 +53,12 @@ class Sweep:
         """rad/s."""
         return 2 * np.pi * self.frequency_hz
 
+    @property
+    def relative_weight(self) -> Array:
+        """Their mean square is one: they choose, they do not change the noise. Shape (points,)."""
+        weight = np.ones(len(self)) if self.weight is None else self.weight
+        return np.asarray(weight / np.sqrt(np.mean(weight**2)))
+
     @cached_property
     def response_m_s(self) -> NDArray[Any]:
         """Velocity over measured base acceleration times the commanded one, where there is a reference."""
