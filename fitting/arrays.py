@@ -6,7 +6,11 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Mask = NDArray[np.bool_]
+"""Which of some points, true or false."""
+Integers = NDArray[np.intp]
+"""Numbers: of segments, sweeps, spots."""
 Indices = NDArray[np.intp]
+"""Places in another array."""
 Places = Indices | slice
 
 

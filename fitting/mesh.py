@@ -6,12 +6,11 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Indices
 from fitting.element import CORNERS, DOFS, WITH_GLUE, Rectangles, Shape
 from fitting.patches import Patch, shifts_of
 from fitting.specimen import Specimen
 
-Indices = NDArray[np.intp]
 _SLIVER = 0.02
 """Of an element's side: a narrower strip of treatment on it is left out, it would hardly hold its nodes."""
 

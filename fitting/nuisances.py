@@ -19,7 +19,7 @@ from fitting.nuisance import Nuisance, felt
 from fitting.nuisance_sums import Kept, SideBySide, between
 from fitting.parts import coefficients, loaded, names_of
 from fitting.patches import OF_PATCHES
-from fitting.placed import Masses, Placed, Points
+from fitting.placed import Masses, Placed, PlacedPoints
 from fitting.plate_numbers import moved
 from fitting.specimen import PlacedMass, Specimen
 from fitting.tolerances import PLATE
@@ -221,8 +221,8 @@ class Nuisances:
         return replace(self, each=(*self.each, *narrow.numbers), narrow=narrow)
 
     @cached_property
-    def _points(self) -> Points:
-        return Points(self.specimen, self.reference, self._places, self._sigma)
+    def _points(self) -> PlacedPoints:
+        return PlacedPoints(self.specimen, self.reference, self._places, self._sigma)
 
     @cached_property
     def _masses(self) -> Masses:

@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 import scipy.sparse as sp
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array, Complex, Indices
 from fitting.element import (
     CORNERS,
     G_X,
@@ -24,7 +24,7 @@ from fitting.element import (
     gauss_points,
     glue_stiffness,
 )
-from fitting.mesh import SHIFT_M, Cell, Indices, cells_of, is_turned, mesh_of
+from fitting.mesh import SHIFT_M, Cell, cells_of, is_turned, mesh_of
 from fitting.parts import (
     GLUE,
     MASS,

@@ -10,9 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.arrays import Array, Complex
-
-Integers = NDArray[np.intp]
+from fitting.arrays import Array, Complex, Indices, Integers, Mask
 
 _GAP = 1.5
 """Where no segment is named, a step in frequency by this ratio begins a new one."""
@@ -74,7 +72,7 @@ class Sweep:
             return self.std_m_s
         return np.asarray(self.std_m_s / np.abs(self.base_m_s2) * self.commanded_m_s2)
 
-    def take(self, points: Integers | NDArray[np.bool_]) -> "Sweep":
+    def take(self, points: Indices | Mask) -> "Sweep":
         """Some of the points."""
         arrays: dict[str, Any] = {
             name: value[points]
@@ -101,7 +99,7 @@ def segments_by_gap(frequency_hz: Array) -> Integers:
     return segment
 
 
-def resonance_points(sweep: Sweep) -> NDArray[np.bool_]:
+def resonance_points(sweep: Sweep) -> Mask:
     """The point of largest response in each segment. Shape (points,)."""
     size = np.abs(sweep.response_m_s) / sweep.commanded_m_s2
     peak = np.zeros(len(sweep), dtype=bool)
