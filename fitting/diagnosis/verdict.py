@@ -121,8 +121,8 @@ def judge(
 ) -> Judgement:
     """Weigh explanations.
 
-    `hidden`: effects that may not be named, fitted for comparison. `held_out`: error of one over noise on
-    data it has not seen, NaN where there are none. `kin`: of an explanation, what is in no catalogue.
+    `hidden`: effects that may not be named, fitted for comparison. `held_out`: error of an explanation over
+    noise on data it has not seen, NaN where there are none. `kin`: of one, what is in no catalogue.
     """
     every = best_of_each([none, *scored_fits])
     p = shares_of(every)
