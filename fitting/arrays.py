@@ -6,10 +6,15 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Mask = NDArray[np.bool_]
-Places = NDArray[np.intp] | slice
+"""Which of some points, true or false."""
+Integers = NDArray[np.intp]
+"""Numbers: of segments, sweeps, spots."""
+Indices = NDArray[np.intp]
+"""Places in another array."""
+Places = Indices | slice
 
 
-def as_slice(places: NDArray[np.intp]) -> Places:
+def as_slice(places: Indices) -> Places:
     """The same places; as a slice, which copies nothing, where they follow one another. Shape (any,)."""
     together = len(places) and np.all(np.diff(places) == 1)
     return slice(int(places[0]), int(places[-1]) + 1) if together else places

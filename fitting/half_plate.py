@@ -12,12 +12,11 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array, Complex, Indices
 from fitting.damping import LowRankDamping
 from fitting.linear import Chain, with_damping
 from fitting.plate import Plate
 
-Indices = NDArray[np.intp]
 Parity = Literal["even", "odd", "carried", "all"]
 
 

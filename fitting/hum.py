@@ -12,12 +12,10 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Indices, Mask
 from fitting.chances import chi2_density, chi2_median, f_above
 from fitting.noise import FEWEST, Noise, around, evening, groups_of, local_model
 from fitting.sweep import Sweep
-
-Points = NDArray[np.bool_]
 
 MAINS_HZ = (50.0, 60.0)
 """Europe's and America's."""
@@ -51,7 +49,7 @@ class HumSeen:
     """300 Hz alone is a multiple of both: it is then called 50 Hz."""
     multiples: tuple[int, ...]
     """Which of them are seen."""
-    points: Points
+    points: Mask
     """Those to set aside. Shape (points,)."""
     size_m_s: float
     """Largest deviation from the neighbours' curve, in `Sweep.response_m_s`."""
@@ -69,8 +67,8 @@ class _Deviations:
     """Over the curve."""
     chance: Array
     """Of as large a deviation by noise; 1 where nothing can be said."""
-    stands_out: Points
-    between: Points
+    stands_out: Mask
+    between: Mask
     """Whether neighbours lie on both sides."""
 
 
@@ -82,7 +80,7 @@ class _Channels:
     base: _Deviations | None
 
     @property
-    def in_base(self) -> Points:
+    def in_base(self) -> Mask:
         """Where the reference channel deviates more, and reads wrong: a base that truly moves is followed."""
         if self.base is None:
             return np.zeros(len(self.response.size), dtype=bool)
@@ -94,7 +92,7 @@ class _Channels:
         other = self.response if self.base is None else self.base
         return np.where(self.in_base, getattr(other, name), getattr(self.response, name))
 
-    def base_explains(self, points: Points) -> bool:
+    def base_explains(self, points: Mask) -> bool:
         """Whether the response at `points` deviates as a wrong reading of the base would make it."""
         if self.base is None:
             return False
@@ -134,7 +132,7 @@ def mains_hum(sweep: Sweep, noise: Noise) -> HumSeen | None:
     )
 
 
-def _channels(sweep: Sweep, noise: Noise, aside: Points) -> _Channels:
+def _channels(sweep: Sweep, noise: Noise, aside: Mask) -> _Channels:
     even = evening(sweep)
     response = _deviations(sweep, sweep.response_m_s * even, noise.std_m_s * even, aside)
     response = replace(response, size=response.size / even)
@@ -153,7 +151,7 @@ def _lines(f: Array) -> list[float]:
     return sorted(line for line in every if np.abs(f - line).min() <= _REACH_HZ)
 
 
-def _core(sweep: Sweep, line: float) -> Points:
+def _core(sweep: Sweep, line: float) -> Mask:
     """The points of every group where hum at `line` is largest."""
     apart = np.round(np.abs(sweep.frequency_hz - line), 6)
     core = apart <= _CORE_HZ
@@ -164,7 +162,7 @@ def _core(sweep: Sweep, line: float) -> Points:
     return core
 
 
-def _deviations(sweep: Sweep, reading: NDArray[Any], std: Array, aside: Points) -> _Deviations:
+def _deviations(sweep: Sweep, reading: NDArray[Any], std: Array, aside: Mask) -> _Deviations:
     count = len(sweep)
     size, relative = np.zeros((2, count), dtype=reading.dtype)
     chance, (stands_out, between) = np.ones(count), np.zeros((2, count), dtype=bool)
@@ -177,7 +175,7 @@ def _deviations(sweep: Sweep, reading: NDArray[Any], std: Array, aside: Points) 
     return _Deviations(size, relative, chance, stands_out, between)
 
 
-def _in_group(f: Array, v: NDArray[Any], std: Array, aside: Points) -> _Deviations | None:
+def _in_group(f: Array, v: NDArray[Any], std: Array, aside: Mask) -> _Deviations | None:
     """None where there are too few points away from multiples, or no noise at all."""
     lines = _lines(f)
     nearest = np.array([min(lines, key=lambda line: abs(line - at), default=np.inf) for at in f])
@@ -214,7 +212,7 @@ def _in_group(f: Array, v: NDArray[Any], std: Array, aside: Points) -> _Deviatio
     return _Deviations(v - curve, (v - curve) / curve, chance, stands_out, between)
 
 
-def _is_near(f: Array, apart: Array) -> Points:
+def _is_near(f: Array, apart: Array) -> Mask:
     """Where the curve reaches little beyond its neighbours, if at all: a sweep's end.
 
     `apart` has shape (points, neighbours).
@@ -222,7 +220,7 @@ def _is_near(f: Array, apart: Array) -> Points:
     return np.asarray(np.abs(apart).min(axis=1) <= np.maximum(2 * _REACH_HZ, _BEYOND * f))
 
 
-def _neighbours(f: Array, middle: Array, quiet: Points) -> NDArray[np.intp] | None:
+def _neighbours(f: Array, middle: Array, quiet: Mask) -> Indices | None:
     """The quiet points nearest to each, out of reach of its `middle`. Shape (points, neighbours)."""
     apart = np.abs(f - f[:, None])
     apart[~quiet[None, :] | (np.abs(f - middle[:, None]) <= _REACH_HZ)] = np.inf

@@ -2,20 +2,14 @@
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Indices
 from fitting.element import CORNERS, DOFS, WITH_GLUE, Rectangles, Shape
-from fitting.specimen import Patch, Specimen
-
-Indices = NDArray[np.intp]
-Moved = Literal["patch", "cut"]
-"""What of a patch is another than stated: where it lies, or how long it is cut."""
-OF_PATCHES: tuple[Moved, ...] = ("patch", "cut")
-"""Both, of each patch along x and along y."""
+from fitting.patches import Patch, shifts_of
+from fitting.specimen import Specimen
 
 _SLIVER = 0.02
 """Of an element's side: a narrower strip of treatment on it is left out, it would hardly hold its nodes."""
@@ -103,94 +97,14 @@ class Cell:
         return self.over is None or bool(self.over)
 
 
-@dataclass(frozen=True)
-class Shift:
-    """A patch laid elsewhere along x or y than stated, or cut longer about its middle."""
-
-    patch: int
-    axis: int
-    """0 for x, 1 for y."""
-    kind: Moved = "patch"
-
-    @property
-    def name(self) -> str:
-        """As results list it."""
-        return f"{self.kind}_{self.patch + 1}_{'xy'[self.axis]}"
-
-    def of(
-        self, specimen: Specimen, by_m: float, patches: tuple[Patch, ...] | None = None
-    ) -> tuple[Patch, ...]:
-        """The patches with it, or others of the same plate; edges that are the plate's stay."""
-        found = list(patches or specimen.patches)
-        sides = list(_sides(found[self.patch]))
-        for k, share in self.moving(specimen).items():
-            sides[k] += share * by_m
-        found[self.patch] = Patch(*sides)
-        return tuple(found)
-
-    def moving(self, specimen: Specimen) -> dict[int, float]:
-        """How far from x, to x, from y, to y move for each metre."""
-        inner = [k for k in _inner(specimen, specimen.patches[self.patch]) if k // 2 == self.axis]
-        if self.kind == "patch":
-            return dict.fromkeys(inner, 1.0)
-        # What ends at the plate's edge is as long as its other end is laid.
-        return dict(zip(inner, (-0.5, 0.5), strict=True)) if len(inner) > 1 else {}
-
-    def stated_m(self, specimen: Specimen) -> float:
-        """Where its first edge that moves is, or how long it is."""
-        low, high = _along(specimen.patches[self.patch], self.axis)
-        return high - low if self.kind == "cut" else (low, high)[next(iter(self.moving(specimen))) % 2]
-
-    def by_m(self, specimen: Specimen, stated: Specimen) -> float:
-        """How much further, or longer, it is than another specimen has it."""
-        pairs = zip(*(_along(s.patches[self.patch], self.axis) for s in (specimen, stated)), strict=True)
-        low, high = (now - then for now, then in pairs)
-        if self.kind == "cut":
-            return high - low
-        moving = [(low, high)[k % 2] for k in self.moving(stated)]
-        return sum(moving) / len(moving)
-
-
-def shift_of(name: str) -> Shift:
-    """The one that has a name."""
-    kind, patch, axis = name.split("_")
-    return Shift(int(patch) - 1, "xy".index(axis), "cut" if kind == "cut" else "patch")
-
-
-_ROUNDING_M = 1e-9
-"""A patch's edge so near to the plate's is the plate's."""
 SHIFT_M = 1e-4
 """How far patches are moved either way for what a shift does to first order."""
-
-
-def shifts_of(specimen: Specimen) -> tuple[Shift, ...]:
-    """What patches can be laid elsewhere, or cut otherwise; those that reach from edge to edge left out."""
-    each = (
-        Shift(k, axis, kind) for kind in OF_PATCHES for k in range(len(specimen.patches)) for axis in (0, 1)
-    )
-    return tuple(shift for shift in each if shift.moving(specimen))
 
 
 def is_turned(specimen: Specimen) -> bool:
     """Whether a face's own axes are not the plate's."""
     faces = (f for f in (specimen.substrate, specimen.constraining) if f is not None)
     return any(f.rolled is not None and not f.rolled.aligned for f in faces)
-
-
-def _sides(patch: Patch) -> tuple[float, float, float, float]:
-    return patch.from_x_m, patch.to_x_m, patch.from_y_m, patch.to_y_m
-
-
-def _along(patch: Patch, axis: int) -> tuple[float, float]:
-    sides = _sides(patch)
-    return sides[2 * axis], sides[2 * axis + 1]
-
-
-def _inner(specimen: Specimen, patch: Patch) -> list[int]:
-    x_0, x_1, y_0, y_1 = _sides(patch)
-    x, y = specimen.length_m - _ROUNDING_M, specimen.width_m - _ROUNDING_M
-    inside = (x_0 > _ROUNDING_M, x_1 < x, y_0 > _ROUNDING_M, y_1 < y)
-    return [k for k, moves in enumerate(inside) if moves]
 
 
 def cells_of(specimen: Specimen, mesh: Mesh) -> tuple[Cell, ...]:

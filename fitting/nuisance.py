@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.plate_numbers import plate_numbers, tolerance
 from fitting.specimen import Specimen
-from fitting.tolerances import OF_CHANNELS, OF_THEORY, STATED, Unit, plate_numbers, tolerance
+from fitting.tolerances import NUMBERS, OF_CHANNELS, Unit
 
 _UNHEARD = 1e-6
 """Share of a mode that the plate's motions carry, below which its ratio plays no part."""
@@ -19,7 +20,7 @@ class Nuisance:
     name: str
     """As results list it: `pickup_x`, `damping_1`."""
     kind: str
-    """Of `fitting.tolerances.STATED`, or `OF_THEORY`."""
+    """Of `fitting.tolerances.NUMBERS`."""
     sigma: float
     """Relative, m or s."""
     stated: float | None = None
@@ -28,7 +29,7 @@ class Nuisance:
     @property
     def unit(self) -> Unit:
         """Of `sigma`."""
-        return (STATED | OF_THEORY)[self.kind].unit
+        return NUMBERS[self.kind].unit
 
 
 def channels_felt(*, has_phase: bool) -> tuple[str, ...]:

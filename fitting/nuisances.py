@@ -14,14 +14,15 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.mesh import OF_PATCHES
 from fitting.narrow import NarrowResonances
 from fitting.nuisance import Nuisance, felt
 from fitting.nuisance_sums import Kept, SideBySide, between
 from fitting.parts import coefficients, loaded, names_of
-from fitting.placed import Masses, Placed, Points
+from fitting.patches import OF_PATCHES
+from fitting.placed import Masses, Placed, PlacedPoints
+from fitting.plate_numbers import moved
 from fitting.specimen import PlacedMass, Specimen
-from fitting.tolerances import PLATE, moved
+from fitting.tolerances import PLATE
 
 STEP = 1e-2
 """Step of differences, in standard deviations."""
@@ -220,8 +221,8 @@ class Nuisances:
         return replace(self, each=(*self.each, *narrow.numbers), narrow=narrow)
 
     @cached_property
-    def _points(self) -> Points:
-        return Points(self.specimen, self.reference, self._places, self._sigma)
+    def _points(self) -> PlacedPoints:
+        return PlacedPoints(self.specimen, self.reference, self._places, self._sigma)
 
     @cached_property
     def _masses(self) -> Masses:

@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 import scipy.sparse as sp
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array, Complex, Indices
 from fitting.element import (
     CORNERS,
     G_X,
@@ -24,7 +24,7 @@ from fitting.element import (
     gauss_points,
     glue_stiffness,
 )
-from fitting.mesh import SHIFT_M, Cell, Indices, cells_of, is_turned, mesh_of, shifts_of
+from fitting.mesh import SHIFT_M, Cell, cells_of, is_turned, mesh_of
 from fitting.parts import (
     GLUE,
     MASS,
@@ -38,9 +38,11 @@ from fitting.parts import (
     coefficients,
     names_of,
 )
+from fitting.patches import shifts_of
 from fitting.plate import Plate
+from fitting.plate_numbers import moved
 from fitting.specimen import Specimen
-from fitting.tolerances import STATED, kind_of, moved
+from fitting.tolerances import STATED, kind_of
 
 Rows = dict[str, Array]
 _STRETCH_C = tuple(name for name in STIFFNESS if name.startswith("stretch c"))

@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from fitting.arrays import Array, Complex
 from fitting.element import DOFS, GLUE_TURNS, THETA_X, THETA_Y, face_plane_stress
 from fitting.laws.constant import ConstantModulus
-from fitting.mesh import is_turned, shifts_of
-from fitting.specimen import Core, Face, Glue, Orthotropy, Patch, Specimen
+from fitting.mesh import is_turned
+from fitting.patches import Patch, shifts_of
+from fitting.specimen import Core, Face, Glue, Orthotropy, Specimen
 
 _LAYER = ("thickness_m", "young_pa", "poisson", "density_kg_m3", "loss_factor")
 _MEMBRANE = ("11", "22", "12", "66 yy", "66 xx", "66 xy")
@@ -109,50 +110,138 @@ def loaded(load: float | Array, part: Array) -> Array:
 
 def coefficients(specimen: Specimen, reference: Specimen) -> Coefficients:
     """Of a specimen on the mesh of another: the same number of elements, stretched."""
-    b, c, v = specimen.substrate, specimen.constraining, specimen.core
-    # How derivatives along either side scale, and areas.
-    rx, ry = reference.length_m / specimen.length_m, reference.width_m / specimen.width_m
-    area = 1 / (rx * ry)
-    sides = 2.0 if specimen.both_sides else 1.0
-    along = np.array([rx**4, ry**4, rx**2 * ry**2, rx**2 * ry**2])
-    bends = [_bend(b), sides * _bend(c)]
-    bend = bends[0] if reference.patches else bends[0] + bends[1]
-    K_0 = [_stretch(b, rx, ry), sides * _stretch(c, rx, ry), bend * along]
+    sides = _Sides.of(specimen, reference)
+    K_0 = sides.area * np.concatenate(
+        [*_of_faces(specimen, reference, sides), *_of_glue_and_pull(specimen, reference, sides)]
+    )
+    mass = _MassPerArea.of(specimen)
+    if specimen.core is None or specimen.constraining is None:
+        M = sides.area * np.array([mass.b, mass.b, *np.zeros(len(MASS) - 2)])
+        return Coefficients(np.asarray(K_0, complex), np.zeros(len(CORE)), M, mass.b * sides.area)
+    K_1, M = _of_core(specimen, reference, sides), _of_inertia(specimen, reference, sides)
+    if not reference.patches:
+        return Coefficients(np.asarray(K_0, complex), K_1, M, mass.whole * sides.area)
+    moved = np.array([shift.by_m(specimen, reference) for shift in shifts_of(reference)])
+    return Coefficients(
+        K_0=np.asarray(np.concatenate([K_0, moved * (1 + 1j * specimen.constraining.loss_factor)]), complex),
+        K_1=np.concatenate([K_1, moved]),
+        M=np.concatenate([M, moved]),
+        load=np.array([mass.b * sides.area, mass.treated * sides.area, *moved]),
+    )
+
+
+@dataclass(frozen=True)
+class _Sides:
+    """How derivatives along either side of the reference scale, and areas."""
+
+    rx: float
+    ry: float
+
+    @classmethod
+    def of(cls, specimen: Specimen, reference: Specimen) -> "_Sides":
+        return cls(reference.length_m / specimen.length_m, reference.width_m / specimen.width_m)
+
+    @property
+    def area(self) -> float:
+        return 1 / (self.rx * self.ry)
+
+    @property
+    def bending(self) -> Array:
+        """Of `_BENDING`."""
+        rx, ry = self.rx, self.ry
+        return np.array([rx**4, ry**4, rx**2 * ry**2, rx**2 * ry**2])
+
+    @property
+    def bending_turned(self) -> Array:
+        """Of `_BENDING_TURNED`."""
+        return np.array([self.rx**3 * self.ry, self.rx * self.ry**3])
+
+
+@dataclass(frozen=True)
+class _MassPerArea:
+    """In kg/m^2; of a treatment on both sides, of both."""
+
+    b: float
+    c: float
+    core: float
+    glue: float
+
+    @classmethod
+    def of(cls, specimen: Specimen) -> "_MassPerArea":
+        b, c, v = specimen.substrate, specimen.constraining, specimen.core
+        return cls(
+            b=b.density_kg_m3 * b.thickness_m,
+            c=_treated_sides(specimen) * (c.density_kg_m3 * c.thickness_m) if c is not None else 0.0,
+            core=_treated_sides(specimen) * v.density_kg_m3 * v.thickness_m if v is not None else 0.0,
+            glue=_treated_sides(specimen) * v.glue_mass_kg_m2 if v is not None else 0.0,
+        )
+
+    @property
+    def whole(self) -> float:
+        return self.b + self.c + self.core + self.glue
+
+    @property
+    def treated(self) -> float:
+        return self.c + self.core + self.glue
+
+
+def _treated_sides(specimen: Specimen) -> float:
+    return 2.0 if specimen.both_sides else 1.0
+
+
+def _of_faces(specimen: Specimen, reference: Specimen, sides: _Sides) -> list[Complex]:
+    """`STIFFNESS`, `OFF_AXIS` of turned faces, `PATCHED` and `PATCHED_OFF_AXIS` where there are patches."""
+    b, c, twice = specimen.substrate, specimen.constraining, _treated_sides(specimen)
+    rx, ry = sides.rx, sides.ry
+    stretch = [(_stretch(b, rx, ry), twice * _stretch(c, rx, ry))]
+    bend = [(_bend(b), twice * _bend(c), sides.bending)]
     if is_turned(reference):
-        turned = np.array([rx**3 * ry, rx * ry**3])
-        off = [_bend(b, turned=True), sides * _bend(c, turned=True)]
-        K_0 += [_stretch_turned(b, rx, ry), sides * _stretch_turned(c, rx, ry)]
-        K_0 += [(off[0] if reference.patches else off[0] + off[1]) * turned]
+        stretch.append((_stretch_turned(b, rx, ry), twice * _stretch_turned(c, rx, ry)))
+        bend.append((_bend(b, turned=True), twice * _bend(c, turned=True), sides.bending_turned))
+    found = []
+    for (K_b, K_c), (D_b, D_c, along) in zip(stretch, bend, strict=True):
+        found += [K_b, K_c, (D_b if reference.patches else D_b + D_c) * along]
     if reference.patches:
-        K_0 += [bends[1] * along]
-        K_0 += [off[1] * turned] if is_turned(reference) else []
-    if reference.has_glue and v is not None:
-        K_0 += [np.array([sides * v.glue_stiffness_pa_m])]
-    pulled = zip(specimen.axial_pa, (rx, ry), strict=True)
-    K_0 += [np.array([p * specimen.pulled_thickness_m * r**2]) for p, r in pulled if p is not None]
-    found = area * np.concatenate(K_0)
-    m_b, m_c = (f.density_kg_m3 * f.thickness_m if f is not None else 0.0 for f in (b, c))
-    if v is None or c is None:
-        M = area * np.array([m_b, m_b, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
-        return Coefficients(np.asarray(found, complex), np.zeros(len(CORE)), M, m_b * area)
-    H, m_v = v.thickness_m, sides * v.density_kg_m3 * v.thickness_m
-    m_c = sides * m_c
-    d = v.between_faces_m + (c.thickness_m + b.thickness_m) / 2
-    e = (c.thickness_m - b.thickness_m) / 2
-    core_0 = reference.core
+        found += [D_c * along for _, D_c, along in bend]
+    return found
+
+
+def _of_glue_and_pull(specimen: Specimen, reference: Specimen, sides: _Sides) -> list[Complex | Array]:
+    """`GLUE` where it slips, `PULLED` along clamps on opposite edges."""
+    found: list[Complex | Array] = []
+    if reference.has_glue and specimen.core is not None:
+        found += [np.array([_treated_sides(specimen) * specimen.core.glue_stiffness_pa_m])]
+    pulled = zip(specimen.axial_pa, (sides.rx, sides.ry), strict=True)
+    found += [np.array([p * specimen.pulled_thickness_m * r**2]) for p, r in pulled if p is not None]
+    return found
+
+
+def _of_core(specimen: Specimen, reference: Specimen, sides: _Sides) -> Array:
+    """`CORE`: with d between the faces' middles, gamma = (u_c - u_b + d w')/H."""
+    v, core_0 = specimen.core, reference.core
+    assert v is not None
     assert core_0 is not None
+    H, d, rx, ry = v.thickness_m, specimen.apart_m, sides.rx, sides.ry
     stretch = H / core_0.thickness_m * (1 - core_0.poisson) / (1 - v.poisson)
-    K_1 = area * np.array(
+    K_1 = sides.area * np.array(
         [1 / H, 1 / H, d / H * rx, d / H * ry, d**2 / H * rx**2, d**2 / H * ry**2, stretch * (rx * ry) ** 0.5]
     )
-    quarter = m_v / 4
-    glue = sides * v.glue_mass_kg_m2
-    whole, treated = m_b + m_c + m_v + glue, m_c + m_v + glue
-    M = area * np.array(
+    return _treated_sides(specimen) * K_1
+
+
+def _of_inertia(specimen: Specimen, reference: Specimen, sides: _Sides) -> Array:
+    """`MASS`, `W_TREATED` where there are patches, `GLUE` where it slips.
+
+    The core's middle moves as the mean of its two sides, (u_c + u_b + e w')/2.
+    """
+    b, c, mass = specimen.substrate, specimen.constraining, _MassPerArea.of(specimen)
+    assert c is not None
+    e, quarter, rx, ry = (c.thickness_m - b.thickness_m) / 2, mass.core / 4, sides.rx, sides.ry
+    M = sides.area * np.array(
         [
-            m_b if reference.patches else whole,
-            m_b,
-            m_c,
+            mass.b if reference.patches else mass.whole,
+            mass.b,
+            mass.c,
             quarter,
             quarter * e * rx,
             quarter * e * ry,
@@ -160,20 +249,16 @@ def coefficients(specimen: Specimen, reference: Specimen) -> Coefficients:
             quarter * (e * ry) ** 2,
         ]
     )
-    K_1 = sides * K_1
     if reference.patches:
-        M = np.append(M, treated * area)
+        M = np.append(M, mass.treated * sides.area)
     if reference.has_glue:
-        M = np.append(M, GLUE_TURNS * glue * area)
-    if not reference.patches:
-        return Coefficients(np.asarray(found, complex), K_1, M, whole * area)
-    moved = np.array([shift.by_m(specimen, reference) for shift in shifts_of(reference)])
-    return Coefficients(
-        K_0=np.asarray(np.concatenate([found, moved * (1 + 1j * c.loss_factor)]), complex),
-        K_1=np.concatenate([K_1, moved]),
-        M=np.concatenate([M, moved]),
-        load=np.array([m_b * area, treated * area, *moved]),
-    )
+        M = np.append(M, GLUE_TURNS * mass.glue * sides.area)
+    return M
+
+
+def substrate_coefficients(face: Face) -> Complex:
+    """Of `STIFFNESS`, of a substrate alone on the reference's sides, its axes the plate's. Shape (16,)."""
+    return np.concatenate([_stretch(face, 1.0, 1.0), _stretch(None, 1.0, 1.0), _bend(face)])
 
 
 def layers_of(specimen: Specimen) -> Array:

@@ -18,7 +18,7 @@ Placed = list[tuple[float, dict[int, float]]]
 
 
 @dataclass(frozen=True)
-class Points:
+class PlacedPoints:
     """Of a specimen. `z` has shape (numbers,), in standard deviations."""
 
     specimen: Specimen
@@ -59,7 +59,7 @@ class Masses:
     """Small known masses on a plate: what they change, and how that goes with their stated numbers."""
 
     each: tuple[PlacedMass, ...]
-    points: Points
+    points: PlacedPoints
 
     @property
     def _heave(self) -> float:

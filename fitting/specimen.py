@@ -12,6 +12,8 @@ from fitting.arrays import Array
 from fitting.edges import Edges, edges_of, named
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
+from fitting.patches import OF_PATCHES, Patch, shift_of
+from fitting.tolerances import OF_OWN_AXES, StatedNumber, StatedValue, number_of
 
 Reading = Literal["relative", "absolute"]
 Drive = Literal["base", "force"]
@@ -68,6 +70,11 @@ class Face:
     young_at_c: float = METAL_AT_C
     """The temperature that it is stated for."""
 
+    @property
+    def taken_per_k(self) -> float:
+        """Its modulus's change for a kelvin as stated, else a metal's."""
+        return METAL_PER_K if self.young_per_k is None else self.young_per_k
+
     def warmed(self, temperature_c: float | None, by_per_k: Array | float = 0.0) -> Array | float:
         """Factor on Young's modulus at a temperature, its change for a kelvin moved by so much.
 
@@ -75,8 +82,7 @@ class Face:
         """
         if temperature_c is None:
             return 1.0
-        per_k = METAL_PER_K if self.young_per_k is None else self.young_per_k
-        return 1 + (per_k + by_per_k) * (temperature_c - self.young_at_c)
+        return 1 + (self.taken_per_k + by_per_k) * (temperature_c - self.young_at_c)
 
 
 @dataclass(frozen=True)
@@ -116,22 +122,6 @@ class Core:
         if not self.glue:
             return 0.0
         return 1 / sum(g.thickness_m / (g.shear_pa * (1 + 1j * g.loss_factor)) for g in self.glue)
-
-
-@dataclass(frozen=True)
-class Patch:
-    """A rectangle of the plate that is treated."""
-
-    from_x_m: float
-    to_x_m: float
-    from_y_m: float
-    to_y_m: float
-
-    def common_m2(self, other: "Patch") -> float:
-        """Area they have in common."""
-        x = min(self.to_x_m, other.to_x_m) - max(self.from_x_m, other.from_x_m)
-        y = min(self.to_y_m, other.to_y_m) - max(self.from_y_m, other.from_y_m)
-        return max(x, 0.0) * max(y, 0.0)
 
 
 @dataclass(frozen=True)
@@ -181,6 +171,9 @@ class StatedSpecimen(Protocol):
     @property
     def modal_ratios(self) -> tuple[float, ...]:
         """Remaining viscous damping."""
+
+    def stated_number(self, name: str) -> StatedValue:
+        """What is stated of one number, named as results list it: `pickup_x`."""
 
 
 class BaseDriven:
@@ -394,3 +387,38 @@ class Specimen(Driven):
         if self.core is None:
             raise ValueError("a bare plate has no core to give a law to")
         return replace(self, core=replace(self.core, law=law))
+
+    def stated_number(self, name: str) -> StatedValue:
+        """As `StatedSpecimen` has it; of glue the first layer's, as all are moved by the same factor."""
+        number = number_of(name)
+        return number.valued(self._stated_si(name, number))
+
+    def _stated_si(self, name: str, number: StatedNumber) -> float:
+        if number.unstated is not None:
+            return number.unstated
+        if number.name in OF_PATCHES:
+            return shift_of(name).stated_m(self)
+        which = name.removeprefix(f"{number.name}_")
+        match number.name:
+            case "length" | "width":
+                return float(getattr(self, number.field))
+            case "pickup" | "force":
+                return float(getattr(self, number.field)["xy".index(which)])
+            case "axial":
+                return self.axial_pa["xy".index(which)] or 0.0
+            case "damping":
+                return self.modal_ratios[int(which) - 1]
+            case "mass":
+                return self.masses[int(which) - 1].mass_kg
+            case "place":
+                mass, axis = which.split("_")
+                return float(getattr(self.masses[int(mass) - 1], f"{axis}_m"))
+            case _:
+                return float(getattr(self._layer(number), number.field))
+
+    def _layer(self, number: StatedNumber) -> Face | Core | Glue | Orthotropy | None:
+        """That has a number."""
+        if number.layer == "glue":
+            return self.core.glue[0] if self.core is not None else None
+        layer: Face | Core | None = getattr(self, number.layer)
+        return layer.rolled if number.name in OF_OWN_AXES and isinstance(layer, Face) else layer

@@ -10,9 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.arrays import Array, Complex
-
-Integers = NDArray[np.intp]
+from fitting.arrays import Array, Complex, Indices, Integers, Mask
 
 _GAP = 1.5
 """Where no segment is named, a step in frequency by this ratio begins a new one."""
@@ -53,6 +51,12 @@ class Sweep:
         """rad/s."""
         return 2 * np.pi * self.frequency_hz
 
+    @property
+    def relative_weight(self) -> Array:
+        """Their mean square is one: they choose, they do not change the noise. Shape (points,)."""
+        weight = np.ones(len(self)) if self.weight is None else self.weight
+        return np.asarray(weight / np.sqrt(np.mean(weight**2)))
+
     @cached_property
     def response_m_s(self) -> NDArray[Any]:
         """Velocity over measured base acceleration times the commanded one, where there is a reference."""
@@ -68,7 +72,7 @@ class Sweep:
             return self.std_m_s
         return np.asarray(self.std_m_s / np.abs(self.base_m_s2) * self.commanded_m_s2)
 
-    def take(self, points: Integers | NDArray[np.bool_]) -> "Sweep":
+    def take(self, points: Indices | Mask) -> "Sweep":
         """Some of the points."""
         arrays: dict[str, Any] = {
             name: value[points]
@@ -95,7 +99,7 @@ def segments_by_gap(frequency_hz: Array) -> Integers:
     return segment
 
 
-def resonance_points(sweep: Sweep) -> NDArray[np.bool_]:
+def resonance_points(sweep: Sweep) -> Mask:
     """The point of largest response in each segment. Shape (points,)."""
     size = np.abs(sweep.response_m_s) / sweep.commanded_m_s2
     peak = np.zeros(len(sweep), dtype=bool)

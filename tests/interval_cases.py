@@ -18,9 +18,9 @@ from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.model_error import DRIFT, GAIN, model_error_at
 from fitting.plate import Plate
+from fitting.plate_numbers import moved, plate_numbers, tolerance
 from fitting.specimen import Core, Face, Specimen
 from fitting.sweep import Sweep
-from fitting.tolerances import moved, plate_numbers, tolerance
 from instrument.campaign.materials import draw_material
 
 NOISE = 0.003

@@ -147,11 +147,8 @@ class ManyResiduals:
     def _block(self, X: Array) -> Array:
         task, evidence = self.task, self.task.begun.evidence
         v = self.velocity(X)
-        off = (v if evidence.has_phase else np.abs(v)) - evidence.measured_m_s
-        parts = off / evidence.sigma_m_s
-        stacked = np.concatenate([parts.real, parts.imag], axis=1) if evidence.has_phase else parts.real
-        count = evidence.count
-        readings = evidence.whitening(stacked.T).T / task.worth[:count]
+        data = evidence.readings.data(evidence.readings.off(v) / evidence.sigma_m_s)
+        readings = evidence.whitening(data.T).T / task.worth[: evidence.count]
         at, J = self._others
         return np.hstack([readings, at + (X - task.mode) @ J.T])
 

@@ -73,15 +73,10 @@ def begin(
     points, every = problem.points, np.arange(len(sweep))
     model = SweepModel(problem.rational, every, sweep.commanded_m_s2, points.reads, points.at_rest)
     first = fit_direct(Residuals.of(sweep, noise, model), start)
-    laws: list[CoreLaw] = [first.law]
     inside = within_search(first.law, sweep.omega)
-    if inside is not first.law:
-        # A law alone may end at its limits, where numbers that are not quite as stated keep it.
-        laws.append(inside)
-    stated: CoreLaw = start
-    if not problem.specimen.exact:
-        laws = [BentLaw.over(one, sweep.frequency_hz, problem.freedom) for one in laws]
-        stated = BentLaw.over(stated, sweep.frequency_hz, problem.freedom)
+    # A law alone may end at its limits, where numbers that are not quite as stated keep it.
+    at_limits = inside is not first.law
+    laws = [_free_to_bend(problem, law) for law in ((first.law, inside) if at_limits else (first.law,))]
     problem = problem.with_narrow(laws[0])
     law, u, meets = laws[0], problem.as_stated, False
     v = model.velocity(law)
@@ -89,9 +84,7 @@ def begin(
         here = problem.condensed(law).around(law)
         evidence = Evidence.of(sweep, noise, model_error(here, reduced, law, v), v, bare)
         if not noise.is_known and len(u):
-            # Tolerances weigh against readings: those need a size, and their misfit is all there is.
-            dof = max(1, evidence.count - len(law.names))
-            evidence = evidence.scaled(float(np.linalg.norm(first.residuals) / np.sqrt(dof)))
+            evidence = _sized(evidence, first, law)
         if len(laws) > 1:
             rough = response_of(here, (), here.coarse)
             fits = [refit(rough, evidence, one, u, tolerance=ROUGH) for one in laws]
@@ -99,9 +92,9 @@ def begin(
             law, u, laws, meets = best.law, best.u, [best.law], _are_one(fits)
         none = polished(here, (), evidence, law, u)
         is_clear = meets and none.chi2_per_dof < SEARCH.unclear
-        if round == 0 and not is_clear and (inside is not first.law or none.chi2_per_dof > SEARCH.wrong):
+        if round == 0 and not is_clear and (at_limits or none.chi2_per_dof > SEARCH.wrong):
             # The law alone did what tolerances might do, and led to a valley of its own.
-            none = _from_elsewhere(here, evidence, stated, none, executor)
+            none = _from_elsewhere(here, evidence, _free_to_bend(problem, start), none, executor)
         omega = problem.coarse.nodes.omega
         moved = np.max(np.abs(none.law.modulus(omega) / law.modulus(omega) - 1))
         law, u = none.law, none.u
@@ -120,6 +113,22 @@ def ended(begun: Begun, executor: Executor = ALONE) -> Begun:
     """The same, its fit followed as far as is reported."""
     follow = at_rest if begun.is_clear else partial(followed, executor=executor)
     return replace(begun, none=follow(begun.problem, begun.evidence, begun.none))
+
+
+def _free_to_bend(problem: DiagnosisProblem, law: CoreLaw) -> CoreLaw:
+    """As it is fitted: that of an exact specimen is its formula."""
+    if problem.specimen.exact:
+        return law
+    return BentLaw.over(law, problem.sweep.frequency_hz, problem.freedom)
+
+
+def _sized(evidence: Evidence, first: Fit, law: CoreLaw) -> Evidence:
+    """With the noise that the law alone has left, where nobody knows of another.
+
+    Tolerances weigh against readings: those need a size, and their misfit is all there is.
+    """
+    dof = max(1, evidence.count - len(law.names))
+    return evidence.scaled(float(np.linalg.norm(first.residuals) / np.sqrt(dof)))
 
 
 def _are_one(fits: Sequence[Refitted]) -> bool:

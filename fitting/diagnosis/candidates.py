@@ -27,7 +27,7 @@ _NEAR_BY = 3.0
 
 @dataclass
 class Known:
-    """What a contender has found so far; None where nobody has asked."""
+    """What a candidate has found so far; None where nobody has asked."""
 
     starts: Sequence[Start] | None = None
     near: list[Refitted] | None = None
@@ -64,7 +64,7 @@ class CandidateFit:
         return replace(self._known)
 
     def learn(self, known: Known) -> None:
-        """What the same contender has found elsewhere."""
+        """What the same candidate has found elsewhere."""
         found = {field.name: getattr(known, field.name) for field in fields(known)}
         self._known = replace(self._known, **{k: v for k, v in found.items() if v is not None})
 

@@ -12,7 +12,7 @@ _SMALL = 1e-6
 
 
 class Channels:
-    """The channels of a task. `u` has shape (unknowns,), velocities (points,) where nothing else is said."""
+    """Of a problem. `u` has shape (unknowns,), velocities (points,) where nothing else is said."""
 
     def __init__(self, problem: DiagnosisProblem, unknowns: Unknowns) -> None:
         self._problem, self._unknowns = problem, unknowns

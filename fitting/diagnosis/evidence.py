@@ -1,6 +1,6 @@
 """Data a candidate is judged by: the sweep, whitened, and the bare plate's frequencies beside it."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -10,6 +10,7 @@ from fitting.diagnosis.whitening import SHARE, Whitening
 from fitting.effects.base import Effect
 from fitting.noise import Noise
 from fitting.nuisances import Nuisances
+from fitting.readings import Readings
 from fitting.specimen import Face
 from fitting.sweep import Sweep
 
@@ -83,7 +84,7 @@ class BareModes:
 class Evidence:
     """The readings, what each is worth, and the model's own error."""
 
-    measured_m_s: Complex | Array
+    readings: Readings
     sigma_m_s: Array
     """Noise and the white part of the model's error, weights counted in. Shape (points,)."""
     noise_m_s: Array
@@ -102,31 +103,34 @@ class Evidence:
         cls, sweep: Sweep, noise: Noise, nuisances: Complex, v: Complex, bare: BareModes | None
     ) -> "Evidence":
         """`nuisances` are changes of the prediction `v`, one a row. Shape (any, points)."""
-        weight = np.ones(len(sweep)) if sweep.weight is None else sweep.weight
-        weight = weight / np.sqrt(np.mean(weight**2))
+        weight = sweep.relative_weight
         if noise.is_known:
             sigma = np.hypot(noise.std_m_s, SHARE * np.abs(v)) / weight
         else:
             sigma = np.abs(sweep.response_m_s) / weight
             nuisances = 0 * nuisances
-        plain = cls(sweep.response_m_s, sigma, noise.std_m_s, np.zeros((1, 1)), noise.is_known, bare)
-        B = plain.over_sigma(v, nuisances).T
-        return cls(sweep.response_m_s, sigma, noise.std_m_s, B, noise.is_known, bare)
+        readings = Readings(sweep.response_m_s)
+        plain = cls(readings, sigma, noise.std_m_s, np.zeros((1, 1)), noise.is_known, bare)
+        return replace(plain, B=plain.over_sigma(v, nuisances).T)
+
+    @property
+    def measured_m_s(self) -> Complex | Array:
+        """What was read. Shape (points,)."""
+        return self.readings.measured_m_s
 
     @property
     def has_phase(self) -> bool:
         """Whether readings are phasors."""
-        return bool(np.iscomplexobj(self.measured_m_s))
+        return self.readings.has_phase
 
     @property
     def count(self) -> int:
         """Real numbers measured, the bare plate's not counted."""
-        return len(self.measured_m_s) * (2 if self.has_phase else 1)
+        return self.readings.count
 
     def residuals(self, v: Complex) -> Array:
         """Whitened (predicted - measured). Shape (count,)."""
-        z = (v if self.has_phase else np.abs(v)) - self.measured_m_s
-        return self.whitening(self._stack(z / self.sigma_m_s))
+        return self.whitening(self.readings.data(self.readings.off(v) / self.sigma_m_s))
 
     def jacobian(self, v: Complex, dv: Complex) -> Array:
         """Derivatives of `residuals`. Shape (count, parameters)."""
@@ -134,15 +138,13 @@ class Evidence:
 
     def over_sigma(self, v: Complex, dv: Complex) -> Array:
         """Changes of the prediction in standard deviations, parts side by side. Shape (..., count)."""
-        # d|v| = Re(conj(v) dv)/|v|
-        change = dv if self.has_phase else np.real(np.conj(v) * dv) / np.abs(v)
         # Times what is one over it: complex numbers divide slowly, and parts by themselves do not.
-        return self._stack(change) * self._per_sigma
+        return self.readings.data(self.readings.changes(v, dv)) * self._per_sigma
 
     @cached_property
     def _per_sigma(self) -> Array:
         """Of every datum. Shape (count,)."""
-        return self._each(1 / self.sigma_m_s)
+        return self.readings.each(1 / self.sigma_m_s)
 
     def bare_moves(self, effect: Effect, u: Array) -> Array:
         """Change of the bare plate's whitened residuals as an effect comes in. Shape (modes,), or none."""
@@ -154,46 +156,34 @@ class Evidence:
     def blunt(self) -> "Evidence":
         """The same readings taken for a few percent: wide valleys for a first descent."""
         sigma = np.maximum(self.sigma_m_s, _BLUNT * np.abs(self.measured_m_s))
-        return Evidence(
-            self.measured_m_s, sigma, self.noise_m_s, 0 * self.B[:, :1], self.scale_known, self.bare
-        )
+        return replace(self, sigma_m_s=sigma, B=0 * self.B[:, :1])
 
     def scaled(self, factor: float) -> "Evidence":
         """The same readings, noise and the white part of the model's error times a factor."""
-        return Evidence(
-            self.measured_m_s,
-            self.sigma_m_s * factor,
-            self.noise_m_s * factor,
-            self.B / factor,
-            self.scale_known,
-            self.bare,
+        return replace(
+            self,
+            sigma_m_s=self.sigma_m_s * factor,
+            noise_m_s=self.noise_m_s * factor,
+            B=self.B / factor,
         )
 
     def with_noise(self, noise_m_s: Array) -> "Evidence":
         """The same readings with another noise, the model's error as it is. Shape (points,)."""
         white = SHARE * np.abs(self.measured_m_s)
         times = np.hypot(noise_m_s, white) / np.hypot(self.noise_m_s, white)
-        B = self.B / self._each(times)[:, None]
-        return Evidence(self.measured_m_s, self.sigma_m_s * times, noise_m_s, B, self.scale_known, self.bare)
-
-    def _each(self, of_points: Array) -> Array:
-        """Of every datum. Shape (points,) to (count,)."""
-        return np.tile(of_points, 2) if self.has_phase else of_points
-
-    def _stack(self, z: Complex | Array) -> Array:
-        return np.concatenate([z.real, z.imag], axis=-1) if self.has_phase else np.real(z)
+        B = self.B / self.readings.each(times)[:, None]
+        return replace(self, sigma_m_s=self.sigma_m_s * times, noise_m_s=noise_m_s, B=B)
 
     def parts(self, points: Mask) -> Mask:
         """Which data belong to some points. Shape (data,), from (points,)."""
-        return np.tile(points, 2) if self.has_phase else points
+        return self.readings.which(points)
 
     def take(self, points: Mask) -> "Evidence":
         """Some of the points; the bare plate stays. `points` of shape (all points,), true or false."""
-        return Evidence(
-            self.measured_m_s[points],
-            self.sigma_m_s[points],
-            self.noise_m_s[points],
-            self.B[self.parts(points)],
-            self.scale_known,
-            self.bare,
+        return replace(
+            self,
+            readings=self.readings.take(points),
+            sigma_m_s=self.sigma_m_s[points],
+            noise_m_s=self.noise_m_s[points],
+            B=self.B[self.parts(points)],
         )

@@ -59,7 +59,7 @@ def model_error(problem: DiagnosisProblem, reduced: ReducedPlate | None, law: Co
 def own_errors(problem: DiagnosisProblem, reduced: ReducedPlate, law: CoreLaw, v: Complex) -> OwnErrors:
     """The same of a plate, its theory's apart from its channels'. Shape of `v` (points,).
 
-    Where the task's plate is condensed to laws like this one, that serves.
+    Where the problem's plate is condensed to laws like this one, that serves.
     """
     assert isinstance(problem.specimen, Specimen)
     omega, index = np.unique(problem.points.omega, return_inverse=True)

@@ -287,7 +287,7 @@ def points_of(sweep: Sweep, specimen: StatedSpecimen) -> Points:
 
 
 def spans_of(problem: DiagnosisProblem, effects: Sequence[Effect]) -> list[Span]:
-    """What a task's plate must span for some effects and for what is stated to sit on it."""
+    """What a problem's plate must span for some effects and for what is stated to sit on it."""
     spans = {s.name: s for e in effects for s in e.spans}
     if problem.nuisances.masses:
         spans |= {s.name: s for s in AddedMassEffect.spans}

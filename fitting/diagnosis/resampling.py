@@ -39,7 +39,7 @@ class Again:
 
     problem: DiagnosisProblem
     remade: Callable[[Sweep], DiagnosisProblem]
-    """The task of some of the points."""
+    """The problem of some of the points."""
     reduced: ReducedPlate | None
     effects: Sequence[Effect]
     bare: BareModes | None

@@ -29,7 +29,7 @@ from fitting.laws import CoreLaw
 
 
 class SweepResponse:
-    """The sweep of a task under a law and effects.
+    """The sweep of a problem under a law and effects.
 
     `u` holds the stated numbers in standard deviations, then the effects' unknowns, one after the other.
     """

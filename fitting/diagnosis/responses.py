@@ -1,4 +1,4 @@
-"""The response that belongs to a task: of one specimen, or of several under one law."""
+"""The response that belongs to a problem: of one specimen, or of several under one law."""
 
 from collections.abc import Sequence
 
@@ -11,7 +11,7 @@ from fitting.effects.base import Effect
 def response_of(
     problem: DiagnosisProblem, effects: Sequence[Effect], grid: NodeGrid | None = None
 ) -> SweepResponse:
-    """Under some effects; `grid` is the task's coarse one for a first look."""
+    """Under some effects; `grid` is the problem's coarse one for a first look."""
     if isinstance(problem, SeveralProblem):
         return SeveralResponse(problem, effects, coarse=grid is not None)
     return SweepResponse(problem, effects, grid)

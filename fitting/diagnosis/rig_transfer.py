@@ -104,17 +104,17 @@ def rig_transfer(problem: SeveralProblem, evidence: Evidence, none: Refitted) ->
         return None
     t = np.log(problem.sweep.frequency_hz)
     taken = thinned(t, problem.file_of_points)
-    task = _linear(problem, evidence, none, taken)
-    own, _ = _likeliest(task, common=False)
-    both, best = _likeliest(task, common=True)
+    linear = _linear(problem, evidence, none, taken)
+    own, _ = _likeliest(linear, common=False)
+    both, best = _likeliest(linear, common=True)
     if both - own < NATS:
         return None
-    task, both, best = _settled(problem, evidence, none, taken, (task, both, best))
-    solved = np.linalg.solve(task.covariance(best), task.data)
+    linear, both, best = _settled(problem, evidence, none, taken, (linear, both, best))
+    solved = np.linalg.solve(linear.covariance(best), linear.data)
     across = best.common(t, t[taken])
     n = len(taken)
     ln_g = across @ solved[:n] + 1j * (across @ solved[n:])
-    off = _from_the_others(task, best, problem.sweep.segment[taken])
+    off = _from_the_others(linear, best, problem.sweep.segment[taken])
     return RigTransfer(best, both - own, ln_g, off, taken)
 
 
@@ -133,8 +133,8 @@ def _settled(
     there = none
     for _ in range(_STEPS):
         there = _moved(problem, evidence, there, latest[0], latest[2])
-        task = _linear(problem, evidence, there, taken)
-        before, latest = latest, (task, *_likeliest(task, common=True))
+        linear = _linear(problem, evidence, there, taken)
+        before, latest = latest, (linear, *_likeliest(linear, common=True))
         likeliest = max(likeliest, latest, key=lambda one: one[1])
         if abs(latest[1] - before[1]) < _SETTLED:
             break
@@ -173,11 +173,11 @@ def _linear(
 
 
 def _moved(
-    problem: SeveralProblem, evidence: Evidence, none: Refitted, task: _Linear, w: Wandering
+    problem: SeveralProblem, evidence: Evidence, none: Refitted, linear: _Linear, w: Wandering
 ) -> Refitted:
     """Where law and stated numbers go by a linear step, the transfer allowed for."""
-    J = np.concatenate([task.by_x.real, task.by_x.imag], axis=1)
-    x = J @ np.linalg.solve(task.covariance(w), task.data)
+    J = np.concatenate([linear.by_x.real, linear.by_x.imag], axis=1)
+    x = J @ np.linalg.solve(linear.covariance(w), linear.data)
     plain, bend = none.law.search_widths, none.law.bend_count
     n = len(plain)
     logs = np.log(none.law.values)
@@ -188,7 +188,7 @@ def _moved(
     return kept(response_of(problem, none.effects), evidence, law, x[n + bend : n + bend + len(none.u)])
 
 
-def _likeliest(task: _Linear, *, common: bool) -> tuple[float, Wandering]:
+def _likeliest(linear: _Linear, *, common: bool) -> tuple[float, Wandering]:
     """Log evidence with the prior of the sizes, and the sizes. Without `common` there is no g."""
 
     def wandering(x: Array) -> Wandering:
@@ -197,7 +197,7 @@ def _likeliest(task: _Linear, *, common: bool) -> tuple[float, Wandering]:
 
     def cost(x: Array) -> float:
         prior = np.sum(((x - np.log(_TYPICAL)) / _SPREAD) ** 2) / 2
-        return float(prior - task.log_evidence(wandering(x)))
+        return float(prior - linear.log_evidence(wandering(x)))
 
     start = np.full(4 if common else 2, np.log(_TYPICAL))
     found = minimize(
@@ -206,12 +206,12 @@ def _likeliest(task: _Linear, *, common: bool) -> tuple[float, Wandering]:
     return -float(found.fun), wandering(found.x)
 
 
-def _from_the_others(task: _Linear, w: Wandering, segment: NDArray[np.intp]) -> Array:
-    C, y = task.covariance(w), task.data
+def _from_the_others(linear: _Linear, w: Wandering, segment: NDArray[np.intp]) -> Array:
+    C, y = linear.covariance(w), linear.data
     off = np.zeros(len(segment))
     for k in np.unique(segment):
         inside: Mask = np.tile(segment == k, 2)
         known = np.linalg.solve(C[np.ix_(~inside, ~inside)], y[~inside])
         there = (C[np.ix_(inside, ~inside)] @ known)[: int(inside.sum()) // 2]
-        off[segment == k] = 100 * np.expm1(there - task.r.real[segment == k])
+        off[segment == k] = 100 * np.expm1(there - linear.r.real[segment == k])
     return off

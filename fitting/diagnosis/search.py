@@ -151,7 +151,7 @@ class Search:
         return temper(self._none, best.fitted, self._alone) if self.evidence.scale_known else 1.0
 
     def allowed(self, scored: ScoredFit) -> float:
-        """Chi-square per degree of freedom that the formulas of a trial's effects may leave."""
+        """Chi-square per degree of freedom that the formulas of an explanation's effects may leave."""
         dof = max(1, scored.fitted.data - scored.fitted.parameter_count)
         return 1 + form_error(self._none, scored.fitted, self._alone) / dof
 
@@ -180,7 +180,7 @@ class Search:
         self._validations |= {t.fitted: v for t, v in zip(scored_fits, said, strict=True)}
 
     def validation(self, scored: ScoredFit) -> Validation:
-        """What a trial says of data it has not seen."""
+        """What an explanation says of data it has not seen."""
         if scored.fitted not in self._validations:
             self._validations[scored.fitted] = self.work.held_out(scored.fitted)
         return self._validations[scored.fitted]

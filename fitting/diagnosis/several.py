@@ -73,7 +73,7 @@ class SeveralProblem(DiagnosisProblem):
         *,
         stays: Sequence[int] | None = None,
     ) -> "SeveralProblem":
-        """One task of several, `of` these files, a file each by default.
+        """One problem of several, `of` these files, a file each by default.
 
         `stays`: of every member the first one whose specimen it is, which stayed where it is, spot and all.
         Raises `OutsideModel` where they cannot be fitted together.

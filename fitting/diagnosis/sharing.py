@@ -48,7 +48,7 @@ def shared(
     for k, m in enumerate(members):
         at = []
         for n in m.nuisances.each:
-            key: tuple[object, ...] = (n.name, n.sigma, stated_number(m.specimen, n)[0])
+            key: tuple[object, ...] = (n.name, n.sigma, stated_number(m.specimen, n).in_si)
             if n.kind in CHANNELS:
                 key = (n.name, of[k])
             elif n.kind in OF_EACH_CHAIN:

@@ -28,7 +28,7 @@ class Singles:
         """Rough fits that have been followed to their end, and the chi-square they had to come down to."""
 
     def best(self) -> list[ScoredFit]:
-        """One trial of each effect, best first."""
+        """One scored fit of each effect, best first."""
         self._first_pass()
         ahead = [best for name in self._ahead() for best in self._work.best_near(name)]
         # All in one go as far as it is known what is to be followed: hands then end at the same time.

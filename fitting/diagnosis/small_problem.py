@@ -1,4 +1,4 @@
-"""The task of one sweep of a small structure: exact at every point, no grid between."""
+"""The problem of one sweep of a small structure: exact at every point, no grid between."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

@@ -121,17 +121,16 @@ def judge(
 ) -> Judgement:
     """Weigh explanations.
 
-    `hidden`: effects that may not be named, fitted for comparison. `held_out`: error of a trial over noise on
-    data it has not seen, NaN where there are none. `kin`: of an explanation, what is in no catalogue.
+    `hidden`: effects that may not be named, fitted for comparison. `held_out`: error of an explanation over
+    noise on data it has not seen, NaN where there are none. `kin`: of one, what is in no catalogue.
     """
     every = best_of_each([none, *scored_fits])
     p = shares_of(every)
     order = np.argsort(-p, kind="stable")
     ranked = [(every[k], float(p[k])) for k in order]
     visible = [t for t, _ in _group(ranked) if not hidden & set(t.names)]
-    named, nothing = [t for t in visible if t.names], next(share for t, share in ranked if not t.names)
-    of_best = next((share for t, share in ranked if named and t is named[0]), 0.0)
-    if not named or nothing > max(VERDICT.least_doubted, VERDICT.favoured * of_best):
+    named = [t for t in visible if t.names]
+    if not named or _may_be_none(ranked, named[0]):
         weighed = _Weighed(ranked, hidden)
         if none.fails or not visible:
             return _unknown(weighed, none)
@@ -147,10 +146,22 @@ def judge(
         return _unknown(weighed, best, why)
     alone = all(set(best.names) <= set(t.names) for t, _ in weighed.group) and not weighed.doubted
     sure = len(best.names) < 2 or held_out(best) < held_out(none)
+    certain = alone and sure and _is_firm(best)
+    return weighed.judgement("effect" if certain else "ambiguous", best, confirmed=sure)
+
+
+def _may_be_none(ranked: Sequence[tuple[ScoredFit, float]], best: ScoredFit) -> bool:
+    """Whether that nothing is there is likely enough beside the best that may be named."""
+    nothing = next(share for t, share in ranked if not t.names)
+    of_best = next(share for t, share in ranked if t is best)
+    return nothing > max(VERDICT.least_doubted, VERDICT.favoured * of_best)
+
+
+def _is_firm(best: ScoredFit) -> bool:
+    """Whether nothing about an explanation itself keeps it from being certain."""
     # Beside another, what stands in for something leaves room for anything, refused or not.
-    doubtful = best.stands_in or best.unsized
-    firm = (len(best.names) < 2 or not doubtful) and best.strains is None and not best.too_large
-    return weighed.judgement("effect" if alone and sure and firm else "ambiguous", best, confirmed=sure)
+    leaves_room = len(best.names) > 1 and (best.stands_in or best.unsized)
+    return not leaves_room and best.strains is None and not best.too_large
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.effects.along_a_beam import AlongABeam
 from fitting.effects.base import ONE_PIECE, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -87,8 +88,8 @@ class AddedMassEffect(Effect):
         return f"a mass of {1e3 * u['mass']:.2g} g sits {near(u)}"
 
 
-class MassOnBeamEffect(AddedMassEffect):
-    """On a beam, that knows no place across it."""
+class MassOnBeamEffect(AlongABeam, AddedMassEffect):
+    """On a beam."""
 
     parameters = AddedMassEffect.parameters[:2]
     spans = ()
@@ -105,9 +106,6 @@ class MassOnBeamEffect(AddedMassEffect):
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         lower, upper = Effect.limits(self, plate)
         return lower, np.minimum(upper, [np.inf, plate.length_m])
-
-    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
-        return super().change(plate, np.array([*u, 0.0]))
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"a mass of {1e3 * u['mass']:.2g} g sits at {1e3 * u['x']:.0f} mm"

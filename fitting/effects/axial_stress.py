@@ -12,8 +12,8 @@ from fitting.effects.given import Points
 from fitting.effects.number_off import moved
 from fitting.effects.other_plates import changed_to, forces
 from fitting.effects.span import Span
+from fitting.plate_numbers import moved as restated
 from fitting.specimen import Specimen
-from fitting.tolerances import moved as restated
 
 _STRESSES_PA = (-3e6, 20e6)
 """Whose motions are spanned. A choice."""

@@ -7,7 +7,7 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.effects.base import BASE, PLATE_AND_BEAM, Effect, EffectParameter
 from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.effects.span import Span
+from fitting.effects.span import UNIT_RESPONSE, Span
 
 
 class Pitch(Span):
@@ -19,7 +19,7 @@ class Pitch(Span):
         return -(full.loose.M @ full.pitching)[:, None]
 
     def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
-        return 0.3 * full.unit(answers)
+        return UNIT_RESPONSE * full.unit(answers)
 
 
 class BaseRockingEffect(Effect):

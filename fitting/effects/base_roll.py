@@ -10,7 +10,7 @@ from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import Points
-from fitting.effects.span import Span
+from fitting.effects.span import UNIT_RESPONSE, Span
 from fitting.element import THETA_X, V_C, W
 
 _MOST_RAD_M = 10.0
@@ -33,7 +33,7 @@ class Roll(Span):
         return -(full.loose.M @ rolling(full))[:, None]
 
     def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
-        return 0.3 * full.unit(answers)
+        return UNIT_RESPONSE * full.unit(answers)
 
 
 def rolling(full: FullPlate) -> Array:

@@ -24,6 +24,8 @@ from fitting.specimen import Specimen
 
 _SPANNED = (4e12, 1e13, 3e13, 1e14, 1e15)
 """N/m^3, from softer than a clamp ought to be to nearly rigid."""
+STARTS_N_M3 = (5e13, 1.5e13)
+"""To begin with: of a size that matters, and a third of it, from where soft clamps are near. A choice."""
 
 
 class YieldingRoot(ClampSpan):
@@ -93,7 +95,9 @@ class ClampComplianceEffect(Effect):
     source = "elastic foundation of the root face, e.g. MacBain and Genin, J. Sound Vib. 27 (1973)"
     needs = CLAMP
     parameters = (
-        EffectParameter("k", "N/m^3", 1e12, 1e16, 5e13, logarithmic=True, neutral=float("inf"), mounting=1.0),
+        EffectParameter(
+            "k", "N/m^3", 1e12, 1e16, STARTS_N_M3[0], logarithmic=True, neutral=float("inf"), mounting=1.0
+        ),
     )
     spans = (YieldingRoot(),)
     unexplained_share = 0.003
@@ -104,7 +108,7 @@ class ClampComplianceEffect(Effect):
         return None if "root" in plate.group else "the plate has no clamp"
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.array([k]) for k in (5e13, 1.5e13)]
+        return [np.array([k]) for k in STARTS_N_M3]
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         return Change(K=springs(plate, u))

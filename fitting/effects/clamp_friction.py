@@ -7,7 +7,7 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.effects.base import CLAMP, PLATE_AND_BEAM, Effect, EffectParameter
 from fitting.effects.change import Change
-from fitting.effects.clamp_compliance import ClampComplianceEffect, springs
+from fitting.effects.clamp_compliance import STARTS_N_M3, ClampComplianceEffect, springs
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
 
@@ -36,7 +36,7 @@ class ClampFrictionEffect(Effect):
         return ClampComplianceEffect().objection(points, plate)
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.array([k, 0.1]) for k in (5e13, 1.5e13)]
+        return [np.array([k, 0.1]) for k in STARTS_N_M3]
 
     def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
         return ((ClampComplianceEffect(), u[:1]),)

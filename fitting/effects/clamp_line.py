@@ -13,7 +13,7 @@ from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import Points
 from fitting.effects.number_off import moved
 from fitting.effects.other_plates import changed_to, forces
-from fitting.effects.span import Span
+from fitting.effects.span import UNIT_RESPONSE, Span
 from fitting.specimen import Specimen
 
 _MOUNTING_M = 3e-4
@@ -45,7 +45,7 @@ class Length(Span):
     def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
         few = at.both.shape[1] * len(_SCALES)
         rows = full.unit(answers[:, few:])
-        return np.hstack([answers[:, :few], 0.3 * rows])
+        return np.hstack([answers[:, :few], UNIT_RESPONSE * rows])
 
 
 def with_length(specimen: Specimen, length_m: float) -> Specimen:

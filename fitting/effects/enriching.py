@@ -23,12 +23,21 @@ from fitting.progress import Report, unheard
 SNAPSHOTS = 12
 """Points of frequency and modulus that are solved in full, each a factorisation. A choice; `TOLERANCE` is of
 what they span."""
-USUAL_HZ = 420.0
-"""As far as these reach."""
+_LOWEST_HZ, USUAL_HZ = 12.0, 420.0
+"""From where to where these reach: a laboratory plate's first resonances (decision 30)."""
+_SOFTEST_PA, _STIFFEST_PA = 1e5, 1e7
+"""Storage moduli between which they are: the middle of `fitting.domain.MODULI_PA`. A choice."""
+_LOSSY = 1 + 0.6j
+"""Over the storage modulus: of a core that damps well. A choice."""
+_R2 = (0.7549, 0.5698)
+"""1/p and 1/p^2 of the plastic number, p^3 = p + 1, to four places: multiples of them fill a square evenly.
+Roberts, The unreasonable effectiveness of quasirandom sequences (2018)."""
 _FURTHER, _BEYOND = 6, 1.05
 """Snapshots from there on where a sweep goes further, and to what multiple of its reach (decision 30)."""
 TOLERANCE = 3e-3
 """Of a typical change, what may be missed; the reading's error goes with its square."""
+_TOLERANCE_ODD = 1e-4
+"""The same of what pushes at the spots stir of motions odd in y: all effects that twist a plate need it."""
 
 
 def enriched(
@@ -51,7 +60,10 @@ def enriched(
             progress(0.8 * len(found) / len(points))
         own = [first.orthonormal(first.of(full.lift @ basis))]
         most = _MOST_ODD * (full.loads.shape[1] - 1)
-        own += [odd.leading([each[1]["plate"] for each in found], None, 1e-4, most) for odd in halves[1:]]
+        own += [
+            odd.leading([each[1]["plate"] for each in found], None, _TOLERANCE_ODD, most)
+            for odd in halves[1:]
+        ]
         for half, ending, known in zip(halves, _ENDINGS, own, strict=False):
             half.groups[f"plate{ending}"] = known
 
@@ -91,14 +103,22 @@ def reach_over(frequency_hz: Array) -> float:
 
 
 def _points(reach_hz: float) -> list[tuple[float, complex]]:
-    """Frequencies from 12 Hz on, moduli from 0.1 to 10 MPa, lossy; a low-discrepancy set."""
-    s = (0.5 + np.arange(SNAPSHOTS) * 0.7549) % 1
-    omega = list(2 * np.pi * 12 * 35.0**s)
+    """Frequencies in rad/s and lossy moduli in Pa, both spread by their logarithms."""
+    s = _spread(SNAPSHOTS, _R2[0])
+    omega = list(2 * np.pi * _LOWEST_HZ * (USUAL_HZ / _LOWEST_HZ) ** s)
     if reach_hz > USUAL_HZ:
         t = (0.5 + np.arange(_FURTHER)) / _FURTHER
         omega += list(2 * np.pi * USUAL_HZ * (_BEYOND * reach_hz / USUAL_HZ) ** t)
-    m = (0.5 + np.arange(len(omega)) * 0.5698) % 1
-    return [(float(w), complex(1e5 * 100.0**n * (1 + 0.6j))) for w, n in zip(omega, m, strict=True)]
+    m = _spread(len(omega), _R2[1])
+    return [
+        (float(w), complex(_SOFTEST_PA * (_STIFFEST_PA / _SOFTEST_PA) ** n * _LOSSY))
+        for w, n in zip(omega, m, strict=True)
+    ]
+
+
+def _spread(count: int, step: float) -> Array:
+    """One coordinate of the R2 sequence, from its middle. Shape (count,)."""
+    return np.asarray((0.5 + np.arange(count) * step) % 1)
 
 
 def _responses(

@@ -15,6 +15,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.effects.added_mass import PLACE, AddedMassEffect, MassOnBeamEffect, PointMass, near
+from fitting.effects.along_a_beam import AlongABeam
 from fitting.effects.base import ONE_PIECE, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -93,9 +94,9 @@ class LoosePartEffect(Effect):
             load=-np.sqrt(m) * part,
         )
 
-    def coming_in(self, plate: EnrichedReducedPlate, u: Array) -> Change:
-        w = plate.row(u[3], u[4])
-        return Change(M=u[0] * np.outer(w, w), load=-u[0] * w)
+    def coming_in(self, plate: EnrichedReducedPlate, u: Array) -> Change | None:
+        ((mass, its),) = self.within(u)
+        return mass.change(plate, its)
 
     def sharply(self, omega: Array, u: Array) -> Complex:
         k = 1 + 1j * u[2]
@@ -112,8 +113,8 @@ class LoosePartEffect(Effect):
         )
 
 
-class LoosePartOnBeamEffect(LoosePartEffect):
-    """On a beam, that knows no place across it."""
+class LoosePartOnBeamEffect(AlongABeam, LoosePartEffect):
+    """On a beam."""
 
     parameters = LoosePartEffect.parameters[:4]
     spans = ()
@@ -137,12 +138,6 @@ class LoosePartOnBeamEffect(LoosePartEffect):
         lower, upper = Effect.limits(self, plate)
         lower[0], upper[3] = _LEAST_KG, plate.length_m
         return lower, upper
-
-    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
-        return super().change(plate, np.array([*u, 0.0]))
-
-    def coming_in(self, plate: EnrichedReducedPlate, u: Array) -> Change:
-        return super().coming_in(plate, np.array([*u, 0.0]))
 
     def story(self, u: Mapping[str, float]) -> str:
         return (

@@ -12,9 +12,9 @@ import numpy as np
 import scipy.linalg as la
 import scipy.sparse as sp
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array, Complex, Indices
 from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.effects.released_root import Indices, ReleasedRoot, along_line
+from fitting.effects.released_root import ReleasedRoot, along_line
 from fitting.linear import times
 from fitting.mesh import treated_nodes
 

@@ -15,11 +15,9 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array, Complex, Indices
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.linear import times
-
-Indices = NDArray[np.intp]
 
 _PAIRS = 5
 """Of an even and an odd polynomial along the root, for each of a node's degrees of freedom."""

@@ -8,6 +8,11 @@ import scipy.sparse as sp
 from fitting.arrays import Array, Complex
 from fitting.effects.full_plate import FullPlate, Snapshot
 
+UNIT_RESPONSE = 0.3
+"""What a response of unit size counts for where forces say nothing of how large an effect makes it: motions
+count down to `enriching.TOLERANCE` of a typical change, so that a hundredth of such a response is left out. A
+choice."""
+
 
 class Span:
     """Motions a family of effects needs beside those of the unchanged plate, and matrices it works with."""

@@ -5,12 +5,13 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.effects.along_a_beam import AlongABeam
 from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import Points
-from fitting.effects.span import Span
+from fitting.effects.span import UNIT_RESPONSE, Span
 
 _AROUND_M = ((8e-3, 0.0), (-8e-3, 0.0), (0.0, 8e-3), (0.0, -8e-3))
 """Pushes about the pickup: between them the answer at a shifted spot is nearly linear. A choice."""
@@ -34,7 +35,7 @@ class Spot(Span):
         )
 
     def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
-        return 0.3 * full.unit(answers)
+        return UNIT_RESPONSE * full.unit(answers)
 
 
 class SpotOffsetEffect(Effect):
@@ -65,7 +66,7 @@ class SpotOffsetEffect(Effect):
         return f"the laser's spot is off by ({1e3 * u['dx']:+.1f}, {1e3 * u['dy']:+.1f}) mm along x and y"
 
 
-class SpotOnBeamEffect(SpotOffsetEffect):
+class SpotOnBeamEffect(AlongABeam, SpotOffsetEffect):
     """Reading at x + dx of a beam."""
 
     parameters = SpotOffsetEffect.parameters[:1]
@@ -73,9 +74,6 @@ class SpotOnBeamEffect(SpotOffsetEffect):
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.array([3e-3])]
-
-    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
-        return super().change(plate, np.array([*u, 0.0]))
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"the laser's spot is off by {1e3 * u['dx']:+.1f} mm along the beam"

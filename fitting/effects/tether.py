@@ -13,6 +13,7 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.effects.added_mass import PLACE, PointMass, near
+from fitting.effects.along_a_beam import AlongABeam
 from fitting.effects.base import ONE_PIECE, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -67,8 +68,8 @@ class TetherEffect(Effect):
         return f"{_puller(u)} pulls at the plate {near(u)} ({spring})"
 
 
-class TetherOfBeamEffect(TetherEffect):
-    """Of a beam, that knows no place across it."""
+class TetherOfBeamEffect(AlongABeam, TetherEffect):
+    """Of a beam."""
 
     parameters = TetherEffect.parameters[:3]
     spans = ()
@@ -81,9 +82,6 @@ class TetherOfBeamEffect(TetherEffect):
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         lower, upper = Effect.limits(self, plate)
         return lower, np.minimum(upper, [np.inf, np.inf, plate.length_m])
-
-    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
-        return super().change(plate, np.array([*u, 0.0]))
 
     def story(self, u: Mapping[str, float]) -> str:
         return (

@@ -8,7 +8,7 @@ import scipy.sparse as sp
 from fitting.arrays import Array
 from fitting.effects.base import ROOT, Effect, EffectParameter
 from fitting.effects.change import Change
-from fitting.effects.clamp_compliance import ClampComplianceEffect, root_springs
+from fitting.effects.clamp_compliance import STARTS_N_M3, ClampComplianceEffect, root_springs
 from fitting.effects.clamp_span import RootSpan
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
@@ -79,7 +79,7 @@ class UnevenClampEffect(Effect):
         return None if "uneven" in plate.group else "the plate has no clamp"
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.array([k, ratio]) for k in (5e13, 1.5e13) for ratio in (4.0, 0.25)]
+        return [np.array([k, ratio]) for k in STARTS_N_M3 for ratio in (4.0, 0.25)]
 
     def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
         return ((ClampComplianceEffect(), u[:1]),)

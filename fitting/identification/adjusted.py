@@ -2,14 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import exp, pi
-from typing import Any
+from math import exp
 
 from fitting.arrays import Array
-from fitting.mesh import OF_PATCHES, shift_of
 from fitting.nuisance import Nuisance
-from fitting.specimen import Glue, Specimen, StatedSpecimen
-from fitting.tolerances import ADDED
+from fitting.specimen import StatedSpecimen
+from fitting.tolerances import ADDED, NUMBERS, StatedValue
 
 
 @dataclass(frozen=True)
@@ -25,17 +23,6 @@ class Adjusted:
     pull: float
     """(found - stated) in tolerances."""
     unit: str
-
-
-_LAYERS = {
-    "young": ("young_pa", 1e-9, "GPa"),
-    "thickness": ("thickness_m", 1e3, "mm"),
-    "density": ("density_kg_m3", 1.0, "kg/m^3"),
-    "poisson": ("poisson", 1.0, "1"),
-    "young_y": ("young_y_pa", 1e-9, "GPa"),
-    "shear": ("shear_pa", 1e-9, "GPa"),
-    "angle": ("angle_rad", 180 / pi, "deg"),
-}
 
 
 def adjusted(
@@ -62,45 +49,6 @@ def is_relative(n: Nuisance) -> bool:
     return n.unit == "1" and n.kind not in ADDED
 
 
-def stated_number(specimen: StatedSpecimen, n: Nuisance) -> tuple[float, float, str]:
-    """The number in SI, and its unit in results with the factor to it."""
-    if n.stated is not None:
-        return n.stated, 1.0, "Hz" if n.kind == "resonance" else "1"
-    if not isinstance(specimen, Specimen):
-        return specimen.stated_number(n.kind)  # type: ignore[attr-defined]
-    if n.kind in ("length", "width"):
-        return getattr(specimen, f"{n.kind}_m"), 1e3, "mm"
-    if n.kind in ("pickup", "force"):
-        place = getattr(specimen, f"{n.kind}_m")
-        return place["xy".index(n.name[-1])], 1e3, "mm"
-    if n.kind == "damping":
-        return specimen.modal_ratios[int(n.name.split("_")[1]) - 1], 1e2, "%"
-    if n.kind == "mass":
-        return specimen.masses[int(n.name.split("_")[1]) - 1].mass_kg, 1e3, "g"
-    if n.kind == "place":
-        mass = specimen.masses[int(n.name.split("_")[1]) - 1]
-        return getattr(mass, f"{n.name[-1]}_m"), 1e3, "mm"
-    if n.kind == "axial":
-        return specimen.axial_pa["xy".index(n.name[-1])] or 0.0, 1e-6, "MPa"
-    if n.kind == "gain":
-        return 1.0, 1.0, "1"
-    if n.kind == "delay":
-        return 0.0, 1e6, "us"
-    if n.kind == "phase":
-        return 0.0, 180 / pi, "deg"
-    if n.kind in OF_PATCHES:
-        return shift_of(n.name).stated_m(specimen), 1e3, "mm"
-    layer, _, quantity = n.kind.partition("_")
-    field, factor, unit = _LAYERS[quantity]
-    if n.kind == "glue_shear":
-        # As its file has it: glue is a hundredth of what a face is.
-        factor, unit = 1e-6, "MPa"
-    stated: Any = _glue(specimen) if layer == "glue" else getattr(specimen, layer)
-    owner = stated if hasattr(stated, field) else stated.rolled
-    return getattr(owner, field), factor, unit
-
-
-def _glue(specimen: Specimen) -> Glue:
-    """The first one: all are moved by the same factor."""
-    assert specimen.core is not None
-    return specimen.core.glue[0]
+def stated_number(specimen: StatedSpecimen, n: Nuisance) -> StatedValue:
+    """What is stated of it; of one that no specimen states, what the fit began with."""
+    return specimen.stated_number(n.name) if n.stated is None else NUMBERS[n.kind].valued(n.stated)

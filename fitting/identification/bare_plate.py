@@ -20,8 +20,8 @@ from fitting.errors import TooFewPoints
 from fitting.part_matrices import projected_parts
 from fitting.parts import coefficients, names_of
 from fitting.plate import Plate
+from fitting.plate_numbers import moved, tolerance
 from fitting.specimen import Specimen
-from fitting.tolerances import moved, tolerance
 
 FREQUENCY_SCATTER = 5e-4
 """Standard deviation of ln f: remounting and reading 0.03 %, the plate model 0.04 %."""

@@ -56,7 +56,7 @@ def check_determined(residuals: Residuals, law: CoreLaw) -> None:
     """Refuse what no fit can answer."""
     if not law.names:
         raise TooFewPoints(f"core law {law.kind} has no parameter to identify, choose another law")
-    if len(residuals.measured_m_s) < 2:
+    if len(residuals.sigma_m_s) < 2:
         raise TooFewPoints(
             f"1 point cannot carry the {len(law.names)} parameters of {law.kind}, expected more than that"
         )
@@ -88,12 +88,12 @@ def _minimise(residuals: Residuals, start: CoreLaw, *, rough: bool = False) -> O
 def _candidates(residuals: Residuals, law: CoreLaw) -> list[CoreLaw]:
     """The best of a low-discrepancy set over the law's search ranges, judged by amplitude at a few points."""
     low, high = np.log([q.search for q in law.limits]).T
-    few = residuals.take(np.unique(np.linspace(0, len(residuals.measured_m_s) - 1, _LOOK_AT).astype(np.intp)))
+    few = residuals.take(np.unique(np.linspace(0, len(residuals.sigma_m_s) - 1, _LOOK_AT).astype(np.intp)))
     laws = [law.with_logs(low + u * (high - low)) for u in _spread(len(low), CANDIDATES)]
     omega = few.model.rational.omega
     many = few.model.rational.displacement(np.array([one.modulus(omega) for one in laws]))
     size = np.abs(few.model.velocities(many))
-    misfit = np.abs(np.log(size / np.abs(few.measured_m_s))).mean(axis=1)
+    misfit = np.abs(np.log(size / np.abs(few.readings.measured_m_s))).mean(axis=1)
     return [laws[k] for k in np.argsort(misfit)[:STARTS]]
 
 

@@ -2,16 +2,12 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
-from fitting.arrays import Array
+from fitting.arrays import Array, Complex, Indices, Mask
 from fitting.identification.model import SweepModel
 from fitting.laws import CoreLaw
 from fitting.noise import Noise
+from fitting.readings import Readings
 from fitting.sweep import Sweep
-
-Points = NDArray[np.intp] | NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -19,56 +15,44 @@ class Residuals:
     """(predicted - measured) / sigma; real and imaginary parts one after the other."""
 
     model: SweepModel
-    measured_m_s: NDArray[np.complex128] | Array
+    readings: Readings
     sigma_m_s: Array
     weight: Array
-    """Relative, their mean square one: they choose, they do not change the noise. Shape (points,)."""
+    """`Sweep.relative_weight`. Shape (points,)."""
 
     @classmethod
     def of(cls, sweep: Sweep, noise: Noise, model: SweepModel) -> "Residuals":
         """Residuals of a sweep with its noise and the file's weights."""
-        weight = np.ones(len(sweep)) if sweep.weight is None else sweep.weight
-        weight = weight / np.sqrt(np.mean(weight**2))
-        return cls(model, sweep.response_m_s, noise.std_m_s, weight)
-
-    @property
-    def has_phase(self) -> bool:
-        """Whether the data are phasors."""
-        return bool(np.iscomplexobj(self.measured_m_s))
+        return cls(model, Readings(sweep.response_m_s), noise.std_m_s, sweep.relative_weight)
 
     @property
     def weights(self) -> Array:
         """Of every residual. Shape (count,)."""
-        return np.tile(self.weight, 2) if self.has_phase else self.weight
+        return self.readings.each(self.weight)
 
     @property
     def count(self) -> int:
         """Real data: two a phasor."""
-        return len(self.measured_m_s) * (2 if self.has_phase else 1)
+        return self.readings.count
 
     def __call__(self, law: CoreLaw) -> Array:
         """Shape (count,)."""
-        return self._stack(self._compare(self.model.velocity(law)))
+        return self._of(self.model.velocity(law))
 
     def with_jacobian(self, law: CoreLaw) -> tuple[Array, Array]:
         """Residuals and their derivatives to the log parameters. Shapes (count,), (count, parameters)."""
         v, dv = self.model.with_derivatives(law)
-        return self._stack(self._compare(v)), self.whiten(v, dv).T
+        return self._of(v), self.whiten(v, dv).T
 
-    def whiten(self, v: NDArray[np.complex128], dv: NDArray[np.complex128]) -> Array:
+    def whiten(self, v: Complex, dv: Complex) -> Array:
         """How residuals change with changes `dv` of the prediction `v`. Shape (..., count)."""
-        # d|v| = Re(conj(v) dv)/|v|
-        change = dv if self.has_phase else np.real(np.conj(v) * dv) / np.abs(v)
-        return self._stack(change * (self.weight / self.sigma_m_s))
+        return self.readings.data(self.readings.changes(v, dv) * (self.weight / self.sigma_m_s))
 
-    def take(self, points: Points) -> "Residuals":
-        """Some of the points."""
+    def take(self, points: Mask | Indices) -> "Residuals":
+        """Some of the points: numbers, or of shape (points,), true or false."""
         return Residuals(
-            self.model.take(points), self.measured_m_s[points], self.sigma_m_s[points], self.weight[points]
+            self.model.take(points), self.readings.take(points), self.sigma_m_s[points], self.weight[points]
         )
 
-    def _compare(self, v: NDArray[np.complex128]) -> NDArray[np.complex128] | Array:
-        return ((v if self.has_phase else np.abs(v)) - self.measured_m_s) * (self.weight / self.sigma_m_s)
-
-    def _stack(self, z: NDArray[np.complex128] | Array) -> Array:
-        return np.concatenate([z.real, z.imag], axis=-1) if self.has_phase else np.real(z)
+    def _of(self, v: Complex) -> Array:
+        return self.readings.data(self.readings.off(v) * (self.weight / self.sigma_m_s))

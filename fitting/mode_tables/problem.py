@@ -22,6 +22,7 @@ from fitting.mode_tables.build import with_own_error
 from fitting.mode_tables.member import Member
 from fitting.nuisance import Nuisance
 from fitting.nuisances import Nuisances
+from fitting.readings import Readings
 
 OF_EACH_TABLE = ("mass", "length", "width", "damping")
 """Kinds of stated numbers that are another one in every specimen's table, though they are stated alike."""
@@ -103,7 +104,7 @@ class ModalProblem:
         # One lab has read all of them alike.
         read = [np.broadcast_to(m.otherwise, (2, len(m.table.mode))) / m.std for m in self.members]
         B[:, -1] = np.hstack(read).ravel()
-        return Evidence(measured, sigma, sigma, B, scale_known)
+        return Evidence(Readings(measured), sigma, sigma, B, scale_known)
 
     def response(self, effects: Sequence[Effect] = ()) -> "ModalResponse":
         """What the modes are under some effects."""

@@ -9,9 +9,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array, Complex, Integers
 from fitting.diagnosis.plate_poles import PlatePoles
-from fitting.sweep import Integers
 
 _SHARE = 0.25
 """Of the distance to the nearest pole, between two candidates."""

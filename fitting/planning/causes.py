@@ -13,11 +13,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Integers
 from fitting.planning.choice import with_reading
 from fitting.planning.sensitivity import Sensitivity
 from fitting.planning.signatures import Signature
-from fitting.sweep import Integers
 
 _STARTS = 3
 """Of an effect with a place: so many places stand for all."""

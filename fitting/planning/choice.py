@@ -9,10 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Integers
 from fitting.planning.aims import Aims
 from fitting.planning.sensitivity import Sensitivity
-from fitting.sweep import Integers
 
 _POWER = 4
 """Of the variances in the sum that a step is chosen by: high enough for the worst to count most. A choice."""

@@ -9,9 +9,9 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.mesh import Mesh
 from fitting.nuisance import Nuisance
 from fitting.nuisances import Nuisances
+from fitting.plate_numbers import tolerance
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
-from fitting.tolerances import tolerance
 
 Place = tuple[float, float]
 

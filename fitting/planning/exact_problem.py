@@ -6,7 +6,7 @@ are few.
 
 import numpy as np
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Integers
 from fitting.diagnosis.nodes import Nodes
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid, points_of
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -14,7 +14,7 @@ from fitting.nuisances import nuisances_of
 from fitting.rational import rational_sweep
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
-from fitting.sweep import Integers, Sweep
+from fitting.sweep import Sweep
 
 
 def exact_problem(

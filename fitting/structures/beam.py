@@ -16,7 +16,6 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.model_error import ModelError
-from fitting.specimen import METAL_PER_K
 from fitting.structures.beam_apart import APART_WITHIN, open_by_poisson
 from fitting.structures.beam_coefficients import Number, coefficients
 from fitting.structures.beam_error import (
@@ -29,7 +28,14 @@ from fitting.structures.beam_parts import carrying, parts_of
 from fitting.structures.beam_section import PARTS, BeamSection
 from fitting.structures.small import Parts
 from fitting.structures.stated_beam import StatedBeam
-from fitting.tolerances import OF_TEMPERATURE, STATED, STATED_PER_K
+from fitting.tolerances import (
+    OF_TEMPERATURE,
+    STATED,
+    STATED_PER_K,
+    StatedNumber,
+    StatedValue,
+    number_of,
+)
 
 _BY_PLACE = 4.0
 """What a share of the span off is to a mass, relative: twice the slope of a cantilever's first modes at its
@@ -152,24 +158,24 @@ class Beam(StatedBeam):
         stated = 0.0 if self.exact else self.tolerances.get("core_poisson", STATED["core_poisson"].typical)
         return float(np.hypot(APART_WITHIN, open_by_poisson(v.thickness_m, self.width_m, v.poisson, stated)))
 
-    def stated_number(self, kind: str) -> tuple[float, float, str]:
-        """In SI, with the factor to the unit of results."""
-        others = {"gain": (1.0, 1.0, "1"), "delay": (0.0, 1e6, "us"), "phase": (0.0, 180 / np.pi, "deg")}
-        others |= {"length": (self.length_m, 1e3, "mm"), "width": (self.width_m, 1e3, "mm")}
-        others |= {name: (x, 1e3, "mm") for name, x in self.places.items()}
-        others["core_stretch"], others["metal_loss"] = (1.0, 1.0, "1"), (0.0, 1.0, "1")
-        others["axial"] = 0.0, 1e-6, "MPa"
-        others["mass"] = sum(m.mass_kg for m in self.masses), 1e3, "g"
-        others["held_width"] = (self.held_width_m if self.held_width else 0.0, 1e3, "mm")
-        if kind in others:
-            return others[kind]
-        layer, _, quantity = kind.partition("_")
-        if quantity == "young_per_k":
-            stated = getattr(self, layer).young_per_k
-            return METAL_PER_K if stated is None else stated, 100.0, "%/K"
-        name, factor, unit = {
-            "young": ("young_pa", 1e-9, "GPa"),
-            "thickness": ("thickness_m", 1e3, "mm"),
-            "density": ("density_kg_m3", 1.0, "kg/m^3"),
-        }[quantity]
-        return getattr(getattr(self, layer), name), factor, unit
+    def stated_number(self, name: str) -> StatedValue:
+        """As `StatedSpecimen` has it."""
+        number = number_of(name)
+        return number.valued(self._stated_si(number))
+
+    def _stated_si(self, number: StatedNumber) -> float:
+        if number.unstated is not None:
+            return number.unstated
+        if number.name in self.places:
+            return self.places[number.name]
+        match number.name:
+            case "length" | "width":
+                return float(getattr(self, number.field))
+            case "axial":
+                return 0.0
+            case "mass":
+                return sum(m.mass_kg for m in self.masses)
+            case "held_width":
+                return self.held_width_m if self.held_width else 0.0
+            case _:
+                return float(getattr(getattr(self, number.layer), number.field))

@@ -10,7 +10,7 @@ with the mass.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import radians
 from types import MappingProxyType
 from typing import ClassVar
@@ -22,7 +22,7 @@ from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import BaseDriven, Core, Reading
 from fitting.structures.small import Parts, as_coefficients
-from fitting.tolerances import STATED
+from fitting.tolerances import KG, STATED, StatedValue, number_of
 
 ORDER = 6
 """Polynomials over the thickness: the wave is then exact to 1e-9 where kt < 2."""
@@ -139,18 +139,12 @@ class ShearPair(BaseDriven):
         """The wave in the pad is exact; what its edges do is stated. Shape (points,) each."""
         return
 
-    def stated_number(self, kind: str) -> tuple[float, float, str]:
-        """In SI, with the factor to the unit of results."""
-        return {
-            "mass": (self.mass_kg, 1.0, "kg"),
-            "area": (self.area_m2, 1e6, "mm^2"),
-            "core_thickness": (self.core.thickness_m, 1e3, "mm"),
-            "core_density": (self.core.density_kg_m3, 1.0, "kg/m^3"),
-            "gain": (1.0, 1.0, "1"),
-            "delay": (0.0, 1e6, "us"),
-            "phase": (0.0, 180 / np.pi, "deg"),
-            "free_edges": (1.0, 1.0, "1"),
-        }[kind]
+    def stated_number(self, name: str) -> StatedValue:
+        """As `StatedSpecimen` has it; its mass in kilograms, where what sits on a plate weighs grams."""
+        number = number_of(name)
+        owner = self.core if number.layer == "core" else self
+        in_si = number.unstated if number.unstated is not None else float(getattr(owner, number.field))
+        return (replace(number, shown=KG) if number.name == "mass" else number).valued(in_si)
 
 
 def disc(outer_m: float, inner_m: float = 0.0) -> tuple[float, float]:

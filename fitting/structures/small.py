@@ -90,9 +90,6 @@ class SmallSpecimen(StatedSpecimen, Protocol):
         Shape (points,) each.
         """
 
-    def stated_number(self, kind: str) -> tuple[float, float, str]:
-        """A number in SI, the factor to the unit of results, and that unit."""
-
 
 @dataclass(frozen=True)
 class SmallNuisances(Nuisances):

@@ -31,6 +31,7 @@ from fitting.laws import CoreLaw
 from fitting.noise import Noise
 from fitting.nuisance import Nuisance
 from fitting.progress import unheard
+from fitting.readings import Readings
 from fitting.reduced import ReducedPlate
 
 
@@ -169,7 +170,7 @@ def _side_by_side(begun: Sequence[Begun]) -> Evidence:
             B[rows, column : column + m] = e.B[part * n : (part + 1) * n]
         column += m
     return Evidence(
-        np.concatenate([e.measured_m_s for e in each]),
+        Readings(np.concatenate([e.measured_m_s for e in each])),
         np.concatenate([e.sigma_m_s for e in each]),
         np.concatenate([e.noise_m_s for e in each]),
         B,

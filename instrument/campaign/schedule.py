@@ -3,12 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Integers
 from instrument.campaign.draws import order_of_time
-
-Integers = NDArray[np.intp]
 
 _BOUNDS_HZ = (((14.0, 14.0), (25.0, 26.0)), ((85.0, 90.0), (112.0, 115.0)), ((250.0, 258.0), (300.0, 310.0)))
 """Of the three resonance regions: lowest and highest beginning, lowest and highest end."""

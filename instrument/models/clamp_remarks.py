@@ -1,9 +1,9 @@
 """What is to be said of how a specimen is held: clamps hold a beam's width, and two of them pull."""
 
 from fitting.digits import two_digits
+from fitting.plate_numbers import tolerance
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen, Beam
-from fitting.tolerances import tolerance
 
 _PULLED = 12.30 / 4.730**4
 """Of w^2, for N L^2/(E I): the first mode of a beam clamped at both ends (L^2 int phi'^2 over int phi^2;

@@ -5,8 +5,8 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.bent_law import BentLaw
 from fitting.laws import CoreLaw
-from fitting.mesh import shifts_of
 from fitting.noise import noise_of, scatter_over_stated, shortest_group
+from fitting.patches import shifts_of
 from fitting.specimen import Specimen
 from fitting.strays import BEYOND, strays
 from fitting.structures import AnySpecimen

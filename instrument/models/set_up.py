@@ -17,11 +17,11 @@ from fitting.effects.full_plate import FullPlate
 from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import CLAMP, MatchedModes, match_modes
 from fitting.mesh import Mesh
+from fitting.plate_numbers import tolerance
 from fitting.rational import RationalSweep, RationalSweeps, rational_sweep, rational_sweeps
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
-from fitting.tolerances import tolerance
 from fitting.unstated_damping import with_unstated_damping
 from instrument.models.cache import cached
 from instrument.models.specimen_models import Models

@@ -2,9 +2,10 @@
 
 from math import pi
 
+from fitting.plate_numbers import plate_numbers, tolerance
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
-from fitting.tolerances import OF_CHANNELS, OF_TEMPERATURE, PLATE, STATED, plate_numbers, tolerance
+from fitting.tolerances import OF_CHANNELS, OF_TEMPERATURE, PLATE, STATED
 from instrument.facts.check import ToleranceUsed
 
 _UNITS = {

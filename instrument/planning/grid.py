@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array, Complex, Integers
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.model_error import model_error
@@ -20,7 +20,7 @@ from fitting.planning.exact_problem import exact_problem
 from fitting.planning.signatures import Signature, signatures_of
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen, StatedSpecimen
-from fitting.sweep import Integers, Sweep
+from fitting.sweep import Sweep
 from instrument.models.set_up import Hammer, set_up
 from instrument.planning.costs import as_run, dwell_seconds, step_seconds
 from instrument.planning.outlook import first_hz, visible

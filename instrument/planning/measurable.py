@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fitting.arrays import Array, Mask
+from fitting.arrays import Array, Integers, Mask
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.sharing import OF_EACH_FILE, OF_EACH_KELVIN, OF_EACH_PLATE, OF_EACH_SPOT
@@ -19,7 +19,7 @@ from fitting.planning.measured import noise_seen
 from fitting.planning.sensitivity import ReadingNoise
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
-from fitting.sweep import Integers, Sweep
+from fitting.sweep import Sweep
 from fitting.tolerances import STATED
 from instrument.facts.follow_up import FollowUpKind
 from instrument.planning.costs import dwell_seconds, step_seconds

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Integers
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
@@ -17,7 +17,6 @@ from fitting.planning.limits import limited_by
 from fitting.planning.sensitivity import Sensitivity, bent
 from fitting.planning.signatures import judged_elsewhere, signatures_of
 from fitting.specimen import Specimen, StatedSpecimen
-from fitting.sweep import Integers
 from instrument.facts.plan import SettlingForecast
 from instrument.models.set_up import Hammer
 from instrument.models.theory import theory_remark

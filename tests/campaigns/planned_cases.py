@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import least_squares
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Integers
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
 from fitting.planning.sensitivity import ReadingNoise
 from fitting.specimen import Specimen
-from fitting.sweep import Integers, Sweep
+from fitting.sweep import Sweep
 from instrument.campaign.plates.cases import PlateTruth, draw_case
 from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, reading
 from instrument.campaign.plates.stated import CampaignTolerances, draw_stated, specimen_from, toml

@@ -22,9 +22,9 @@ from fitting.effects.change import Change
 from fitting.errors import OutsideModel
 from fitting.identification.model import SweepModel
 from fitting.plate import Plate
+from fitting.plate_numbers import tolerance
 from fitting.rational import rational_sweep, rational_sweeps
 from fitting.sweep import Sweep
-from fitting.tolerances import tolerance
 
 FORCE_M, OTHER_FORCE_M = (0.27, 0.03), (0.271, 0.0305)
 FURTHER_FORCE_M, FURTHER_SPOT_M = (0.04, 0.16), (0.22, 0.17)

@@ -18,10 +18,11 @@ from fitting.mesh import Mesh
 from fitting.moved_plate import moved_plate
 from fitting.nuisances import nuisances_of
 from fitting.plate import Plate
+from fitting.plate_numbers import tolerance
 from fitting.rational import rational_sweep
 from fitting.reduced import reduce_plate
 from fitting.sweep import Sweep
-from fitting.tolerances import OF_FEW, PLATE, STATED, tolerance
+from fitting.tolerances import OF_FEW, PLATE, STATED
 from instrument.campaign.bench import GRID_HZ, synthetic_sweep
 
 OMEGA = 2 * np.pi * np.array([19.5, 62.0, 100.0, 281.0])

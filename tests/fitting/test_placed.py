@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitting.placed import Points
+from fitting.placed import PlacedPoints
 
 
 @pytest.fixture
 def points(zn1):
     sigma = np.array([3e-4, 5e-4])
-    return Points(zn1, zn1, {"length": 0, "place_1_x": 1}, sigma)
+    return PlacedPoints(zn1, zn1, {"length": 0, "place_1_x": 1}, sigma)
 
 
 @pytest.mark.parametrize(("from_tip", "expected"), [(False, 0.2), (True, 0.203)])

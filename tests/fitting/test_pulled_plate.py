@@ -11,10 +11,11 @@ from fitting.effects.axial_stress import AxialStressEffect
 from fitting.identification.adjusted import stated_number
 from fitting.nuisance import Nuisance
 from fitting.parts import coefficients, layers_of, names_of, specimen_of
+from fitting.patches import Patch
 from fitting.plate import Plate
+from fitting.plate_numbers import moved, plate_numbers
 from fitting.real_modes import real_modes
-from fitting.specimen import Patch, Specimen
-from fitting.tolerances import moved, plate_numbers
+from fitting.specimen import Specimen
 
 STRIP = Specimen(LENGTH_M, 0.02, "clamped-free-clamped-free", replace(FACE, poisson=1e-9), elements=(60, 4))
 

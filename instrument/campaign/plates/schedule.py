@@ -3,16 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Integers
 from instrument.campaign.draws import order_of_time
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.reduced import MODES, ReducedSolid
 from instrument.campaign.schedule import Schedule
-
-Integers = NDArray[np.intp]
 
 _POINTS = (60, 121)
 """In a segment."""

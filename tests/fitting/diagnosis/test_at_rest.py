@@ -14,6 +14,7 @@ from fitting.diagnosis.thresholds import SEARCH
 from fitting.diagnosis.usual_law import at_rest
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
+from fitting.readings import Readings
 
 BEGINNING, END = ConstantModulus(0.15e6, 0.4), ConstantModulus(0.5e6 * np.e, 0.3 * np.e)
 
@@ -36,7 +37,7 @@ def valley(monkeypatch):
     nodes = SimpleNamespace(nodes=SimpleNamespace(omega=np.ones(1)))
     problem = SimpleNamespace(fine=nodes)
     problem.around = lambda law: problem
-    return problem, Evidence(np.zeros(2, complex), np.ones(2), np.ones(2), np.zeros((4, 1)), True)
+    return problem, Evidence(Readings(np.zeros(2, complex)), np.ones(2), np.ones(2), np.zeros((4, 1)), True)
 
 
 def test_what_is_on_its_way_along_a_winding_valley_owes_and_is_followed(valley):

@@ -10,6 +10,7 @@ from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.looks import look
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect, EffectParameter
+from fitting.readings import Readings
 
 
 class Bent(Effect):
@@ -43,7 +44,7 @@ def bent(monkeypatch):
     def looked(effect=None, bend=30.0, asked=10.0, **how):
         effect = effect or Bent()
         monkeypatch.setattr(looks, "response_of", lambda *_: BentResponse(effect, bend))
-        evidence = Evidence(np.zeros(3, complex), np.ones(3), np.ones(3), np.zeros((6, 1)), True)
+        evidence = Evidence(Readings(np.zeros(3, complex)), np.ones(3), np.ones(3), np.zeros((6, 1)), True)
         before = SimpleNamespace(
             effects=(),
             law=None,
@@ -105,7 +106,7 @@ class HummingResponse:
 
 def test_of_frequencies_next_to_each_other_not_all_are_followed_first(monkeypatch):
     monkeypatch.setattr(looks, "response_of", lambda *_: HummingResponse())
-    evidence = Evidence(np.zeros(3, complex), np.ones(3), np.ones(3), np.zeros((6, 1)), True)
+    evidence = Evidence(Readings(np.zeros(3, complex)), np.ones(3), np.ones(3), np.zeros((6, 1)), True)
     before = SimpleNamespace(
         effects=(), law=None, u=np.empty(0), residuals=np.array([-9.0, 0, 0, 0, 0, 0]), feels=np.zeros((6, 0))
     )

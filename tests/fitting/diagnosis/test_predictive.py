@@ -20,6 +20,7 @@ from fitting.diagnosis.thresholds import VERDICT
 from fitting.effects.base import Effect
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.smooth import Smooth
+from fitting.readings import Readings
 from fitting.sweep import Sweep
 
 N = 118
@@ -32,7 +33,7 @@ SWEEP = Sweep(
 )
 SEGMENTS = np.array([np.tile(SWEEP.segment == k, 2) * 0.3 for k in (1, 2, 3)]).T
 ONES = np.ones(3 * N)
-EVIDENCE = Evidence(SWEEP.velocity_m_s, ONES, ONES, SEGMENTS, True)
+EVIDENCE = Evidence(Readings(SWEEP.velocity_m_s), ONES, ONES, SEGMENTS, True)
 
 
 class Rough(Effect):
@@ -145,7 +146,7 @@ def test_the_noise_itself_is_known_to_a_tenth_or_so():
 
 
 def test_nothing_is_checked_where_the_noise_is_unknown():
-    unknown = Evidence(SWEEP.velocity_m_s, ONES, ONES, SEGMENTS, False)
+    unknown = Evidence(Readings(SWEEP.velocity_m_s), ONES, ONES, SEGMENTS, False)
     assert checked(5 * white(7), evidence=unknown) == {}
     assert passes({})
     assert weakest({}) is None

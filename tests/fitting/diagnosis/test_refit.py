@@ -12,6 +12,7 @@ from fitting.diagnosis.refit import refit
 from fitting.effects import CATALOGUE
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.smooth import Smooth
+from fitting.readings import Readings
 
 LAW = ConstantModulus(0.5e6, 0.5)
 SOFTNESS = 5e13
@@ -53,7 +54,7 @@ def fitted(gives, sigma):
     effect = OfFiles(CATALOGUE["clamp_compliance"], 2, EACH)
     measured = np.concatenate([np.log(LAW.values), gives]).astype(complex)
     sigma = np.concatenate([[1e-3, 1e-3], sigma])
-    evidence = Evidence(measured, sigma, sigma, np.zeros((2 * len(sigma), 1)), True)
+    evidence = Evidence(Readings(measured), sigma, sigma, np.zeros((2 * len(sigma), 1)), True)
     found = refit(Reads(effect, 2), evidence, LAW, np.array([SOFTNESS, SOFTNESS, EACH]))
     return found, found.u[:2] / SOFTNESS
 
@@ -78,7 +79,7 @@ def test_what_a_step_is_given_has_the_products_of_all_rows():
     effect = OfFiles(CATALOGUE["clamp_compliance"], 2, EACH)
     measured = np.concatenate([np.log(LAW.values), [2.0, 0.5]]).astype(complex)
     sigma = np.array([1e-3, 1e-3, 0.01, 0.1])
-    evidence = Evidence(measured, sigma, sigma, np.zeros((8, 1)), True)
+    evidence = Evidence(Readings(measured), sigma, sigma, np.zeros((8, 1)), True)
     problem = JointProblem(Reads(effect, 2), evidence, LAW, np.array([SOFTNESS, SOFTNESS, EACH]), None)
     x = problem.start + 0.1
     short, fewer, r, J = problem.shortened(x), problem.condensed(x), problem.residuals(x), problem.jacobian(x)
@@ -105,7 +106,7 @@ def test_no_slope_is_worked_out_where_a_step_is_not_taken():
     effect = OfFiles(CATALOGUE["clamp_compliance"], 2, EACH)
     measured = np.concatenate([np.log(LAW.values), [2.0, 0.5]]).astype(complex)
     sigma = np.array([1e-3, 1e-3, 0.01, 0.1])
-    evidence = Evidence(measured, sigma, sigma, np.zeros((8, 1)), True)
+    evidence = Evidence(Readings(measured), sigma, sigma, np.zeros((8, 1)), True)
     reads = Reads(effect, 2)
     problem = JointProblem(reads, evidence, LAW, np.array([SOFTNESS, SOFTNESS, EACH]), None)
     x = problem.start + 0.1
@@ -123,7 +124,7 @@ def test_a_law_that_no_core_can_have_pays_for_it_and_is_followed_to_one_that_can
     steep = Smooth((10.0, 1000.0), (1e5, 4e6), (0.4, 0.3))
     measured = np.concatenate([np.log(steep.values), [2.0, 0.5]]).astype(complex)
     sigma = np.array([1.0] * 4 + [0.01, 0.1])
-    evidence = Evidence(measured, sigma, sigma, np.zeros((12, 1)), True)
+    evidence = Evidence(Readings(measured), sigma, sigma, np.zeros((12, 1)), True)
     start = np.array([SOFTNESS, SOFTNESS, EACH])
     problem = JointProblem(OfSmooth(effect, 2), evidence, steep, start, None)
     x, h = problem.start + 0.01, 1e-6
@@ -147,7 +148,7 @@ def test_a_step_to_a_structure_that_cannot_be_is_not_taken_and_such_a_start_is_r
     effect = OfFiles(CATALOGUE["clamp_compliance"], 2, EACH)
     measured = np.concatenate([np.log(LAW.values), [2.0, 0.5]]).astype(complex)
     sigma = np.array([1e-3, 1e-3, 0.01, 0.1])
-    evidence = Evidence(measured, sigma, sigma, np.zeros((8, 1)), True)
+    evidence = Evidence(Readings(measured), sigma, sigma, np.zeros((8, 1)), True)
     found = refit(Ends(effect, 2), evidence, LAW, np.array([SOFTNESS, SOFTNESS, EACH]))
     assert 1.2 < SOFTNESS / found.u[0] <= 1.5
     with pytest.raises(np.linalg.LinAlgError):

@@ -4,6 +4,7 @@ from fitting.chances import normal_exceeded
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.structure import along_frequency, roughness, structure
 from fitting.diagnosis.thresholds import VERDICT
+from fitting.readings import Readings
 from fitting.sweep import Sweep
 
 N = 118
@@ -24,13 +25,13 @@ def sweep(segments=3):
 def evidence(data):
     ones = np.ones(len(data))
     B = np.array([np.tile(data.segment == k, 2) * ones[0] for k in (1, 2, 3)]).T
-    return Evidence(data.velocity_m_s, ones, ones, B, True)
+    return Evidence(Readings(data.velocity_m_s), ones, ones, B, True)
 
 
 def bending(data, times):
     """Evidence whose plate may be off in each segment, and residuals of one that is, so many times more."""
     B = np.array([np.tile(data.segment == k, 2) * 0.3 for k in (1, 2, 3)]).T
-    known = Evidence(data.velocity_m_s, np.ones(len(data)), np.ones(len(data)), B, True)
+    known = Evidence(Readings(data.velocity_m_s), np.ones(len(data)), np.ones(len(data)), B, True)
     rng = np.random.default_rng(2)
     return known, known.whitening(rng.normal(size=2 * len(data)) + times * B @ np.array([1.0, -1.0, 1.0]))
 
@@ -102,7 +103,11 @@ def test_a_long_trace_counts_as_a_hundred_or_two():
 def test_nothing_is_said_where_the_noise_is_unknown():
     data = sweep()
     unknown = Evidence(
-        data.velocity_m_s, np.ones(len(data)), np.ones(len(data)), np.zeros((2 * len(data), 1)), False
+        Readings(data.velocity_m_s),
+        np.ones(len(data)),
+        np.ones(len(data)),
+        np.zeros((2 * len(data), 1)),
+        False,
     )
     assert structure(data, unknown, np.full(2 * len(data), 9.0), 81.0) == ()
 

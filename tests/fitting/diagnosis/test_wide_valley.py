@@ -11,6 +11,7 @@ from fitting.diagnosis.unknowns import STATED_NUMBER
 from fitting.diagnosis.wide_valley import in_wide_valley, of_effects, whole, with_stated
 from fitting.effects import CATALOGUE
 from fitting.laws.constant import ConstantModulus
+from fitting.readings import Readings
 
 LAW, GAIN = ConstantModulus(0.5e6, 0.5), CATALOGUE["gain_error"]
 BY_STATED = 0.01
@@ -51,7 +52,11 @@ def problem(monkeypatch):
 
 
 EVIDENCE = Evidence(
-    np.array([*np.log(LAW.values), 1.05], complex), np.full(3, 1e-3), np.full(3, 1e-3), np.zeros((6, 1)), True
+    Readings(np.array([*np.log(LAW.values), 1.05], complex)),
+    np.full(3, 1e-3),
+    np.full(3, 1e-3),
+    np.zeros((6, 1)),
+    True,
 )
 
 

@@ -8,6 +8,7 @@ from scipy.linalg import eigh
 from scipy.optimize import brentq
 
 from fitting.effects import CATALOGUE
+from fitting.effects.along_a_beam import AlongABeam
 from fitting.effects.layer_density import SUBSTRATE
 from fitting.effects.number_off import NumberOffEffect, moved
 from fitting.effects.outside_damping import OutsideDampingEffect
@@ -49,6 +50,16 @@ def test_a_mass_at_the_tip_lowers_every_mode_as_it_must():
         return 1 + np.cos(x) * np.cosh(x) + x * mu * (np.cos(x) * np.sinh(x) - np.sin(x) * np.cosh(x))
 
     assert frequencies(BARE, "added_mass", [3e-3, L]) == pytest.approx(roots(free_with_mass, 3), rel=1e-3)
+
+
+@pytest.mark.parametrize(("name", "u"), [("added_mass", [3e-3, L]), ("tether", [70.0, 0.1, L])])
+def test_what_sits_on_a_beam_is_on_its_axis(name, u):
+    of_plate, of_beam = CATALOGUE[name], CATALOGUE[name].standing_on(BARE)
+    plate = widened_system_of(BARE, BARE.parts())
+    assert isinstance(of_beam, AlongABeam)
+    found, expected = of_beam.change(plate, np.array(u)), of_plate.change(plate, np.array([*u, 0.0]))
+    np.testing.assert_array_equal(found.K, expected.K)
+    np.testing.assert_array_equal(found.M, expected.M)
 
 
 def test_a_magnet_s_pull_is_a_negative_spring_and_what_it_loses_is_lost():

@@ -9,8 +9,8 @@ from fitting.damping import viscous_damping
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.released_rim import clamped_edges, on_edge, treated_along
 from fitting.element import DOFS, W
+from fitting.patches import Patch
 from fitting.plate import Plate
-from fitting.specimen import Patch
 from instrument.files.specimen_file import read_specimen
 from instrument.paper_case import case_file
 

@@ -10,8 +10,8 @@ from scipy.sparse.linalg import eigsh
 
 from fitting.bare_modes import CarriedSensor, bare_modes, clamp_softness, edge_softening, loaded_modes
 from fitting.effects import CATALOGUE
-from fitting.effects.orthotropic_substrate import plane_stress, substrate_stiffness
-from fitting.element import Shape
+from fitting.effects.orthotropic_substrate import sheet
+from fitting.element import U_B, V_B, Shape, face_stiffness
 from fitting.errors import TooFewPoints
 from fitting.identification.bare_plate import (
     FREQUENCY_SCATTER,
@@ -22,8 +22,9 @@ from fitting.identification.bare_plate import (
 from fitting.nuisance import Nuisance
 from fitting.nuisances import Nuisances
 from fitting.plate import Plate
+from fitting.plate_numbers import moved, plate_numbers
 from fitting.real_modes import real_modes
-from fitting.tolerances import STATED, moved, plate_numbers
+from fitting.tolerances import STATED
 from instrument.campaign.bench import synthetic_sweep
 from instrument.cli.main import run
 from instrument.models.identification import identify
@@ -265,9 +266,9 @@ def test_derivatives_of_the_shift_agree_with_differences(bare_test):
 def test_a_rolled_sheet_shifts_the_modes_as_one_solved_anew(bare_test, zn1):
     bare, _, _ = bare_test
     plate, ratio = Plate(zn1.bare), 1.02
-    difference = plane_stress(zn1.substrate, ratio) - plane_stress(zn1.substrate, 1.0)
-    K_e = substrate_stiffness(Shape(*plate.mesh.sides_m), zn1.substrate.thickness_m, difference)
-    K = plate.K_0.real + plate.scatter(K_e)
+    shape, plain = Shape(*plate.mesh.sides_m), zn1.substrate
+    rolled, isotropic = (face_stiffness(shape, face, U_B, V_B) for face in (sheet(plain, ratio), plain))
+    K = plate.K_0.real + plate.scatter(rolled - isotropic)
     solved, stated = (
         np.sqrt(np.sort(eigsh(A.tocsc(), 8, plate.M.tocsc(), sigma=0.0)[0])) for A in (K, plate.K_0.real)
     )

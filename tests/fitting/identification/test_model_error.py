@@ -13,7 +13,8 @@ from fitting.identification.uncertainty import uncertainty_of
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.model_error import FREQUENCY, GAIN, LOSS, model_error_at
 from fitting.noise import noise_of
-from fitting.tolerances import STATED, moved
+from fitting.plate_numbers import moved
+from fitting.tolerances import STATED
 from instrument.files.sweep_file import read_sweep
 from instrument.models.identification import identify
 from instrument.models.set_up import set_up

@@ -12,6 +12,7 @@ from fitting.mode_tables.diagnose import diagnose_modes
 from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.standing import standing
 from fitting.planning.unseen_in_tables import unseen_in_tables
+from fitting.readings import Readings
 
 FORMS = {e.name: e for e in standing(BEAM)}
 SOME = tuple(FORMS[name] for name in ("substrate_stiffness", "core_thickness", "tether", "channel_delay"))
@@ -34,7 +35,7 @@ def test_what_is_listed_shifts_the_law_by_what_is_said_and_leaves_no_more_than_w
         without, with_form = (np.concatenate([begun.none.u, u]) for u in (absent, there))
         v = problem.response([form]).velocity
         moved = v(begun.none.law, with_form) - v(begun.none.law, without)
-        with_it = replace(begun.evidence, measured_m_s=begun.none.velocity_m_s + moved)
+        with_it = replace(begun.evidence, readings=Readings(begun.none.velocity_m_s + moved))
         found = refit(problem.response(), with_it, begun.none.law, begun.none.u)
         f = 2 * np.pi * np.geomspace(problem.frequency_hz.min(), problem.frequency_hz.max(), 21)
         shift = np.abs(found.law.storage_and_loss(f)[0] / begun.none.law.storage_and_loss(f)[0] - 1).max()

@@ -5,9 +5,10 @@ import pytest
 from scipy.sparse.linalg import LinearOperator, eigsh
 
 from fitting.laws.constant import ConstantModulus
+from fitting.patches import Patch
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
-from fitting.specimen import Core, Face, Patch, Specimen
+from fitting.specimen import Core, Face, Specimen
 from instrument.campaign.plates.geometry import plate_named
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.solid import Build, Solid, factorised

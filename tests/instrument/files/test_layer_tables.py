@@ -1,6 +1,7 @@
 import pytest
 
-from fitting.specimen import Orthotropy, Patch
+from fitting.patches import Patch
+from fitting.specimen import Orthotropy
 from instrument.files.layer_tables import GluePart, PatchPart, StatedLayer, refuse_patches
 
 METAL = {"thickness_mm": 1.0, "poisson": 0.3, "density_kg_m3": 2700.0}

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from fitting.laws import LAWS
-from fitting.specimen import Glue, Orthotropy, Patch
-from fitting.tolerances import OF_TEMPERATURE, STATED, tolerance
+from fitting.patches import Patch
+from fitting.plate_numbers import tolerance
+from fitting.specimen import Glue, Orthotropy
+from fitting.tolerances import OF_TEMPERATURE, STATED
 from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen
 from instrument.paper_case import case_file

@@ -7,7 +7,7 @@ import pytest
 from conftest import DATA
 
 from fitting.noise import noise_of, scatter_over_stated
-from fitting.specimen import Patch
+from fitting.patches import Patch
 from fitting.sweep import Sweep
 from fitting.tolerances import STATED
 from instrument.files.sweep_file import read_sweep

@@ -7,7 +7,8 @@ import pytest
 
 from drivers.simulated.plant.built import refuse_effects
 from drivers.simulated.plant.effects import AddedMass, ClampFriction, Effects
-from fitting.specimen import Glue, Patch
+from fitting.patches import Patch
+from fitting.specimen import Glue
 from instrument.errors import BadInput
 from instrument.files.new_file import write_new
 from instrument.files.rig_file import RigDocument
