@@ -9,6 +9,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
+from fitting.diagnosis.names import split
 from gui.one_command import OneCommand
 from gui.pairing import PairedFile, arguments_of
 from gui.short_name import short_name
@@ -199,4 +200,4 @@ def _origin(asked: DiagnosisAsked) -> str:
 
 def effects_of(names: Sequence[str]) -> tuple[str, ...]:
     """Single effects of candidates' names: a pair is two."""
-    return tuple(dict.fromkeys(one for name in names for one in name.split(" + ") if one != "none"))
+    return tuple(dict.fromkeys(one for name in names for one in split(name)))
