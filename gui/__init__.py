@@ -5,7 +5,8 @@
     pages/      one view each, drawn from that state; page_set.py those of a window
     plots/      the plot every page uses; theme.py its colours
     controller.py   what a person can do: open, start, hold, stop, answer
-    background_task.py  long work off the main thread
+    background_task.py  long work off the main thread; one_command.py one command at a time
+    work_bar.py how far it is; writing.py files written in the background
     rediagnosis.py  a diagnosis made here, by hand or of other data; never recorded
     window.py   all of it on the screen
 

@@ -110,6 +110,15 @@ class BackgroundCommand(QObject):
     So the window has the same numbers as the command line. Of several kinds that its result may be of it is
     the first that can be read. One of `done`, `failed`, `cancelled` comes. `progressed` tells what is being
     worked at and the fraction of it that is done.
+
+    Parameters
+    ----------
+    arguments : list of str
+        The command and what it is given.
+    result : type or tuple of type
+        What it writes.
+    program : tuple of str
+        What runs commands.
     """
 
     done = Signal(object)
@@ -122,6 +131,8 @@ class BackgroundCommand(QObject):
         arguments: list[str],
         result: type[Result] | tuple[type[Result], ...],
         parent: QObject | None = None,
+        *,
+        program: tuple[str, ...] = (sys.executable, "-m", "instrument.cli"),
     ) -> None:
         super().__init__(parent)
         self._results = result if isinstance(result, tuple) else (result,)
@@ -129,8 +140,8 @@ class BackgroundCommand(QObject):
         self._unwanted = False
         self.over = False
         self._process = QProcess(self)
-        self._process.setProgram(sys.executable)
-        self._process.setArguments(["-m", "instrument.cli", *arguments, "--json", "-"])
+        self._process.setProgram(program[0])
+        self._process.setArguments([*program[1:], *arguments, "--json", "-"])
         environment = QProcessEnvironment.systemEnvironment()
         environment.insert(LINES, "lines")
         environment.insert(BACKGROUND, "1")

@@ -3,13 +3,14 @@
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QWidget
 
 from gui.asking import ask_folder, ask_save
 from gui.background_task import BackgroundCommand
 from gui.controller import AppController
+from gui.writing import Writing
 from instrument.facts.written import ExportResult, ReportResult
 from instrument.files.acceleration import shown_as
 
@@ -18,18 +19,16 @@ _NAMED = 2
 """Files of which each is named."""
 
 
-class Export(QObject):
+class Export(Writing):
     """Asks where to, then has it written.
 
     Signals
     -------
-    began, done, failed
-        One line: what is being written, what was, why it is not.
+    began
+        One line: what is being written.
     """
 
     began = Signal(str)
-    done = Signal(str)
-    failed = Signal(str)
 
     def __init__(self, controller: AppController, window: QWidget) -> None:
         super().__init__(window)
@@ -67,29 +66,17 @@ class Export(QObject):
         self._run(["export", str(session), "--to", kind, "--out", str(folder)], ExportResult)
 
     def _run(self, arguments: list[str], result: type[ExportResult] | type[ReportResult]) -> None:
-        command = BackgroundCommand(arguments, result, self)
-        command.done.connect(self._written)
-        command.failed.connect(self._not_written)
         self.began.emit(_DOING[arguments[0]])
-        command.start()
+        self.write(BackgroundCommand(arguments, result, self))
 
-    def _not_written(self, message: str) -> None:
-        self._forget()
-        self.failed.emit(message)
-
-    def _forget(self) -> None:
-        command = self.sender()
-        if isinstance(command, BackgroundCommand):
-            command.deleteLater()
-
-    def _written(self, found: ExportResult | ReportResult) -> None:
-        self._forget()
+    def said_of(self, found: object) -> str:
+        """Names of files; of many, how many there are and where."""
+        assert isinstance(found, ExportResult | ReportResult)
         files = (found.report,) if isinstance(found, ReportResult) else found.files
         # Of many their folder says more than all names.
-        many = len(files) > _NAMED
-        self.done.emit(
-            f"wrote {len(files)} files into {Path(files[0]).parent}" if many else f"wrote {', '.join(files)}"
-        )
+        if len(files) > _NAMED:
+            return f"wrote {len(files)} files into {Path(files[0]).parent}"
+        return f"wrote {', '.join(files)}"
 
     @property
     def _session(self) -> Path | None:

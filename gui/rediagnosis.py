@@ -9,7 +9,8 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
-from gui.background_task import BackgroundCommand
+from fitting.diagnosis.names import split
+from gui.one_command import OneCommand
 from gui.pairing import PairedFile, arguments_of
 from gui.short_name import short_name
 from gui.state import SessionState
@@ -93,12 +94,15 @@ class Rediagnosis(QObject):
         self._searched: dict[tuple[PairedFile, ...], DiagnosisResult] = {}
         """The last whole search of each file, or of several, made here."""
         self._asked: DiagnosisAsked | None = None
-        self._command: BackgroundCommand | None = None
+        self._command = OneCommand(self)
+        self._command.done.connect(self._done)
+        self._command.failed.connect(self._failed)
+        self._command.progressed.connect(self.progressed)
 
     @property
     def running(self) -> bool:
         """Whether one is being made."""
-        return self._command is not None
+        return self._command.running
 
     @property
     def asked(self) -> DiagnosisAsked | None:
@@ -122,25 +126,20 @@ class Rediagnosis(QObject):
 
     def start(self, asked: DiagnosisAsked) -> None:
         """Make it; whatever was being made is let go of."""
-        self._drop()
         self._asked = asked
-        self._command = BackgroundCommand(asked.arguments, DiagnosisResult, self)
-        self._command.done.connect(self._done)
-        self._command.failed.connect(self._failed)
-        self._command.progressed.connect(self.progressed)
-        self._command.start()
+        self._command.start(asked.arguments, DiagnosisResult)
         self.began.emit()
         self.changed.emit()
 
     def cancel(self) -> None:
         """What is being made is not wanted; what is shown stays."""
-        if self._command is not None:
-            self._drop()
+        if self.running:
+            self._command.drop()
             self.changed.emit()
 
     def show(self, shown: ShownDiagnosis) -> None:
         """One that was made here before."""
-        self._drop()
+        self._command.drop()
         self.found = shown
         self.changed.emit()
 
@@ -161,39 +160,25 @@ class Rediagnosis(QObject):
 
     def forget(self) -> None:
         """Back to what is recorded."""
-        self._drop()
+        self._command.drop()
         self.found = None
         self._searched.clear()
         self.changed.emit()
 
     def close(self) -> None:
         """Let go of everything."""
-        self._drop()
+        self._command.drop()
 
     def _done(self, found: DiagnosisResult) -> None:
         assert self._asked is not None
-        self._let_go()
         self.found = ShownDiagnosis(found, _origin(self._asked), self._asked)
         if self._asked.accept is None:
             self._searched[self._asked.files] = found
         self.changed.emit()
 
     def _failed(self, message: str) -> None:
-        self._let_go()
         self.changed.emit()
         self.failed.emit(message)
-
-    def _drop(self) -> None:
-        command = self._let_go()
-        if command is not None:
-            command.close()
-
-    def _let_go(self) -> BackgroundCommand | None:
-        command, self._command = self._command, None
-        if command is not None:
-            command.disconnect(self)
-            command.deleteLater()
-        return command
 
 
 def _has(files: Sequence[PairedFile], path: Path) -> bool:
@@ -215,4 +200,4 @@ def _origin(asked: DiagnosisAsked) -> str:
 
 def effects_of(names: Sequence[str]) -> tuple[str, ...]:
     """Single effects of candidates' names: a pair is two."""
-    return tuple(dict.fromkeys(one for name in names for one in name.split(" + ") if one != "none"))
+    return tuple(dict.fromkeys(one for name in names for one in split(name)))

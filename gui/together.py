@@ -8,8 +8,8 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
-from gui.background_task import BackgroundCommand
 from gui.file_stamp import Stamp, stamp_of
+from gui.one_command import OneCommand
 from gui.pairing import PairedFile, arguments_of, fault_of, paired, with_specimen
 from gui.rediagnosis import DiagnosisAsked, Rediagnosis, ShownDiagnosis
 from instrument.facts.identification import IdentificationResult
@@ -21,6 +21,11 @@ Fitted = IdentificationResult | ModalResult
 
 class Together(QObject):
     """The files chosen, and what was found of them.
+
+    Parameters
+    ----------
+    decline : tuple of str
+        Effects that diagnoses of them leave out.
 
     Signals
     -------
@@ -42,7 +47,9 @@ class Together(QObject):
     failed = Signal(str)
     specimen_chosen = Signal(Path, Path)
 
-    def __init__(self, rediagnosis: Rediagnosis, parent: QObject | None = None) -> None:
+    def __init__(
+        self, rediagnosis: Rediagnosis, parent: QObject | None = None, *, decline: tuple[str, ...] = ()
+    ) -> None:
         super().__init__(parent)
         self.files: tuple[PairedFile, ...] = ()
         self.hammer: Path | None = None
@@ -58,20 +65,32 @@ class Together(QObject):
         self._stamps: dict[Path, Stamp | None] = {}
         """Of the files that results are of, as they were looked at."""
         self._rediagnosis = rediagnosis
+        self._decline = decline
         self._then_diagnose = False
-        self._command: BackgroundCommand | None = None
+        self._command = OneCommand(self)
+        self._command.done.connect(self._done)
+        self._command.failed.connect(self._failed)
+        self._command.progressed.connect(self.progressed)
         rediagnosis.changed.connect(self._diagnosis_changed)
         rediagnosis.progressed.connect(self._diagnosis_progressed)
 
     @property
     def running(self) -> bool:
         """Whether something of these files is being computed."""
-        return self._command is not None or self._diagnosing
+        return self._command.running or self._diagnosing
+
+    @property
+    def asked(self) -> DiagnosisAsked:
+        """The diagnosis of the files chosen; there has to be one."""
+        first, *further = self.files
+        return DiagnosisAsked(
+            first.data, first.specimen, decline=self._decline, further=tuple(further), hammer=self.hammer
+        )
 
     @property
     def work(self) -> str:
         """What is being computed, in a word; empty for nothing."""
-        return "identifying" if self._command is not None else "diagnosing" if self._diagnosing else ""
+        return "identifying" if self._command.running else "diagnosing" if self._diagnosing else ""
 
     @property
     def shown(self) -> Fitted | None:
@@ -149,8 +168,8 @@ class Together(QObject):
         self._then_diagnose = False
         if self._diagnosing:
             self._rediagnosis.cancel()
-        if self._command is not None:
-            self._drop()
+        if self._command.running:
+            self._command.drop()
             self.changed.emit()
 
     def lead(self) -> None:
@@ -172,14 +191,9 @@ class Together(QObject):
 
     def close(self) -> None:
         """Let go of everything."""
-        self._drop()
+        self._command.drop()
 
     # Inside
-
-    @property
-    def _asked(self) -> DiagnosisAsked:
-        first, *further = self.files
-        return DiagnosisAsked(first.data, first.specimen, further=tuple(further), hammer=self.hammer)
 
     @property
     def _diagnosing(self) -> bool:
@@ -213,20 +227,15 @@ class Together(QObject):
         self.cancel()
         self._then_diagnose, self._leads_then = then_diagnose, True
         results = (IdentificationResult, ModalResult)
-        self._command = BackgroundCommand(["identify", *arguments_of(self.files, self.hammer)], results, self)
-        self._command.done.connect(self._done)
-        self._command.failed.connect(self._failed)
-        self._command.progressed.connect(self.progressed)
-        self._command.start()
+        self._command.start(["identify", *arguments_of(self.files, self.hammer)], results)
         self.began.emit()
         self.changed.emit()
 
     def _diagnose(self) -> None:
-        self._rediagnosis.start(self._asked)
+        self._rediagnosis.start(self.asked)
 
     def _done(self, found: object) -> None:
         assert isinstance(found, Fitted)
-        self._let_go_of_command()
         self.identified, self.diagnosed, self.leads = found, None, self._leads_then
         if self.leads:
             # What was shown is of other data, or of the law before this one.
@@ -237,7 +246,6 @@ class Together(QObject):
         self.changed.emit()
 
     def _failed(self, message: str) -> None:
-        self._let_go_of_command()
         self._then_diagnose = False
         self.changed.emit()
         self.failed.emit(message)
@@ -254,15 +262,3 @@ class Together(QObject):
     def _diagnosis_progressed(self, what: str, fraction: float) -> None:
         if self._diagnosing:
             self.progressed.emit(what, fraction)
-
-    def _drop(self) -> None:
-        command = self._let_go_of_command()
-        if command is not None:
-            command.close()
-
-    def _let_go_of_command(self) -> BackgroundCommand | None:
-        command, self._command = self._command, None
-        if command is not None:
-            command.disconnect(self)
-            command.deleteLater()
-        return command

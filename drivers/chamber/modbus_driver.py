@@ -8,6 +8,7 @@ from drivers.chamber.driver import ChamberDriver, ChamberOptions
 from drivers.chamber.interface import Chamber
 from drivers.chamber.registers import TemperatureRegisters
 from drivers.modbus.address import host_and_port
+from drivers.modbus.options import ModbusTcpAddress
 
 _Address = Annotated[int, Field(ge=0, le=65535)]
 _TIMEOUT_S, _RETRIES = 0.5, 2
@@ -50,18 +51,10 @@ class ModbusChamberOptions(ChamberOptions):
         )
 
 
-class ModbusTcpChamberOptions(ModbusChamberOptions):
+class ModbusTcpChamberOptions(ModbusTcpAddress, ModbusChamberOptions):
     """A chamber on Modbus TCP."""
 
     kind: Literal["modbus-tcp"] = "modbus-tcp"
-    address: str
-    """host:port."""
-
-    @model_validator(mode="after")
-    def _reachable(self) -> "ModbusTcpChamberOptions":
-        if self.is_addressed:
-            host_and_port(self.address)
-        return self
 
 
 class ModbusRtuChamberOptions(ModbusChamberOptions):

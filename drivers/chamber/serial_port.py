@@ -4,15 +4,10 @@ One rule: a line that was begun before it was asked for is no answer. It may be 
 """
 
 import time
-from contextlib import suppress
-
-from serial import Serial
 
 from drivers.chamber import ascii_line
 from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
-
-_SLICE_S = 0.05
-"""How long one look at the port may take. A pause as long between two bytes is the end of a line."""
+from drivers.serial_line import SLICE_S, SerialLine
 
 
 class SerialThermometer:
@@ -43,9 +38,9 @@ class SerialThermometer:
         timeout_s: float = 1.2,
         retries: int = 1,
     ) -> None:
-        self._path, self._baud, self._timeout_s, self._retries = port, baud, timeout_s, retries
+        self._timeout_s, self._retries = timeout_s, retries
         self._query = (query + line_end).encode("latin-1") if query else b""
-        self._port: Serial | None = None
+        self._line = SerialLine(port, baud, timeout_s=timeout_s)
 
     def identity(self) -> str:
         """It has no name to tell: that it answers, and where."""
@@ -76,34 +71,31 @@ class SerialThermometer:
 
     def close(self) -> None:
         """Let go of the port; a later reading opens it again."""
-        if self._port is not None:
-            with suppress(OSError):
-                self._port.close()
-        self._port = None
+        self._line.close()
 
     @property
     def _me(self) -> str:
-        return f"thermometer at {self._path}"
+        return f"thermometer at {self._line.path}"
 
     def _next_line(self) -> bytes:
-        if self._port is None:
-            self._port = Serial(self._path, self._baud, timeout=_SLICE_S, write_timeout=self._timeout_s)
-        self._fall_silent(self._port)
+        if not self._line.is_open:
+            self._line.open()
+        self._fall_silent()
         if self._query:
-            self._port.write(self._query)
-        return self._line(self._port)
+            self._line.write(self._query)
+        return self._read_line()
 
-    def _fall_silent(self, port: Serial) -> None:
-        """Drop what lies in the line, and the rest of what is just being said."""
+    def _fall_silent(self) -> None:
+        """Drop what lies in the line, and the rest of what is just being said until there is a pause."""
         deadline = time.monotonic() + self._timeout_s
-        while port.read(max(port.in_waiting, 1)):
+        while self._line.read():
             if time.monotonic() > deadline:
-                raise Garbled(f"it talks without a pause of {_SLICE_S:g} s, lines expected")
+                raise Garbled(f"it talks without a pause of {SLICE_S:g} s, lines expected")
 
-    def _line(self, port: Serial) -> bytes:
+    def _read_line(self) -> bytes:
         deadline, received = time.monotonic() + self._timeout_s, b""
         while True:
-            received += port.read(max(port.in_waiting, 1))
+            received += self._line.read()
             # Some end a line with a carriage return alone, some begin with one.
             line, end, _ = received.lstrip(b"\r\n").replace(b"\r", b"\n").partition(b"\n")
             if end and line.strip():

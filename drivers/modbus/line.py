@@ -16,7 +16,7 @@ from pymodbus.pdu import ModbusPDU
 from pymodbus.pdu.register_message import ReadHoldingRegistersResponse, WriteMultipleRegistersResponse
 
 from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
-from drivers.modbus.turns import Turns
+from drivers.modbus.fair_lock import FairLock
 
 # What goes wrong is raised, in one line; the library's own log is for those who ask for it.
 logging.getLogger("pymodbus").addHandler(logging.NullHandler())
@@ -47,7 +47,7 @@ class ModbusLine:
         self._unit = unit
         self._timeout_s = timeout_s
         self._attempts = retries + 1
-        self._turns = Turns()
+        self._lock = FairLock()
 
     @classmethod
     def tcp(
@@ -104,7 +104,7 @@ class ModbusLine:
 
     def close(self) -> None:
         """Let go of the connection; a later transaction opens it again."""
-        with self._turns:
+        with self._lock:
             self._client.close()  # type: ignore[no-untyped-call]
 
     def _transact(
@@ -114,7 +114,7 @@ class ModbusLine:
         for attempt in range(self._attempts):
             if attempt:
                 time.sleep(FIRST_PAUSE_S * 2 ** (attempt - 1))
-            with self._turns:
+            with self._lock:
                 try:
                     return self._once(what, ask, object_to)
                 except Refused:

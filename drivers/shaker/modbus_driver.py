@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from drivers.modbus.address import host_and_port
+from drivers.modbus.options import ModbusTcpAddress
 from drivers.shaker.driver import ShakerDriver, ShakerOptions
 from drivers.shaker.interface import Shaker
 from drivers.shaker.register_map import DEFAULT
@@ -25,18 +26,10 @@ class ModbusOptions(ShakerOptions):
         return self
 
 
-class ModbusTcpOptions(ModbusOptions):
+class ModbusTcpOptions(ModbusTcpAddress, ModbusOptions):
     """A controller or amplifier on Modbus TCP."""
 
     kind: Literal["modbus-tcp"] = "modbus-tcp"
-    address: str
-    """host:port."""
-
-    @model_validator(mode="after")
-    def _reachable(self) -> "ModbusTcpOptions":
-        if self.is_addressed:
-            host_and_port(self.address)
-        return self
 
 
 class ModbusRtuOptions(ModbusOptions):

@@ -11,17 +11,14 @@ from dataclasses import replace
 from threading import RLock
 from typing import TypeVar
 
-from serial import Serial
-
 from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
+from drivers.serial_line import SerialLine
 from drivers.vibrometer import polytec
 from drivers.vibrometer.interface import Range
 from drivers.vibrometer.models import model_named
 
 T = TypeVar("T")
 
-_SLICE_S = 0.05
-"""How long one look at the port may take; bounds how late a deadline is seen."""
 _REOPEN_S = 0.2
 """Between attempts to open a vanished port: adapters take a moment to come back."""
 _DECODERS = 2
@@ -58,8 +55,8 @@ class PolytecVibrometer:
         retries: int = 2,
     ) -> None:
         self._model = model_named(model)
-        self._path, self._baud, self._timeout_s, self._retries = port, baud, timeout_s, retries
-        self._port: Serial | None = None
+        self._timeout_s, self._retries = timeout_s, retries
+        self._line = SerialLine(port, baud, timeout_s=timeout_s)
         self._closed = False
         self._received = bytearray()
         self._lock = RLock()
@@ -126,17 +123,11 @@ class PolytecVibrometer:
         """Let go of the port."""
         with self._lock:
             self._closed = True
-            self._drop()
-
-    def _drop(self) -> None:
-        if self._port is not None:
-            with suppress(OSError):
-                self._port.close()
-        self._port = None
+            self._line.close()
 
     @property
     def _me(self) -> str:
-        return f"vibrometer {self._model.name} at {self._path}"
+        return f"vibrometer {self._model.name} at {self._line.path}"
 
     def _parse_range(self, reply: str) -> Range:
         for one in self._model.ranges:
@@ -180,7 +171,7 @@ class PolytecVibrometer:
             problem: DriverError = TimedOut("no attempt")
             for _ in range(self._retries + 1):
                 try:
-                    if self._port is None:
+                    if not self._line.is_open:
                         self._reopen()
                     return attempt()
                 except (TimedOut, Garbled) as error:
@@ -190,20 +181,20 @@ class PolytecVibrometer:
                 except OSError as error:
                     # pyserial's errors are OSErrors: unplugged. The next attempt opens it again.
                     problem = Unreachable(str(error))
-                    self._drop()
+                    self._line.close()
             raise type(problem)(f"{self._me}: {command}: {problem}, {self._retries + 1} attempts")
 
     def _reopen(self) -> None:
         """Open the port and tell the device to echo nothing and to acknowledge what is set."""
         for attempt in range(self._retries + 1):
             try:
-                self._port = Serial(self._path, self._baud, timeout=_SLICE_S, write_timeout=self._timeout_s)
+                self._line.open()
                 for item, value in (("Acknowledge", "On"), ("Echo", "Off")):
                     with suppress(TimedOut, Garbled):
                         self._exchange(polytec.put("Interface", 0, item, value))
                 return
             except OSError as error:
-                self._drop()
+                self._line.close()
                 if attempt == self._retries:
                     raise Unreachable(
                         f"{self._me}: {error}, {attempt + 1} attempts to open: is it plugged in and on?"
@@ -212,11 +203,10 @@ class PolytecVibrometer:
 
     def _exchange(self, command: polytec.PolytecCommand) -> str:
         """One line out, one line in. Whatever lay in the line before is no answer to this."""
-        port = self._open_port()
         self._received.clear()
-        while port.in_waiting:
-            port.read(port.in_waiting)
-        port.write(polytec.encode(command))
+        while self._line.waiting:
+            self._line.read()
+        self._line.write(polytec.encode(command))
         deadline = time.monotonic() + self._timeout_s
         while True:
             reply = polytec.decode(self._read_line(deadline))
@@ -225,7 +215,6 @@ class PolytecVibrometer:
                 return reply
 
     def _read_line(self, deadline: float) -> bytes:
-        port = self._open_port()
         while b"\n" not in self._received:
             if time.monotonic() > deadline:
                 if self._received:
@@ -235,12 +224,7 @@ class PolytecVibrometer:
                 raise TimedOut(f"no answer in {self._timeout_s:g} s")
             if len(self._received) > polytec.LONGEST_LINE:
                 raise Garbled(f"{len(self._received)} bytes without an end of line")
-            self._received += port.read(max(port.in_waiting, 1))
+            self._received += self._line.read()
         line, _, rest = bytes(self._received).partition(b"\n")
         self._received[:] = rest
         return line
-
-    def _open_port(self) -> Serial:
-        if self._port is None:
-            raise OSError("the port is closed")
-        return self._port

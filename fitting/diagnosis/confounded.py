@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array
 from fitting.diagnosis.marginal import expected_size
+from fitting.diagnosis.names import NONE
 from fitting.diagnosis.refit import kept
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.search import ScoredFit, Search
-from fitting.diagnosis.verdict import NONE, Judgement
+from fitting.diagnosis.verdict import Judgement
 from fitting.effects.base import Effect
 from fitting.nuisance import Nuisance
 from fitting.tolerances import OF_THEORY

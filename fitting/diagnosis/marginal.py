@@ -51,7 +51,7 @@ def cost(fitted: Refitted, plate: EnrichedReducedPlate, temper: float = 1.0) -> 
     H = J.T @ J
     H += np.diag(prior_precision(fitted, plate))
     k = len(densities)
-    paid = _log_determinant(H) - k * np.log(2 * np.pi) - 2 * float(densities.sum())
+    paid = log_determinant(H) - k * np.log(2 * np.pi) - 2 * float(densities.sum())
     paid -= 2 * _log_share_within(fitted, plate, H, J.T @ r)
     if temper != 1.0:
         # Readings that say less pull the stated numbers less far: one step towards where they end then.
@@ -60,8 +60,11 @@ def cost(fitted: Refitted, plate: EnrichedReducedPlate, temper: float = 1.0) -> 
     return _misfit(fitted, temper) + paid + sum(_odds(e) for e in fitted.effects)
 
 
-def _log_determinant(H: Array) -> float:
-    """Readings that are met to the last digit drown what priors alone say: then those are worth little."""
+def log_determinant(H: Array) -> float:
+    """Ln det of a precision, shape (columns, columns); finite also where it is singular in floating point.
+
+    Readings that are met to the last digit drown what priors alone say: then those are worth little.
+    """
     found = float(np.linalg.slogdet(H)[1])
     if np.isfinite(found):
         return found

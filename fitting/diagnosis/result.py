@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from fitting.arrays import Array, Mask
 from fitting.aside import Reasons
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.names import joined
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refitted import Refitted
 from fitting.identification.adjusted import Adjusted
@@ -59,8 +60,8 @@ class Candidate:
 
     @property
     def name(self) -> str:
-        """`none`, an effect's name, or two joined by " + "."""
-        return " + ".join(e.name for e in self.effects) or "none"
+        """Of the explanation."""
+        return joined(e.name for e in self.effects)
 
 
 @dataclass(frozen=True)
@@ -111,13 +112,13 @@ class Rivals:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """`none`, an effect, or two joined by " + "."""
+        """Of the explanations."""
         return tuple(name_of(f) for f, _ in self.each)
 
 
 def name_of(fitted: Refitted) -> str:
-    """`none`, an effect, or two joined by " + "."""
-    return " + ".join(e.name for e in fitted.effects) or "none"
+    """Of the explanation that was fitted."""
+    return joined(e.name for e in fitted.effects)
 
 
 @dataclass(frozen=True)

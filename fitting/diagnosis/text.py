@@ -4,6 +4,7 @@ import numpy as np
 
 from fitting.arrays import Complex
 from fitting.diagnosis.kin import CHANCE, UNLISTED
+from fitting.diagnosis.names import NONE
 from fitting.diagnosis.parts_with import part_with
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refitted import Refitted
@@ -12,7 +13,7 @@ from fitting.diagnosis.result import FoundEffect, Stage
 from fitting.diagnosis.several import SeveralProblem
 from fitting.diagnosis.structure import in_words
 from fitting.diagnosis.thresholds import VERDICT
-from fitting.diagnosis.verdict import NONE, Judgement
+from fitting.diagnosis.verdict import Judgement
 from fitting.digits import all_digits, two_digits, written_out
 from fitting.effects.base import Effect
 from fitting.identification.quoted import quoted_hz

@@ -13,6 +13,7 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.diagnosis.kin import UNLISTED, Kin, Unlisted
 from fitting.diagnosis.marginal import probabilities
+from fitting.diagnosis.names import NONE
 from fitting.diagnosis.predictive import weakest
 from fitting.diagnosis.result import Verdict
 from fitting.diagnosis.search import ScoredFit, best_of_each
@@ -20,7 +21,6 @@ from fitting.diagnosis.stand_in import supposes_too_much
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.digits import two_digits
 
-NONE = "none"
 _MOST_OF_KIN = 1 - 1e-9
 """Probability: what is listed keeps its order beside it."""
 

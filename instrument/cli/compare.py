@@ -1,27 +1,22 @@
 """`viscorig compare`: which laws differ beyond their uncertainties, and where."""
 
-from collections.abc import Sequence
 from itertools import combinations
 from pathlib import Path
 
 import click
 import numpy as np
 
-from fitting.digits import two_digits
 from instrument.cli.options import NumberRange, file_arguments, json_option
 from instrument.cli.output import Output
 from instrument.facts.comparison import CompareResult
-from instrument.interchange.questions import kelvin_doubt
-from instrument.material.alike import alike_in, stated_unlike
 from instrument.material.comparing import LEVEL, Comparison, compared_pair
 from instrument.material.comparing import compare as compare_laws
-from instrument.material.found_law import MaterialLaw, read_law
+from instrument.material.found_law import read_law
+from instrument.material.remarks import remarks_on_law, remarks_on_one_specimen, remarks_on_pair
 from instrument.material.spread import spread_of
 from instrument.material.spread_facts import spread_result
 from instrument.progress import bar
 
-_WARMER = 1.0
-"""K between two laws, from which it is said: a damping polymer is another one."""
 _SAYS = {True: "differ", False: "not told apart", None: "cannot be told"}
 
 
@@ -88,63 +83,23 @@ def compare(
         ["A", "B", "band / Hz", "G' B/A / %", "eta B-A", "chi2", "dof", "p", f"at {LEVEL:g}"],
         [[*pair, *_cells(c)] for pair, c in zip(pairs, found, strict=True)],
     )
-    beside = ", and is not in the spread" if spread is not None else ""
     for name, law in zip(names, laws, strict=True):
-        if law.verdict == "unknown":
-            out.say(f"{name}: verdict unknown: this law may be biased beyond what is known of it{beside}")
-        elif law.is_doubted:
-            out.say(f"{name}: its fit says that this law may be biased beyond its band{beside}")
-        elif law.verdict == "ambiguous":
-            out.say(f"{name}: verdict ambiguous ({law.found}): its band spans the laws of all of these")
-        if doubt := kelvin_doubt(law.temperature_c):
-            out.say(f"{name}: {doubt}")
+        for said in remarks_on_law(law, beside_spread=spread is not None):
+            out.say(f"{name}: {said}")
     for (a, b), c in zip(pairs, found, strict=True):
-        if (warm := _unlike_temperatures(c)) is not None:
-            out.say(f"{a} and {b}: of {warm[0]:.4g} and {warm[1]:.4g} degC, which alone makes laws differ")
-        for what, z in (("G'", c.storage_z), ("eta", c.loss_factor_z)):
-            ranges = ", ".join(f"{low:.4g} to {high:.4g} Hz" for low, high in c.where(z))
-            if ranges:
-                out.say(f"{a} and {b}: {what} differs beyond 1.96 joint standard errors at {ranges}")
-        if c.differs is False and (seen := c.would_be_seen) is not None:
-            at, storage, eta = seen
-            out.say(
-                f"{a} and {b}: not told apart; at {at:.3g} Hz G' would be seen to differ by "
-                f"{two_digits(100 * storage)} %, eta by {two_digits(eta)}"
-            )
-    _say_of_one_specimen(out, laws, found, said=one)
+        for said in remarks_on_pair(c):
+            out.say(f"{a} and {b}: {said}")
+    for said in remarks_on_one_specimen(laws, found, said=one):
+        out.say(said)
     result = CompareResult(
         pairs=tuple(compared_pair(c, a, b) for (a, b), c in zip(pairs, found, strict=True))
     )
     if spread is not None:
         for line in spread.lines:
             out.say(line)
-        said = spread_result(spread)
-        result = result.but(repeatability=said) if remounts else result.but(spread=said)
+        facts = spread_result(spread)
+        result = result.but(repeatability=facts) if remounts else result.but(spread=facts)
     out.result(result)
-
-
-def _say_of_one_specimen(
-    out: Output, laws: Sequence[MaterialLaw], found: Sequence[Comparison], *, said: bool
-) -> None:
-    """Whether the files bear it out, where it was `said`; else what saying so would tell."""
-    if not said:
-        if any(c.differs is False and len(alike_in((c.a, c.b))) for c in found):
-            out.say("Of one specimen, measured again? --same-specimen then tells smaller differences apart.")
-    elif unlike := stated_unlike(laws):
-        out.say(
-            f"said to be of one specimen, but the files state {' and '.join(unlike)} as different numbers: "
-            "their laws differ by that already"
-        )
-    elif any(law.stated for law in laws) and not all(c.alike for c in found):
-        out.say(
-            "what one specimen's stated numbers make alike is not known of all of these laws: where it is "
-            "not, the comparison is cautious"
-        )
-
-
-def _unlike_temperatures(c: Comparison) -> tuple[float, float] | None:
-    a, b = c.a.temperature_c, c.b.temperature_c
-    return (a, b) if a is not None and b is not None and abs(a - b) > _WARMER else None
 
 
 def _names(files: tuple[Path, ...]) -> list[str]:

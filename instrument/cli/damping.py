@@ -136,9 +136,9 @@ def _print(out: Output, found: Damping) -> None:
     rows = [
         [
             f"{m.frequency_hz:.3f}",
-            _percent(m.rational_fit),
-            _percent(m.half_power),
-            _percent(m.lscf),
+            ratio_or_refusal(m.rational_fit),
+            ratio_or_refusal(m.half_power),
+            ratio_or_refusal(m.lscf),
             f"{m.lines_in_bandwidth:.1f}",
             m.channel,
             m.why or "-",
@@ -156,7 +156,8 @@ def _print(out: Output, found: Damping) -> None:
         out.say(f"note: {warning}")
 
 
-def _percent(e: DampingEstimate | Refusal) -> str:
+def ratio_or_refusal(e: DampingEstimate | Refusal) -> str:
+    """A damping ratio in percent with its standard error, or that the method refused the mode."""
     if isinstance(e, Refusal):
         return "refused"
     return ratio_words(e.ratio, e.standard_error)

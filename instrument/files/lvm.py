@@ -1,6 +1,7 @@
 """LabVIEW measurement text (.lvm): segments of channels side by side, with or without a time column."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,8 @@ from instrument.files.text import read_text
 
 _END = "***End_of_Header***"
 _SEPARATORS = {"Tab": "\t", "Comma": ",", "Semicolon": ";"}
+_LEAST_SAMPLES = 8
+"""Fewer hold no hit."""
 
 
 @dataclass(frozen=True)
@@ -32,27 +35,111 @@ def read_lvm(path: Path) -> list[SampleBlock]:
     ends = [k for k, line in enumerate(lines) if line.startswith(_END)]
     if len(ends) < 2:
         raise BadInput(f"{path}: no segment header, expected a second {_END}")
-    facts = {}
-    for line in lines[1 : ends[0]]:
-        key, _, value = line.partition("\t")
-        facts[key.strip()] = value.strip()
-    separator = _SEPARATORS.get(facts.get("Separator", "Tab"), "\t")
-    comma = facts.get("Decimal_Separator", ".") == ","
-    segments = []
-    for k, end in enumerate(ends[1:], start=1):
-        header = _header(lines, ends[k - 1] + 1, end, separator)
-        stop = _next_header(lines, end + 1)
-        segments += _segments(path, header, lines, end + 1, stop, separator, facts, comma=comma)
-    return segments
+    layout = Layout.of(lines[1 : ends[0]])
+    blocks = []
+    for before, end in pairwise(ends):
+        start, stop = end + 1, _next_header(lines, end + 1)
+        try:
+            header = SegmentHeader.of(lines[before + 1 : end], "".join(lines[start : start + 1]), layout)
+        except BadInput as refused:
+            raise BadInput(f"{path}: line {start}: {refused}") from None
+        rows = _rows(path, lines, range(start + 1, stop), len(header.names), layout)
+        if len(rows) < _LEAST_SAMPLES:
+            raise BadInput(f"{path}: line {start}: {len(rows)} samples in the segment, expected more")
+        blocks += header.split(np.array(rows))
+    return blocks
 
 
-def _header(lines: list[str], start: int, end: int, separator: str) -> dict[str, list[str]]:
-    found = {}
-    for line in lines[start:end]:
-        key, *values = line.split(separator)
-        if key.strip() and values:
-            found[key.strip()] = [v.strip() for v in values]
-    return found
+@dataclass(frozen=True)
+class Layout:
+    """How the whole file writes its rows."""
+
+    separator: str
+    decimal_comma: bool
+    first: int
+    """Column of the first channel. Before it is the time, empty where `X_Columns` is No."""
+    stride: int
+    """Columns from one channel to the next: with `X_Columns` Multi each has its own time."""
+
+    @classmethod
+    def of(cls, lines: list[str]) -> "Layout":
+        """By the file's own header."""
+        facts = {}
+        for line in lines:
+            key, _, value = line.partition("\t")
+            facts[key.strip()] = value.strip()
+        multi = facts.get("X_Columns", "One") == "Multi"
+        return cls(
+            separator=_SEPARATORS.get(facts.get("Separator", "Tab"), "\t"),
+            decimal_comma=facts.get("Decimal_Separator", ".") == ",",
+            first=1,
+            stride=2 if multi else 1,
+        )
+
+    def fields(self, line: str) -> list[str]:
+        """Of a row."""
+        return line.split(self.separator)
+
+    def column(self, channel: int) -> int:
+        """Which field of a row is a channel's, counted from 0."""
+        return self.first + self.stride * channel
+
+    def number(self, text: str) -> float:
+        """Of a field. Raises `ValueError` where it is none."""
+        value = float(text.replace(",", ".") if self.decimal_comma or "." not in text else text)
+        if not np.isfinite(value):
+            raise ValueError(text)
+        return value
+
+
+@dataclass(frozen=True)
+class SegmentHeader:
+    """What the header of a segment says of its samples, and the row of names below it."""
+
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    step_s: float
+    samples: int
+    """In each of the segments it stands for; 0 where it does not say."""
+
+    @classmethod
+    def of(cls, lines: list[str], names: str, layout: Layout) -> "SegmentHeader":
+        """By the lines between two ends of headers. Raises `BadInput`, without file and line."""
+        said = {}
+        for line in lines:
+            key, *values = layout.fields(line)
+            if key.strip() and values:
+                said[key.strip()] = [v.strip() for v in values]
+        try:
+            count = int(said["Channels"][0])
+            steps = [layout.number(text) for text in said["Delta_X"][:count] if text]
+            step = steps[0]
+        except (KeyError, ValueError, IndexError):
+            raise BadInput("segment without Channels or Delta_X") from None
+        axis = said.get("X_Dimension", [""])[0]
+        if axis.lower() not in ("", "time"):
+            raise BadInput(f"X_Dimension {axis!r}, expected Time: spectra are not read of it")
+        titles = [name.strip() for name in layout.fields(names)]
+        if not 1 <= count <= len(titles):
+            raise BadInput(f"{count} channels, expected as many as the names below")
+        if step <= 0:
+            raise BadInput(f"Delta_X = {step:g}, expected more than 0")
+        if any(other != step for other in steps):
+            every = ", ".join(f"{s:g}" for s in steps)
+            raise BadInput(f"Delta_X = {every}, expected the same of every channel")
+        columns = [layout.column(k) for k in range(count)]
+        return cls(
+            names=tuple(titles[c] if c < len(titles) else "" for c in columns),
+            units=tuple((said.get("Y_Unit_Label", []) + [""] * count)[:count]),
+            step_s=step,
+            samples=int(said.get("Samples", ["0"])[0] or 0),
+        )
+
+    def split(self, samples: Array) -> list[SampleBlock]:
+        """One header may stand for several segments. `samples` has shape (samples, channels)."""
+        whole = self.samples > 0 and len(samples) % self.samples == 0
+        pieces = np.split(samples, len(samples) // self.samples if whole else 1)
+        return [SampleBlock(self.names, self.units, 1 / self.step_s, piece) for piece in pieces]
 
 
 def _next_header(lines: list[str], start: int) -> int:
@@ -63,63 +150,17 @@ def _next_header(lines: list[str], start: int) -> int:
     return len(lines)
 
 
-def _segments(
-    path: Path,
-    header: dict[str, list[str]],
-    lines: list[str],
-    start: int,
-    stop: int,
-    separator: str,
-    facts: dict[str, str],
-    *,
-    comma: bool,
-) -> list[SampleBlock]:
-    try:
-        count = int(header["Channels"][0])
-        steps = [_float(text, comma=comma) for text in header["Delta_X"][:count] if text]
-        step = steps[0]
-    except (KeyError, ValueError, IndexError):
-        raise BadInput(f"{path}: line {start}: segment without Channels or Delta_X") from None
-    axis = header.get("X_Dimension", [""])[0]
-    if axis.lower() not in ("", "time"):
-        raise BadInput(
-            f"{path}: line {start}: X_Dimension {axis!r}, expected Time: spectra are not read of it"
-        )
-    if not 1 <= count <= len(lines[start].split(separator)):
-        raise BadInput(f"{path}: line {start}: {count} channels, expected as many as the names below")
-    if step <= 0:
-        raise BadInput(f"{path}: line {start}: Delta_X = {step:g}, expected more than 0")
-    if any(other != step for other in steps):
-        said = ", ".join(f"{s:g}" for s in steps)
-        raise BadInput(f"{path}: line {start}: Delta_X = {said}, expected the same of every channel")
-    columns = facts.get("X_Columns", "One")
-    # The first field of a row is the time, empty where X_Columns is No; with Multi each channel has its own.
-    first, stride = (1, 2) if columns == "Multi" else (1, 1)
-    names = [n.strip() for n in lines[start].split(separator)]
-    titles = tuple(names[first + stride * k] if first + stride * k < len(names) else "" for k in range(count))
-    units = tuple((header.get("Y_Unit_Label", []) + [""] * count)[:count])
-    rows = []
-    for number in range(start + 1, stop):
+def _rows(path: Path, lines: list[str], numbers: range, count: int, layout: Layout) -> list[list[float]]:
+    """Of a segment, `count` channels each."""
+    rows, columns = [], [layout.column(k) for k in range(count)]
+    for number in numbers:
         if not lines[number].strip():
             continue
-        fields = lines[number].split(separator)
+        fields = layout.fields(lines[number])
         try:
-            rows.append([_float(fields[first + stride * k], comma=comma) for k in range(count)])
+            rows.append([layout.number(fields[c]) for c in columns])
         except (ValueError, IndexError):
             raise BadInput(
                 f"{path}: line {number + 1}: {lines[number][:60]!r}, expected {count} numbers"
             ) from None
-    if len(rows) < 8:
-        raise BadInput(f"{path}: line {start}: {len(rows)} samples in the segment, expected more")
-    samples = np.array(rows)
-    # One header may stand for several segments: `Samples` says how long each is.
-    length = int(header.get("Samples", ["0"])[0] or 0)
-    pieces = len(samples) // length if length > 0 and len(samples) % length == 0 else 1
-    return [SampleBlock(titles, units, 1 / step, piece) for piece in np.split(samples, pieces)]
-
-
-def _float(text: str, *, comma: bool) -> float:
-    value = float(text.replace(",", ".") if comma or "." not in text else text)
-    if not np.isfinite(value):
-        raise ValueError(text)
-    return value
+    return rows

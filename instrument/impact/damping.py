@@ -176,7 +176,7 @@ def _mode(name: str, plain: Frf, fine: Frf, f: float, centres: Sequence[float], 
     noise = fit.noise / np.sqrt(PADDING) if isinstance(fit, RationalFit) else 0.0
     half = _half_power(fine, f, ratio, f_n, lines, apart, seconds, noise)
     if isinstance(half, DampingEstimate) and isinstance(rational, DampingEstimate):
-        half = _no_surer_than_apart(half, rational)
+        half = no_surer_than_apart(half, rational)
     width = 2 * ratio * f_n if ratio == ratio else 2 / seconds
     reach = max(_LSCF_LINES / seconds, _LSCF_BANDWIDTHS * width)
     third = lscf(
@@ -201,8 +201,11 @@ def _mode(name: str, plain: Frf, fine: Frf, f: float, centres: Sequence[float], 
     )
 
 
-def _no_surer_than_apart(half: DampingEstimate, rational: DampingEstimate) -> DampingEstimate:
-    """A width, the difference to the fit an error of it where noise is none: a neighbour's share."""
+def no_surer_than_apart(half: DampingEstimate, rational: DampingEstimate) -> DampingEstimate:
+    """The estimate by half power, with its difference to the fit's where noise does not explain that.
+
+    What a neighbour adds to a width is no noise: it is counted in as an error of the width.
+    """
     off = abs(half.ratio - rational.ratio)
     noise = np.hypot(np.nan_to_num(half.standard_error), np.nan_to_num(rational.standard_error))
     return half if off <= _SIGMAS * noise else half.wider(off, 0.0)

@@ -77,6 +77,8 @@ class FilesAtWork:
     """Of every file why readings are not in use."""
     misfit: list[float] = field(default_factory=list)
     aside: list[SetAside] = field(default_factory=list)
+    lawless: bool = False
+    """Whether noise does not explain what one law leaves."""
     made: dict[int, tuple[bytes, SmallProblem]] = field(default_factory=dict)
     """Of every file that is of a small structure, for which of its points."""
     start: CoreLaw = field(init=False)
@@ -161,14 +163,14 @@ class FilesAtWork:
         So it is of every file where one law does not do, and of one in which a fixture resonates: what was
         set aside has tails, and a fit that follows them calls them law and channels.
         """
-        self._lawless |= begun.evidence.scale_known and begun.none.chi2_per_dof > _MISFIT
+        self.lawless |= begun.evidence.scale_known and begun.none.chi2_per_dof > _MISFIT
         assert isinstance(begun.problem, SeveralProblem)
         v, law = begun.none.velocity_m_s, begun.none.law
         for k, (m, part) in enumerate(zip(begun.problem.members, begun.problem.starts_at, strict=True)):
             if not isinstance(m, SmallProblem) or not isinstance(m.specimen, ShearPair):
                 continue
             stretches = [one for one in self.aside if one.file == numbers_of(self.files)[k]]
-            if not self._lawless and not stretches:
+            if not self.lawless and not stretches:
                 continue
             has_phase, read = m.sweep.has_phase, m.sweep.response_m_s
             off = (read if has_phase else np.abs(read)) / (v[part] if has_phase else np.abs(v[part])) - 1
@@ -192,7 +194,7 @@ class FilesAtWork:
                 "means nothing"
             )
         once = f"({sizes} %), once for every 0.12 in ln f, is taken for the error of"
-        if not self._lawless:
+        if not self.lawless:
             return (
                 "where a fixture resonates readings are off beyond what is set aside too: the rms of that "
                 f"and of what is left {once} the rest"
@@ -208,8 +210,6 @@ class FilesAtWork:
             "common; see 'viscorig diagnose'"
         )
 
-    _lawless: bool = False
-    """Whether noise does not explain what one law leaves."""
     _deaf_taken: bool = False
 
 

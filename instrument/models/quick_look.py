@@ -4,15 +4,15 @@ Any core from soft to stiff is tried. Where none comes near, the same is asked o
 taken back; the mistake that explains by far the most is named. Whoever knows better insists.
 """
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from fitting.arrays import Complex
 from fitting.errors import FittingError
 from fitting.identification.result import LOST_PERCENT
-from fitting.specimen import Drive, Reading, Specimen
+from fitting.specimen import Reading, Specimen
 from fitting.structures import AnySpecimen, Beam
 from fitting.sweep import Sweep
 from instrument.models.any_core import FURTHEST, AnyCore, Nearest, any_core
@@ -84,67 +84,116 @@ def _doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> str:
         if distance > _WITH_EFFECTS:
             raise
         return f"it looks as if {words}"
-    as_is = _as_is(sweep, model)
-    near = NEAR if len(sweep) * (1 + sweep.has_phase) >= _MANY else SCALED
-    if as_is.distance < near:
+    look = _Look(sweep, specimen, others, model, _as_is(sweep, model), progress)
+    if look.distance < look.near:
         return ""
-    otherwise = _as_is(sweep, replace(model, reads=_other(model))).distance
-    if otherwise < NEAR or _likely(otherwise, as_is.distance):
-        # That a laser reads absolute velocities where relative ones are stated is the diagnosis's to say.
-        return _RELATIVE if model.reads == "absolute" else ""
-    for words, elsewhere in others:
-        if _explains(_distance_of(sweep, elsewhere, progress), as_is.distance):
-            return f"it looks as if {words}"
-    far = as_is.distance > 2 * NEAR
-    if far and isinstance(specimen, Beam) and specimen.boundary != "centre-driven":
-        left, words = unstated_mass(specimen, lambda carrying: _distance_of(sweep, carrying, progress))
-        if _likely(left, as_is.distance):
-            return f"it looks as if {words}"
-    said = _of_data(sweep, model, as_is, specimen.drive)
-    if said is not None:
-        return f"it looks as if {said}" if said else ""
-    distance, words = _in_another_unit(sweep, specimen, progress)
-    if distance < EXPLAINED:
-        return f"it looks as if {words}"
-    if as_is.distance < SCALED:
-        return ""
-    for words, other in specimen_mistakes(specimen):
-        if _explains(_distance_of(sweep, other, progress), as_is.distance):
-            return f"it looks as if {words}"
-    if as_is.distance < FAR:
-        return ""
-    likely = _likely_beside_effects(sweep, specimen, model, as_is, progress)
-    if likely:
-        return f"it looks as if {likely}"
+    for least, suspicion in _SUSPICIONS:
+        if look.distance < least:
+            return ""
+        said = suspicion(look)
+        if said is not None:
+            return f"it looks as if {said}" if said else ""
     return (
-        f"no core makes this {specimen.kind} answer so (typically {np.exp(_median(sweep, model, as_is)):.2g} "
+        f"no core makes this {specimen.kind} answer so (typically {np.exp(_median(look)):.2g} "
         "times off): another specimen or layer, unit, level or pickup"
     )
 
 
-_RELATIVE = "it looks as if the pickup's reading is relative to the clamp: [pickup] reads says absolute"
+@dataclass(frozen=True)
+class _Look:
+    """What every suspicion is judged by."""
+
+    sweep: Sweep
+    specimen: AnySpecimen
+    others: Sequence[tuple[str, AnySpecimen]]
+    """Where the spot may be instead, and words for each."""
+    model: AnyCore
+    as_is: Nearest
+    """The core that comes nearest to the data as they are."""
+    progress: Progress
+
+    @property
+    def distance(self) -> float:
+        """Of that core."""
+        return self.as_is.distance
+
+    @property
+    def near(self) -> float:
+        """Distance below which nothing is asked."""
+        return NEAR if len(self.sweep) * (1 + self.sweep.has_phase) >= _MANY else SCALED
+
+
+# Each suspicion says it in words; "" where there is nothing to ask, None where the next one has to say it.
+
+
+def _read_otherwise(look: _Look) -> str | None:
+    """The other reading comes near: a word in the specimen file is sooner wrong than a channel.
+
+    That a laser reads absolute velocities where relative ones are stated is the diagnosis's to say.
+    """
+    otherwise = _as_is(look.sweep, replace(look.model, reads=_other(look.model))).distance
+    if not (otherwise < NEAR or _likely(otherwise, look.distance)):
+        return None
+    absolute = look.model.reads == "absolute"
+    return "the pickup's reading is relative to the clamp: [pickup] reads says absolute" if absolute else ""
+
+
+def _of_another_spot(look: _Look) -> str | None:
+    """Another spot that is stated explains them: two rows, exchanged, need no mistake in any number."""
+    for words, elsewhere in look.others:
+        if _explains(_distance_of(look.sweep, elsewhere, look.progress), look.distance):
+            return words
+    return None
+
+
+def _sensor_s_mass(look: _Look) -> str | None:
+    """A beam carries a sensor that is not stated: common, and a mass moves modes as no core does.
+
+    Asked only where more than something slight is wrong, and of no beam driven and read at its centre.
+    """
+    beam = look.specimen
+    if look.distance <= 2 * NEAR or not isinstance(beam, Beam) or beam.boundary == "centre-driven":
+        return None
+    left, words = unstated_mass(beam, lambda carrying: _distance_of(look.sweep, carrying, look.progress))
+    return words if _likely(left, look.distance) else None
+
+
+def _frequencies(look: _Look) -> str | None:
+    """Frequencies in another unit: after the channels' units, which leave the resonances where they are."""
+    distance, words = _in_another_unit(look.sweep, look.specimen, look.progress)
+    return words if distance < EXPLAINED else None
+
+
+def _stated_wrongly(look: _Look) -> str | None:
+    """A stated number in another unit or place: of many, so only where the data are far off."""
+    for words, other in specimen_mistakes(look.specimen):
+        if _explains(_distance_of(look.sweep, other, look.progress), look.distance):
+            return words
+    return None
+
+
 _UNITS = {"rad/s": 1 / (2 * np.pi), "kHz": 1e3}
 """In which frequencies may be, and how many Hz each is."""
 _MOST_KHZ = 20.0
 """Readings beyond what is heard are not of such specimens."""
 
 
-def _likely_beside_effects(
-    sweep: Sweep, specimen: AnySpecimen, model: AnyCore, as_is: Nearest, progress: Progress
-) -> str:
-    """What takes back most of a distance that is hopeless, and leaves no more than effects do; or empty.
+def _beside_effects(look: _Look) -> str | None:
+    """What takes back most of a distance that is hopeless, and leaves no more than effects do.
 
     Something is asked here anyway.
     """
+    sweep, specimen, model = look.sweep, look.specimen, look.model
     alone, left = _most_likely(sweep, model, [Mistake(response_of)])
     if left.distance < _WITH_EFFECTS and alone.is_unit(left.factor, specimen.drive):
         # Data with an effect are as far off in the right unit, and nothing else makes a thousand of it.
-        return words_of(alone, left.factor, specimen.drive)
+        return words_of(alone, left.factor, specimen.drive) or None
     mistake, found = _most_likely(sweep, model, list(mistakes(sweep)))
-    in_unit, words = _in_another_unit(sweep, specimen, progress)
-    if min(found.distance, in_unit) > min(_WITH_EFFECTS, BETTER * as_is.distance):
-        return ""
-    return words if in_unit < found.distance else words_of(mistake, found.factor, specimen.drive)
+    in_unit, words = _in_another_unit(sweep, specimen, look.progress)
+    if min(found.distance, in_unit) > min(_WITH_EFFECTS, BETTER * look.distance):
+        return None
+    # A factor of one has no words.
+    return words if in_unit < found.distance else words_of(mistake, found.factor, specimen.drive) or None
 
 
 def _explains(distance: float, as_is: float) -> bool:
@@ -156,8 +205,9 @@ def _likely(distance: float, as_is: float) -> bool:
     return distance < min(LIKELY, BETTER * as_is)
 
 
-def _of_data(sweep: Sweep, model: AnyCore, as_is: Nearest, drive: Drive) -> str | None:
-    """The mistake in the data that explains them; empty where a diagnosis finds it, None where none does."""
+def _of_data(look: _Look) -> str | None:
+    """One mistake in the data explains them, as of units, signs, columns; a diagnosis finds slight ones."""
+    sweep, model, as_is, drive = look.sweep, look.model, look.as_is, look.specimen.drive
     mistake, found = _most_likely(sweep, model, list(mistakes(sweep)))
     if _explains(found.distance, as_is.distance):
         slight = mistake.is_slight(found.factor) and not mistake.is_habit(found.factor)
@@ -185,6 +235,19 @@ def _of_data(sweep: Sweep, model: AnyCore, as_is: Nearest, drive: Drive) -> str 
     ]
     distance, words = min(scaled)
     return words if _explains(distance, min(of_size, as_is.distance)) else None
+
+
+_SUSPICIONS: tuple[tuple[float, Callable[[_Look], str | None]], ...] = (
+    (0.0, _read_otherwise),
+    (0.0, _of_another_spot),
+    (0.0, _sensor_s_mass),
+    (0.0, _of_data),
+    (0.0, _frequencies),
+    (SCALED, _stated_wrongly),
+    (FAR, _beside_effects),
+)
+"""In the order in which they are asked, each with the distance from which on: what is common comes first, and
+what data with an effect look like too comes last, where they are hopeless otherwise."""
 
 
 def _sizes(response: Complex, model: AnyCore) -> float:
@@ -257,8 +320,8 @@ def _most_likely(sweep: Sweep, model: AnyCore, some: Sequence[Mistake]) -> tuple
     return min(refined, key=lambda one: one[1].distance)
 
 
-def _median(sweep: Sweep, model: AnyCore, found: Nearest) -> float:
-    off = np.log(response_of(sweep)) - model.log_velocity(found.core[None])[0]
+def _median(look: _Look) -> float:
+    off = np.log(response_of(look.sweep)) - look.model.log_velocity(look.as_is.core[None])[0]
     return float(np.median(np.abs(off.real)))
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 
+from fitting.diagnosis.names import split
 from fitting.effects import CATALOGUE
 from fitting.effects.base import CLAMP
 from instrument.facts.follow_up import FollowUpKind
@@ -77,8 +78,8 @@ _MOST = 3
 
 
 def why(kind: FollowUpKind, explanations: Iterable[str]) -> str:
-    """One sentence on what tells these explanations apart: `none`, an effect, or two joined by " + "."""
-    effects = [e for names in explanations for e in names.split(" + ")]
+    """One sentence on what tells these explanations, each by its name, apart."""
+    effects = [e for names in explanations for e in split(names)]
     shown = [words for words in dict.fromkeys(_shown(kind, e) for e in effects) if words]
     said = [*shown[:_MOST], *([_ALWAYS[kind]] if kind in _ALWAYS else [])]
     if not said:

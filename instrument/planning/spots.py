@@ -79,7 +79,7 @@ def _spot(outlook: Outlook, at: At, aims: Aims, wish: Wish, level_g: float, budg
 
 def _read_at(outlook: Outlook, mesh: Mesh, spot_m: tuple[float, float]) -> At:
     reduced = outlook.setup.reduced
-    row = _row(outlook.setup.models.plate, reduced.V, spot_m)
+    row = spot_row(outlook.setup.models.plate, reduced.V, spot_m)
     moved = replace(reduced, observe=row)
     plate = EnrichedReducedPlate.plain(moved, mesh, spot_m)
     own = outlook.setup.problem.plate
@@ -87,5 +87,9 @@ def _read_at(outlook: Outlook, mesh: Mesh, spot_m: tuple[float, float]) -> At:
     return At(replace(plate, U=own.U[k], d=own.d), moved, spot_m)
 
 
-def _row(plate: Plate, V: Array, spot_m: tuple[float, float]) -> Array:
+def spot_row(plate: Plate, V: Array, spot_m: tuple[float, float]) -> Array:
+    """What a spot at x, y in m reads of the motions of a basis.
+
+    `V` has shape (carried, motions): what the plate carries of each motion. Shape (motions,).
+    """
     return np.asarray((plate.carried.T @ plate.observe(*spot_m)) @ V)

@@ -6,6 +6,7 @@ from math import isnan
 from typing import Literal
 
 from fitting.diagnosis.kin import UNLISTED
+from fitting.diagnosis.names import split
 from fitting.diagnosis.verdict import holding
 from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageFitted, StageName
 
@@ -15,11 +16,10 @@ _LEAST = 1e-300
 
 
 def standing(name: str, found: DiagnosisResult) -> Standing:
-    """Of a candidate by its name; two effects have theirs joined by " + "."""
-    if name == "none":
+    """Of a candidate by its name."""
+    groups, together = found.equivalent, set(split(name))
+    if not together:
         return "none"
-    groups = found.equivalent
-    together = set(name.split(" + "))
     if groups and together == set(groups):
         return "equal" if none_is_likelier(found) else "found"
     if not groups or found.verdict != "ambiguous":
@@ -42,8 +42,8 @@ def none_leads(equivalent: Mapping[str, Sequence[str]], probability: Mapping[str
     """The same of the accepted names, each with what is not told from it, and every candidate's share."""
     if not any("none" in group for group in equivalent.values()):
         return False
-    shares = {frozenset(name.split(" + ")): p for name, p in probability.items()}
-    return shares.get(frozenset({"none"}), 0.0) > shares.get(frozenset(equivalent), 0.0)
+    shares = {frozenset(split(name)): p for name, p in probability.items()}
+    return shares.get(frozenset(), 0.0) > shares.get(frozenset(equivalent), 0.0)
 
 
 def law_words(found: DiagnosisResult) -> str:

@@ -1,8 +1,7 @@
 """A recorded session through the same analysis again: derived events computed anew and compared."""
 
-import json
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import islice
 from time import monotonic, sleep
 
@@ -10,6 +9,7 @@ from threadpoolctl import threadpool_limits
 
 from fitting.specimen import Specimen
 from instrument.run.analysis import Analysis
+from instrument.run.differences import as_known_then, first_difference
 from instrument.run.live_choice import Chooser
 from instrument.run.live_diagnosis import Diagnoser, able, diagnose_points
 from instrument.run.live_fit import Fitter, fit_points
@@ -18,8 +18,6 @@ from instrument.session.storage import SessionFile
 from instrument.stream.derived import (
     DiagnosisFound,
     FitUpdated,
-    LimitExceeded,
-    LimitWarned,
     PointMeasured,
     StepsChosen,
     StepSettled,
@@ -37,10 +35,6 @@ from instrument.stream.raw import (
 
 Watch = Callable[[Event], None]
 _MOST_DIFFERENCES = 20
-_SHOWN = 80
-"""Letters of a value."""
-_SAID_SINCE = ("next_measurements", "unseen")
-"""Of a diagnosis: what a recording of an older version does not have is not compared."""
 
 
 @dataclass
@@ -149,56 +143,9 @@ def _compare(again: Replayed, computed: Derived | None, recorded: Derived) -> No
         again.differences.append(f"recorded but not computed again: {to_line(recorded)[:200]}")
         return
     # Both as a session gives them: 9 in a field of floats is 9.0 there.
-    as_read = _as_known_then(from_line(to_line(computed)), recorded)
+    as_read = as_known_then(from_line(to_line(computed)), recorded)
     if to_line(as_read) != to_line(recorded):
-        again.differences.append(_first_difference(as_read, recorded))
-
-
-def _as_known_then(computed: Event, recorded: Event) -> Event:
-    """Without what limits and diagnoses say since, where the recording is of an older version."""
-    if isinstance(computed, LimitWarned | LimitExceeded) and getattr(recorded, "frequency_hz", None) == 0:
-        return replace(computed, frequency_hz=0.0)
-    if not isinstance(computed, DiagnosisFound) or not isinstance(recorded, DiagnosisFound):
-        return computed
-    if computed.result is None or recorded.result is None:
-        return computed
-    since = [key for key in _SAID_SINCE if key not in recorded.result.model_fields_set]
-    result = computed.result.without(*since)
-    # What is advised follows from the ranking.
-    old = "next_measurements" in since
-    advised = {"next_measurement": recorded.result.next_measurement} if old else {}
-    return replace(computed, result=result.but(**advised))
-
-
-def _first_difference(computed: Event, recorded: Event) -> str:
-    name = type(recorded).__name__
-    if type(computed) is not type(recorded):
-        return f"{name} recorded, {type(computed).__name__} computed"
-    a, b = computed.facts(), recorded.facts()
-    key = next((k for k in b if a.get(k) != b[k]), "?")
-    place, was, now = _where(f"{name}.{key}", _opened(b.get(key)), _opened(a.get(key)))
-    return f"{place}: {str(was)[:_SHOWN]} recorded, {str(now)[:_SHOWN]} computed"
-
-
-def _opened(value: object) -> object:
-    """What a field holds as JSON, as that."""
-    try:
-        return json.loads(value) if isinstance(value, str) else value
-    except ValueError:
-        return value
-
-
-def _where(place: str, recorded: object, computed: object) -> tuple[str, object, object]:
-    """The innermost place of the first difference, and both values there."""
-    if isinstance(recorded, dict) and isinstance(computed, dict):
-        for key in dict.fromkeys([*recorded, *computed]):
-            if recorded.get(key) != computed.get(key):
-                return _where(f"{place}.{key}", recorded.get(key), computed.get(key))
-    if isinstance(recorded, list) and isinstance(computed, list):
-        for k, (was, now) in enumerate(zip(recorded, computed, strict=False)):
-            if was != now:
-                return _where(f"{place}.{k}", was, now)
-    return place, recorded, computed
+        again.differences.append(first_difference(as_read, recorded))
 
 
 class _ReplayPace:

@@ -11,12 +11,12 @@ from instrument.facts.modes import ModesResult
 from instrument.files.plausible import INSIST
 
 
-def test_where_a_command_could_be_insisted_on_the_window_names_the_command_line(qtbot, monkeypatch):
-    command = BackgroundCommand(["diagnose", "sweep.csv"], IdentificationResult)
-    monkeypatch.setattr(command, "_hear", lambda: None)
-    command._said = [f"viscorig: sweep.csv: in mm/s, expected m/s; {INSIST}"]
+def test_where_a_command_could_be_insisted_on_the_window_names_the_command_line(qtbot):
+    refuses = f"import sys; sys.exit('viscorig: sweep.csv: in mm/s, expected m/s; {INSIST}')"
+    program = sys.executable, "-c", refuses
+    command = BackgroundCommand(["diagnose", "sweep.csv"], IdentificationResult, program=program)
     with qtbot.waitSignal(command.failed) as told:
-        command._finished(2)
+        command.start()
     assert told.args == ["sweep.csv: in mm/s, expected m/s; 'viscorig diagnose --force' goes on all the same"]
 
 

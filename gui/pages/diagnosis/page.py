@@ -7,9 +7,7 @@ from pathlib import Path
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QShowEvent
 from PySide6.QtWidgets import (
-    QLabel,
     QMenu,
-    QProgressBar,
     QSplitter,
     QTabWidget,
     QTextBrowser,
@@ -31,12 +29,12 @@ from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from gui.short_name import short_name
 from gui.state import SessionState
 from gui.widgets import button, hint
+from gui.work_bar import WorkBar
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import set_aside_words
 from instrument.results.followed import followed_lines, followed_of
 from instrument.results.typeset import typeset
 
-_PERCENT = 100
 _HERE = (
     "Here will be what the model of the specimen lacks: the residual of the best law, the effects that "
     "may explain it, ranked by evidence, and what each does to the material."
@@ -66,7 +64,7 @@ class DiagnosisPage(Page):
         )
         self.others = QToolButton()
         self.back = button("Back to the recorded one", "Let go of what was computed here")
-        self.bar, self.cancel = QProgressBar(), button("Cancel", "End the computation; what is shown stays")
+        self.working = WorkBar()
         self._shown: ShownDiagnosis | None = None
         self._specimen_folder = ""
         self._found_of: dict[QWidget, DiagnosisResult] = {}
@@ -134,8 +132,7 @@ class DiagnosisPage(Page):
         self.back.setVisible(self.controller.rediagnosis.found is not None and not running)
         own = self.controller.state is not None and self.controller.state.contents.diagnosis is not None
         self.back.setText("Back to the recorded one" if own else "Let go of this diagnosis")
-        for one in (self.bar, self.cancel, self.doing):
-            one.setVisible(running)
+        self.working.setVisible(running)
         able = session is not None or (shown is not None and shown.asked is not None)
         self.candidates.allow(able and not running, "" if able else "The session is still being measured")
 
@@ -193,15 +190,9 @@ class DiagnosisPage(Page):
         self.candidates.clear()
         self.controller.rediagnosis.forget()
 
-    def _progressed(self, what: str, fraction: float) -> None:
-        self.doing.setText(what)
-        self.bar.setMaximum(_PERCENT)
-        self.bar.setValue(round(_PERCENT * fraction))
-
     def _changed(self) -> None:
         if self.controller.rediagnosis.running:
-            self.doing.setText("starting")
-            self.bar.setMaximum(0)
+            self.working.begin("starting")
         self._show()
 
     def _another_session(self) -> None:
@@ -228,13 +219,13 @@ class DiagnosisPage(Page):
         rediagnosis = self.controller.rediagnosis
         self.views.currentChanged.connect(self._show_view)
         rediagnosis.changed.connect(self._changed)
-        rediagnosis.progressed.connect(self._progressed)
+        rediagnosis.progressed.connect(self.working.tell)
         rediagnosis.failed.connect(self.controller.refused)
         self.controller.changed.connect(self._another_session)
         self.controller.beside_changed.connect(self._offer_others)
         self.diagnose.clicked.connect(self._diagnose_session)
         self.back.clicked.connect(self._go_back)
-        self.cancel.clicked.connect(rediagnosis.cancel)
+        self.working.cancel.clicked.connect(rediagnosis.cancel)
         self.candidates.recompute.connect(self._recompute)
 
     def _arrange(self) -> None:
@@ -242,10 +233,8 @@ class DiagnosisPage(Page):
         self.others.setToolTip("A sweep laid beside the session; its specimen is asked for")
         self.others.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.others.setMenu(QMenu(self.others))
-        self.doing, self.filler = QLabel(), QWidget()
-        self.bar.setFixedWidth(160)
-        self.bar.setTextVisible(False)
-        for one in (self.diagnose, self.others, self.back, self.doing, self.bar, self.cancel):
+        self.filler = QWidget()
+        for one in (self.diagnose, self.others, self.back, self.working):
             self.finding.corner.addWidget(one)
         self.views = QTabWidget()
         for view, name, tip in (

@@ -17,7 +17,8 @@ from instrument.stream.derived import FitUpdated
 
 _NOT_FIXED = 1.0
 """Relative standard error beyond which a parameter is not fixed."""
-_STRONG = 0.99
+STRONG = 0.99
+"""Correlation from which the data fix a combination of two, not each: alone, one is known 7 times worse."""
 _UNITS = (("_pa", "MPa", 1e-6), ("_rad_s", "rad/s", 1.0), ("_s", "s", 1.0))
 
 
@@ -101,7 +102,7 @@ def _remark(
     partners = [
         labelled(other)[0].split(" / ")[0]
         for other, c in correlations.items()
-        if other != key and abs(c) > _STRONG
+        if other != key and abs(c) > STRONG
     ]
     return f"fixed only together with {', '.join(partners)}" if partners else ""
 

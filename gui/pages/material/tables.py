@@ -5,7 +5,7 @@ from math import isfinite
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from gui.pages.law.curve import At
-from gui.pages.material.numbers import Parameter, Place, correlation_rows, labelled
+from gui.pages.material.numbers import STRONG, Parameter, Place, correlation_rows, labelled
 from gui.tables import Cell, ReadTable
 from gui.theme import Role
 from gui.together import Fitted
@@ -30,7 +30,6 @@ _PARAMETERS = {
 }
 _BEFORE = {"before": "Before the diagnosis: without the effects it found"}
 _HEAT = 0.75
-_STRONG = 0.99
 _CORRELATIONS_SAID = (
     "Correlations of the logarithms of the parameters. Near ±1 the data fix a combination of two, not each: "
     "rely on G'(f) and η(f) inside the measured band."
@@ -90,7 +89,7 @@ def _heat(c: float, names: str) -> Cell:
     if not isfinite(c):
         return Cell("–", f"{names}: none, one sits at its limit", faint=True)
     role: Role = "data" if c >= 0 else "model"
-    return Cell(f"{c:+.3f}", f"{names}: {c:+.5f}", bold=abs(c) > _STRONG, fill=role, alpha=_HEAT * abs(c))
+    return Cell(f"{c:+.3f}", f"{names}: {c:+.5f}", bold=abs(c) > STRONG, fill=role, alpha=_HEAT * abs(c))
 
 
 def _place(row: Place, with_before: bool) -> list[Cell]:

@@ -7,7 +7,7 @@ from typing import Any
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
-from gui.background_task import BackgroundCommand
+from gui.one_command import OneCommand
 from gui.tables import Cell, ReadTable
 from gui.theme import current_theme
 from gui.top_bar import duration
@@ -45,32 +45,26 @@ class Check(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._command: BackgroundCommand | None = None
+        self._command = OneCommand(self)
+        self._command.done.connect(self.passed)
+        self._command.failed.connect(self._failed)
 
     @property
     def running(self) -> bool:
         """Whether one goes on."""
-        return self._command is not None and not self._command.over
+        return self._command.running
 
     def start(self, experiment: Path) -> None:
         """Of these files, as they are on the disk."""
-        self.cancel()
-        self._command = BackgroundCommand(["check", str(experiment)], CheckResult, self)
-        self._command.done.connect(self.passed)
-        self._command.failed.connect(self._failed)
-        self._command.start()
+        self._command.start(["check", str(experiment)], CheckResult)
 
     def cancel(self) -> None:
         """End it; nothing is told."""
-        if self._command is not None:
-            self._command.close()
-            self._command.deleteLater()
-            self._command = None
+        self._command.drop()
 
     def _failed(self, message: str) -> None:
-        said = self._command.said if self._command is not None else []
         # The last line counts those before it.
-        self.objected.emit(said[:-1] or [message])
+        self.objected.emit(self._command.said[:-1] or [message])
 
 
 class CheckPane(QWidget):

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, QTemporaryDir, QTimer, Signal
 
-from gui.background_task import BackgroundCommand
+from gui.one_command import OneCommand
 from gui.pages.sweep.curve import Curve, grid, regions_of
 from gui.state import SessionState
 from instrument.check.piece import Region
@@ -36,7 +36,10 @@ class ResponseCurve(QObject):
         self.failure = ""
         self._regions: list[Region] = []
         self._contents: Contents | None = None
-        self._command: BackgroundCommand | None = None
+        self.command = OneCommand(self)
+        """That of the curve being computed."""
+        self.command.done.connect(self._done)
+        self.command.failed.connect(self._failed)
         self._folder = QTemporaryDir()
         self._soon = QTimer(self)
         self._soon.setSingleShot(True)
@@ -46,15 +49,13 @@ class ResponseCurve(QObject):
     @property
     def busy(self) -> bool:
         """Whether a curve is being computed."""
-        return self._command is not None or self._soon.isActive()
+        return self.command.running or self._soon.isActive()
 
     def rest(self) -> None:
         """Compute nothing any more; wanted again, it is computed again."""
         self._soon.stop()
-        if self._command is not None:
-            self._command.close()
-            self._command.deleteLater()
-            self._command = None
+        if self.command.running:
+            self.command.drop()
             self._forget()
 
     def _forget(self) -> None:
@@ -75,25 +76,16 @@ class ResponseCurve(QObject):
         assert self._contents is not None
         frequencies = ",".join(repr(float(f)) for one in grid(self._regions) for f in one)
         asked = self._asked(self._contents, Path(self._folder.path()))
-        self._command = BackgroundCommand([*asked, "--frequencies", frequencies], PredictionResult, self)
-        self._command.done.connect(self._done)
-        self._command.failed.connect(self._failed)
-        self._command.start()
+        self.command.start([*asked, "--frequencies", frequencies], PredictionResult)
 
     def _done(self, found: PredictionResult) -> None:
         assert self._contents is not None
         acceleration = self._contents.specimen.base_acceleration_m_s2
         self.curve = Curve.of(found, acceleration, self._regions)
-        self._ended()
+        self.changed.emit()
 
     def _failed(self, why: str) -> None:
         self.failure = why
-        self._ended()
-
-    def _ended(self) -> None:
-        if self._command is not None:
-            self._command.deleteLater()
-            self._command = None
         self.changed.emit()
 
 

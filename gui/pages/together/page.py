@@ -7,7 +7,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QMenu,
-    QProgressBar,
     QSplitter,
     QTabWidget,
     QTextBrowser,
@@ -38,12 +37,12 @@ from gui.pairing import fault_of
 from gui.state import SessionState
 from gui.taking_together import paths_of
 from gui.widgets import button, hint
+from gui.work_bar import WorkBar
 from instrument.facts.diagnosis import DiagnosisResult, StageName
 from instrument.facts.modal import ModalResult
 from instrument.results.standing import law_words, stage_before
 from instrument.results.typeset import note
 
-_PERCENT = 100
 _NOTHING = (
     "Several files of one core follow one law: masses measured one after the other on the same pads, beams "
     "of several lengths, a plate in several files. Add them (Ctrl+Shift+O, or drop them here), or one alone, "
@@ -77,8 +76,7 @@ class TogetherPage(Page):
         self.save = QToolButton()
         self.material = button("On Material", "The law with its band")
         self.diagnosis = button("On Diagnosis", "Candidates, residuals, the next measurement")
-        self.doing, self.bar = QLabel(), QProgressBar()
-        self.cancel = button("Cancel", "End the computation; what is shown stays")
+        self.working = WorkBar()
         self.saving = Saving(self.together, self)
         self.empty = hint(_NOTHING)
         self.setAcceptDrops(True)
@@ -183,8 +181,7 @@ class TogetherPage(Page):
         self.identify.setEnabled(able)
         self.diagnose.setEnabled(able)
         self.chosen.setEnabled(not running)
-        for one in (self.doing, self.bar, self.cancel):
-            one.setVisible(running)
+        self.working.setVisible(running)
         for other in (self.save, self.material, self.diagnosis):
             other.setVisible(together.identified is not None and not running)
         self.save_diagnosis.setEnabled(together.diagnosed is not None)
@@ -200,15 +197,9 @@ class TogetherPage(Page):
         self.together.lead()
         self.controller.page_wanted.emit("diagnosis")
 
-    def _progressed(self, what: str, fraction: float) -> None:
-        self.doing.setText(what)
-        self.bar.setMaximum(_PERCENT)
-        self.bar.setValue(round(_PERCENT * fraction))
-
     def _changed(self) -> None:
         if self.together.running:
-            self.doing.setText(self.together.work)
-            self.bar.setMaximum(0)
+            self.working.begin(self.together.work)
         self._show()
 
     # Inside
@@ -216,13 +207,13 @@ class TogetherPage(Page):
     def _connect(self) -> None:
         together = self.together
         together.changed.connect(self._changed)
-        together.progressed.connect(self._progressed)
+        together.progressed.connect(self.working.tell)
         together.failed.connect(self.controller.refused)
         self.saving.done.connect(self.controller.said)
         self.saving.failed.connect(self.controller.refused)
         self.identify.clicked.connect(together.identify)
         self.diagnose.clicked.connect(together.diagnose)
-        self.cancel.clicked.connect(together.cancel)
+        self.working.cancel.clicked.connect(together.cancel)
         self.material.clicked.connect(self._look_at_material)
         self.diagnosis.clicked.connect(self._look_at_diagnosis)
         self.stage.currentIndexChanged.connect(self._show_stage)
@@ -238,10 +229,8 @@ class TogetherPage(Page):
         self.save_diagnosis = menu.addAction("Diagnosis...")
         self.save_diagnosis.triggered.connect(self.saving.diagnosis)
         self.save.setMenu(menu)
-        self.bar.setFixedWidth(160)
-        self.bar.setTextVisible(False)
         actions, results = QHBoxLayout(), QHBoxLayout()
-        for one in (self.identify, self.diagnose, self.doing, self.bar, self.cancel):
+        for one in (self.identify, self.diagnose, self.working):
             actions.addWidget(one)
         for other in (self.material, self.diagnosis, self.save):
             results.addWidget(other)

@@ -3,13 +3,13 @@
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from gui.asking import ask_save
 from gui.background_task import BackgroundTask, Progress
 from gui.pairing import PairedFile
 from gui.together import Together
+from gui.writing import Writing
 from instrument.errors import BadInput
 from instrument.facts.result import Result
 from instrument.files.result_file import write_result
@@ -17,17 +17,8 @@ from instrument.files.result_file import write_result
 ENDING = ".json"
 
 
-class Saving(QObject):
-    """Asks where to, then writes.
-
-    Signals
-    -------
-    done, failed
-        One line.
-    """
-
-    done = Signal(str)
-    failed = Signal(str)
+class Saving(Writing):
+    """Asks where to, then writes."""
 
     def __init__(self, together: Together, owner: QWidget) -> None:
         super().__init__(owner)
@@ -45,29 +36,13 @@ class Saving(QObject):
     def save(self, found: Result, to: Path) -> None:
         """Write it; returns at once."""
         to = to if to.suffix.lower() == ENDING else to.with_name(to.name + ENDING)
-        work = BackgroundTask(partial(_write, to, found, self._together.files), self)
-        work.done.connect(self._written)
-        work.failed.connect(self._not_written)
-        work.start()
+        self.write(BackgroundTask(partial(_write, to, found, self._together.files), self))
 
     def _ask(self, title: str, name: str, found: Result | None) -> None:
         if found is None:
             return
         start = self._together.files[0].data.parent / f"{name}{ENDING}"
         ask_save(self._owner, title, str(start), f"Results (*{ENDING})", partial(self.save, found))
-
-    def _written(self, path: object) -> None:
-        self._forget()
-        self.done.emit(f"wrote {path}")
-
-    def _not_written(self, message: str) -> None:
-        self._forget()
-        self.failed.emit(message)
-
-    def _forget(self) -> None:
-        work = self.sender()
-        if isinstance(work, BackgroundTask):
-            work.deleteLater()
 
 
 def _write(to: Path, found: Result, files: tuple[PairedFile, ...], _: Progress) -> Path:

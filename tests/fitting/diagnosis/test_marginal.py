@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fitting.bent_law import BentLaw
-from fitting.diagnosis.marginal import _log_determinant, cost, probabilities
+from fitting.diagnosis.marginal import cost, log_determinant, probabilities
 from fitting.diagnosis.refitted import Refitted
 from fitting.effects.base import Effect, EffectParameter, Tie
 from fitting.laws.constant import ConstantModulus
@@ -322,6 +322,6 @@ def test_probabilities_follow_the_costs():
 def test_what_readings_met_to_the_last_digit_drown_keeps_a_cost():
     # Two numbers that all readings know as one, to 1e-18 of what else they are known by.
     drowned = 1e18 * np.ones((2, 2))
-    assert np.isfinite(_log_determinant(drowned))
+    assert np.isfinite(log_determinant(drowned))
     sound = np.array([[2.0, 1.0], [1.0, 3.0]])
-    assert _log_determinant(sound) == pytest.approx(np.log(5.0))
+    assert log_determinant(sound) == pytest.approx(np.log(5.0))

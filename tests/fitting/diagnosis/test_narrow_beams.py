@@ -81,6 +81,7 @@ def test_what_is_a_number_of_the_fit_is_no_error_beside_it(stated):
     drive, omega = stated.points.acceleration_m_s2, stated.sweep.omega
     before = theory_rows(BEAM, stated.plate, omega, LAW, drive)
     after = theory_rows(BEAM, narrow.plate, omega, LAW, drive, narrow.nuisances.narrow)
+    assert len(before)
     for one, left in zip(before, after, strict=True):
         # What it is read or driven by otherwise is an error as it was; modes far above stay, too.
         assert np.array_equal(one, left) or np.abs(left).max() < 0.2 * np.abs(one).max()

@@ -226,7 +226,9 @@ def test_a_fit_says_what_it_makes_of_unseen_data_while_others_come_to_their_end(
 
 def test_of_a_clean_sweep_no_single_effect_is_worth_more_than_none(clean):
     search = clean.search(MASS, GAIN)
-    assert all(t.cost > search.none.cost for t in Singles(search, lambda fraction: None).best())
+    tried = Singles(search, lambda fraction: None).best()
+    assert {t.names for t in tried} == {("added_mass",), ("gain_error",)}
+    assert all(t.cost > search.none.cost for t in tried)
 
 
 def test_an_effect_that_data_cannot_judge_is_not_tried(high):

@@ -6,8 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from verdict_cases import POOR_NONE, judged, scored
 
+from fitting.diagnosis.names import NONE
 from fitting.diagnosis.thresholds import VERDICT
-from fitting.diagnosis.verdict import NONE, told
+from fitting.diagnosis.verdict import told
 from fitting.effects import CATALOGUE
 
 EVEN = 2 * np.log(VERDICT.credible / (1 - VERDICT.credible))

@@ -72,7 +72,9 @@ def test_band_covers_the_core_although_the_model_is_not_the_plate(found):
 
 
 def test_held_out_segments_are_predicted_to_their_noise(found):
-    for segment in found.result.validation.held_out:
+    segments = found.result.validation.held_out
+    assert segments
+    for segment in segments:
         assert segment.rms_percent < 1.5 * segment.noise_percent
 
 

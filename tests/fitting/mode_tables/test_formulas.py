@@ -46,12 +46,14 @@ def test_unequal_faces_are_objected_to():
     core = Core(0.25e-3, 0.49, 1000.0, ConstantModulus(1e6, 0.3))
     beam = Beam(0.2, 0.01, "clamped-free", STEEL, replace(STEEL, thickness_m=0.5e-3), core)
     found = by_formula(table_of(beam, core.law), beam, core.law, BARE)
+    assert found
     assert all("two equal faces" in " ".join(one.objections) for one in found)
 
 
 def test_a_centre_driven_beam_has_its_bending_stiffness():
     beam = replace(OBERST, boundary="centre-driven", core=None)
     found = by_formula(table_of(beam, None), beam, LAW)
+    assert found
     for one in found:
         assert one.method == "central-impedance"
         assert one.bending_stiffness_n_m2 == pytest.approx(205e9 * 0.01 * 1e-9 / 12, rel=2e-3)

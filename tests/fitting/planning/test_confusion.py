@@ -42,12 +42,14 @@ def test_same_signatures_are_mistaken_for_each_other_and_never_told_apart():
     found = outlooks(
         S, ALL, [signature(CoreThicknessEffect(), FIRST), signature(GainErrorEffect(), 3 * np.array(FIRST))]
     )
+    assert len(found) == 2
     assert all(len(o.rivals) == 1 for o in found)
     assert all(o.rivals[0].times > 1e6 for o in found)
 
 
 def test_signatures_of_different_shape_are_not_mistaken():
     found = outlooks(S, ALL, [signature(CoreThicknessEffect(), FIRST), signature(GainErrorEffect(), SECOND)])
+    assert len(found) == 2
     assert all(o.rivals == () for o in found)
 
 

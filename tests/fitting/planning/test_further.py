@@ -53,9 +53,10 @@ def test_rivals_are_asked_with_their_probabilities_the_likeliest_first(expecting
 def test_every_rival_expects_the_same_again_as_it_was_read(expecting, again):
     measured = expecting.evidence.measured_m_s[AT]
     v = expecting.known[0].fitted.velocity_m_s[AT]
-    for forecast in expecting.forecasts(again, NOISE)[:1]:
-        expected = phasors(expecting, forecast, again, v)
-        assert np.sqrt(np.mean(np.abs(expected / measured - 1) ** 2)) < 4e-3
+    forecasts = expecting.forecasts(again, NOISE)
+    assert len(forecasts) == len(expecting.names)
+    expected = phasors(expecting, forecasts[0], again, v)
+    assert np.sqrt(np.mean(np.abs(expected / measured - 1) ** 2)) < 4e-3
     np.testing.assert_allclose(expecting.velocity_m_s(again), np.abs(measured), rtol=0.02)
 
 
@@ -80,7 +81,9 @@ def test_what_readings_leave_open_an_effect_s_usual_size_bounds(expecting):
 
 
 def test_the_same_again_is_known_but_for_its_noise(expecting, again):
-    for forecast in expecting.forecasts(again, NOISE):
+    forecasts = expecting.forecasts(again, NOISE)
+    assert len(forecasts) == len(expecting.names)
+    for forecast in forecasts:
         assert forecast.known == forecast.root.shape[1]
         assert (spread(forecast) < 1).all()
 

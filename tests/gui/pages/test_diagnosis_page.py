@@ -162,7 +162,7 @@ def test_an_effect_accepted_by_hand_is_fitted_and_the_material_follows(qtbot, wi
     assert "accepted by hand" in page.candidates.table.texts(1)
     with qtbot.waitSignal(window.controller.rediagnosis.progressed, timeout=LONG_MS):
         qtbot.mouseClick(page.candidates.compute, LEFT)
-        assert page.cancel.isVisible()
+        assert page.working.cancel.isVisible()
     qtbot.waitUntil(lambda: not window.controller.rediagnosis.running, timeout=LONG_MS)
     assert page.finding.verdict.said.startswith("By hand: spot_offset (dx ")
     assert page.finding.origin.said == "● by hand, not recorded"
@@ -202,7 +202,7 @@ def test_what_is_computed_can_be_cancelled(qtbot, window, page):
     assert page.candidates.compute.text() == "Recompute: search again without added_mass"
     qtbot.mouseClick(page.candidates.compute, LEFT)
     assert window.controller.rediagnosis.running
-    qtbot.mouseClick(page.cancel, LEFT)
+    qtbot.mouseClick(page.working.cancel, LEFT)
     assert not window.controller.rediagnosis.running
     assert page.finding.origin.said == "recorded with the session"
     assert page.candidates.compute.isEnabled()
@@ -230,7 +230,7 @@ def test_a_session_without_a_diagnosis_offers_one(qtbot, window, session_path):
     assert not page.body.isVisible()
     qtbot.mouseClick(page.diagnose, LEFT)
     assert window.controller.rediagnosis.running
-    qtbot.mouseClick(page.cancel, LEFT)
+    qtbot.mouseClick(page.working.cancel, LEFT)
     assert page.diagnose.isVisible()
 
 

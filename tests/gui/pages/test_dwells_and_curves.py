@@ -9,6 +9,7 @@ import pytest
 from PySide6.QtCore import QObject, Signal
 from sessions import configuration
 
+from gui import one_command
 from gui.pages.sweep import dwells as reading
 from gui.pages.sweep import model as computing
 from gui.pages.sweep.curve import grid
@@ -101,7 +102,8 @@ def test_at_rest_nothing_more_is_told(qtbot, dwells):
 class Command(QObject):
     """In the place of a `viscorig` command: ends when it is told to."""
 
-    done, failed = Signal(object), Signal(str)
+    done, failed, progressed = Signal(object), Signal(str), Signal(str, float)
+    said = ()
 
     def __init__(self, begun, arguments, parent):
         super().__init__(parent)
@@ -118,7 +120,7 @@ class Command(QObject):
 def commands(qapp, monkeypatch):
     begun = []
     made = lambda arguments, result, parent: Command(begun, arguments, parent)  # noqa: E731
-    monkeypatch.setattr(computing, "BackgroundCommand", made)
+    monkeypatch.setattr(one_command, "BackgroundCommand", made)
     monkeypatch.setattr(computing, "_PAUSE_MS", 0)
     monkeypatch.setattr(computing, "specimen_toml", lambda contents: "the specimen")
     return begun

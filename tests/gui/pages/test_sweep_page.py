@@ -201,7 +201,7 @@ def test_until_there_is_a_curve_the_fits_own_predictions_are_drawn(page):
 
 
 def test_a_page_that_is_left_computes_nothing(qtbot, opened, page):
-    qtbot.waitUntil(lambda: page.model._command is not None, timeout=PATIENCE_MS)
+    qtbot.waitUntil(lambda: page.model.command.running, timeout=PATIENCE_MS)
     opened.show_page("run")
     assert not page.model.busy
     opened.show_page("sweep")

@@ -101,8 +101,8 @@ def test_which_file_is_which_is_seen_before_anything_is_fitted(chosen):
 
 def test_identified_by_the_button_it_shows_points_lines_and_the_law(qtbot, chosen, results):
     qtbot.mouseClick(chosen.identify, LEFT)
-    assert chosen.bar.isVisible()
-    assert chosen.cancel.isVisible()
+    assert chosen.working.bar.isVisible()
+    assert chosen.working.cancel.isVisible()
     assert not chosen.chosen.isEnabled()
     qtbot.waitUntil(lambda: not chosen.together.running)
     assert chosen.together.identified.untimed == results["identified"].untimed
@@ -185,8 +185,8 @@ def test_where_nothing_is_left_unexplained_it_says_so(diagnosed):
 
 def test_a_computation_cancelled_leaves_the_page_as_it_was(qtbot, chosen):
     qtbot.mouseClick(chosen.identify, LEFT)
-    qtbot.mouseClick(chosen.cancel, LEFT)
-    assert not chosen.bar.isVisible()
+    qtbot.mouseClick(chosen.working.cancel, LEFT)
+    assert not chosen.working.bar.isVisible()
     assert chosen.identify.isEnabled()
     assert chosen.empty.isVisible()
 

@@ -21,6 +21,7 @@ def test_a_spread_is_told_from_what_is_not_known_of_each_row():
 
 def test_rows_that_differ_as_far_as_they_are_known_have_no_spread_to_speak_of():
     (found,) = between_rows(rows(40, 0.0))
+    assert found.result.frequencies
     assert all(at.storage_modulus_spread.interval_95_percent[0] == 0.0 for at in found.result.frequencies)
 
 

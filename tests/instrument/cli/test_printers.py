@@ -9,7 +9,7 @@ from result_cases import LAW_ROW
 
 from fitting.depth.intervals import Intervals
 from fitting.modal.frf import DampingEstimate, Refusal
-from instrument.cli.damping import _percent
+from instrument.cli.damping import ratio_or_refusal
 from instrument.cli.output import Output
 from instrument.cli.print_beside import print_beside
 from instrument.cli.print_budget import print_budget
@@ -205,8 +205,8 @@ def test_a_table_outside_the_band_is_said_to_have_nothing_to_compare(capsys):
 
 
 def test_a_refused_damping_is_said_to_be_and_no_number():
-    assert _percent(Refusal("too few lines")) == "refused"
-    assert _percent(DampingEstimate(100.0, 0.0123, 1e-4)) == "1.230 +- 0.010"
+    assert ratio_or_refusal(Refusal("too few lines")) == "refused"
+    assert ratio_or_refusal(DampingEstimate(100.0, 0.0123, 1e-4)) == "1.230 +- 0.010"
 
 
 def test_a_sweep_that_was_stopped_before_its_first_step_has_no_quality(capsys):

@@ -124,4 +124,5 @@ def test_samples_that_do_not_fit_their_block_are_refused():
 def test_every_kind_of_message_can_be_sent():
     shown = {type(m).__name__ for m in MESSAGES}
     bare = set(Message.known) - shown
+    assert bare
     assert all(read(io.BytesIO(encode(Message.known[n]()))) == Message.known[n]() for n in bare)

@@ -79,6 +79,7 @@ def test_close_modes_are_flagged_where_half_power_is_off():
         f = np.array([200.0, 200.0 * (1 + 2 * zeta * apart)])
         force, response = clean_hit(f, np.full(2, zeta), np.array([1.0, 0.8]), seconds=16)
         found = found_in([hit_of(force, response)], at_hz=tuple(f))
+        assert len(found.modes) == len(f)
         for mode in found.modes:
             assert mode.rational_fit.ratio == pytest.approx(zeta, rel=3e-2)
             half = mode.half_power

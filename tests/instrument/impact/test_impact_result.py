@@ -118,6 +118,7 @@ def test_each_hit_has_its_blow_and_its_decay_and_says_why_it_was_left_out(found)
 
 def test_each_mode_has_its_lines_its_fit_and_its_half_power_marks(found):
     axes = modes_figure(found).axes
+    assert axes
     for ax, mode in zip(axes, found.modes, strict=True):
         lines, fit, *marks = ax.lines
         np.testing.assert_allclose(fit.get_ydata(), np.abs(mode.fit.H))

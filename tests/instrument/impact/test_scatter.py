@@ -20,6 +20,7 @@ def found():
 
 
 def test_single_hits_scatter_more_than_their_average_errs(found):
+    assert found.modes
     for mode, scatter in zip(found.modes, scatter_over_hits(found), strict=True):
         assert scatter.hits == 6
         # The average of six has about 1/sqrt(6) of a single hit's error.
@@ -29,6 +30,7 @@ def test_single_hits_scatter_more_than_their_average_errs(found):
 def test_scatter_grows_with_the_noise(found):
     rng = np.random.default_rng(1)
     quiet = found_in(noisy_hits(clean_hit(), rng, count=6, noise=0.001))
+    assert quiet.modes
     for less, more in zip(scatter_over_hits(quiet), scatter_over_hits(found), strict=True):
         assert less.ratio < 0.4 * more.ratio
         assert less.frequency_hz < 0.4 * more.frequency_hz

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fitting.modal.frf import DampingEstimate, corrected
-from instrument.impact.damping import _no_surer_than_apart
+from instrument.impact.damping import no_surer_than_apart
 
 
 @given(st.floats(5, 500), st.floats(1e-4, 0.05), st.floats(0.1, 30))
@@ -23,7 +23,7 @@ def test_without_a_window_nothing_changes():
 
 def test_a_width_that_a_neighbour_shares_is_no_surer_than_it_is_off():
     fit = DampingEstimate(104.0, 0.0065, 1e-5)
-    shared = _no_surer_than_apart(DampingEstimate(104.0, 0.0253, 7e-6), fit)
+    shared = no_surer_than_apart(DampingEstimate(104.0, 0.0253, 7e-6), fit)
     assert shared.standard_error == pytest.approx(0.0188)
     near = DampingEstimate(104.0, 0.00652, 7e-6)
-    assert _no_surer_than_apart(near, fit) is near
+    assert no_surer_than_apart(near, fit) is near

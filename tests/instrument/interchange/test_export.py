@@ -101,6 +101,7 @@ def test_hits_as_csv_give_the_same_damping(capsys, contents, exported):
     hits = [exported / f"{NAME}-hit-{k:02d}.csv" for k in (1, 3)]
     found = facts(capsys, "damping", *hits, "--band", "10:550")["modes"]
     recorded = contents.damping.result.modes
+    assert found
     for a, b in zip(found, recorded, strict=True):
         assert a["frequency_hz"] == pytest.approx(b.frequency_hz, rel=1e-12)
         assert a["damping_ratio"] == pytest.approx(b.damping_ratio, rel=1e-9)

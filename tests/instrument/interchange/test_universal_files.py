@@ -133,6 +133,7 @@ def test_records_without_a_force_are_passed_over(tmp_path):
 def test_of_a_roving_hammers_frfs_each_file_says_which_points_it_is_between(tmp_path):
     write_sets(tmp_path / "a.uff", ratio(1), ratio(2))
     made = import_file(tmp_path / "a.uff", tmp_path / "out.csv")
+    assert len(made.files) == 2
     for k, path in enumerate(made.files, start=1):
         assert f"node {k} Z over node 1 Z" in path.read_text().splitlines()[0]
         assert f"node {k} Z over node 1 Z" in made.said[k - 1]

@@ -63,6 +63,6 @@ def test_a_stretch_up_to_where_its_curve_ends_is_doubt():
 )
 def test_what_readings_are_worth_is_said_by_its_reason(misfit, lawless, said):
     work = FilesAtWork(FILES, quiet, with_effects=False)
-    work.misfit, work._lawless = misfit, lawless
+    work.misfit, work.lawless = misfit, lawless
     assert said in work.about_misfit()
     assert f"{100 * misfit[0]:.2g}" in work.about_misfit()

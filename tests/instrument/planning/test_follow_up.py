@@ -67,7 +67,9 @@ def test_the_same_steps_again_are_expected_to_read_the_same(expecting, template)
     further = Further(expecting.member, at, dwell)
     measured, v = expecting.evidence.measured_m_s[at], expecting.known[0].fitted.velocity_m_s[at]
     sigma = np.hypot(template.noise.std_m_s(v, dwell), SHARE * np.abs(v))
-    for forecast in expecting.forecasts(further, template.noise):
+    forecasts = expecting.forecasts(further, template.noise)
+    assert len(forecasts) == len(expecting.names)
+    for forecast in forecasts:
         off = np.r_[measured.real, measured.imag] / np.tile(sigma, 2) - forecast.mean
         assert 0.8 < np.sqrt(np.mean(off**2)) < 1.2
 
@@ -206,6 +208,7 @@ def test_the_treated_plate_struck_is_ranked_with_what_it_takes(ranked):
 
 def test_the_rigs_own_measurements_are_all_that_is_offered_where_nobody_is_there(rivals):
     alone = rank_follow_ups(ambiguous(rivals), Possible(hands=False))
+    assert alone
     assert not any(f.needs_hands for f in alone)
 
 

@@ -8,7 +8,7 @@ from fitting.patches import Patch
 from fitting.plate import Plate
 from instrument.files.specimen_file import read_specimen
 from instrument.paper_case import case_file
-from instrument.planning.spots import _row
+from instrument.planning.spots import spot_row
 
 
 def test_another_spot_reads_the_motions_that_the_plate_carries_patched_on_one_side_or_struck():
@@ -19,4 +19,4 @@ def test_another_spot_reads_the_motions_that_the_plate_carries_patched_on_one_si
         plate = Plate(specimen)
         V = np.random.default_rng(0).normal(size=(plate.carried.shape[1], 3))
         spot_m = (0.2, 0.15)
-        np.testing.assert_allclose(_row(plate, V, spot_m), plate.observe(*spot_m) @ (plate.carried @ V))
+        np.testing.assert_allclose(spot_row(plate, V, spot_m), plate.observe(*spot_m) @ (plate.carried @ V))

@@ -40,6 +40,7 @@ def texts(page):
 
 
 def test_every_word_lies_inside_the_margins(laid):
+    assert any(texts(page) for page in laid.pages)
     for page in laid.pages:
         for one in texts(page):
             x, y = one.get_position()
@@ -78,6 +79,7 @@ def test_a_head_is_not_broken_within_a_word_where_the_cells_are_long():
 
 
 def test_what_no_paper_shows_is_not_on_it(laid):
+    assert any(texts(page) for page in laid.pages)
     assert not any("\x1b" in one.get_text() for page in laid.pages for one in texts(page))
 
 

@@ -29,7 +29,9 @@ def test_it_is_written_as_the_schema_says(looked):
 
 
 def test_intervals_hold_the_best_value_and_the_wider_one_the_narrower(looked):
+    assert looked["uncertainty"]
     for one in looked["uncertainty"]:
+        assert one["quantities"]
         for q in one["quantities"]:
             (a, b), (c, d) = q["interval_95_percent"], q["interval_68_percent"]
             ends = [x for x in (a, c, d, b) if x is not None and np.isfinite(x)]

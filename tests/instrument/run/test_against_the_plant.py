@@ -73,7 +73,9 @@ def test_a_hammer_test_whose_blows_are_all_refused_is_given_up_and_says_why(tmp_
 
 
 def test_every_step_reads_the_plants_steady_state(quiet_run, plant):
-    for p in steps(quiet_run):
+    found = steps(quiet_run)
+    assert found
+    for p in found:
         exact = plant.steady_state(p.frequency_hz)
         ratio = (p.velocity_m_s / p.base_m_s2) / (exact["spot_velocity"] / exact["base_acceleration"])
         assert abs(abs(ratio) - 1) < 2e-3

@@ -76,6 +76,7 @@ def test_every_step_reads_the_plants_steady_state(kind, which, request, tmp_path
     run = request.getfixturevalue(which)
     write_new(kind, tmp_path / "true.toml")
     solid = plant(read_structure(tmp_path / "true.toml"))
+    assert run.points
     for p in run.points:
         exact = solid.steady_state(p.frequency_hz)
         ratio = (p.velocity_m_s / p.base_m_s2) / (exact["spot_velocity"] / exact["base_acceleration"])

@@ -139,6 +139,7 @@ def test_each_segment_begins_with_its_range_and_a_loop_check():
 def test_a_loop_check_is_made_at_a_small_drive():
     actions, _ = walk(planner().plan(SEGMENTS))
     checks = [a for a in actions if isinstance(a, StepBegan) and a.purpose == "loop-check"]
+    assert checks
     assert all(a.drive_v == pytest.approx(0.02 * 5.0) and a.level_m_s2 is None for a in checks)
 
 

@@ -3,7 +3,7 @@
 import json
 from dataclasses import dataclass, replace
 
-from instrument.run.replay import _as_known_then, _first_difference
+from instrument.run.differences import as_known_then, first_difference
 from instrument.stream.derived import LimitExceeded
 from instrument.stream.event import Derived
 
@@ -19,18 +19,18 @@ def found(seconds, number=1):
 
 
 def test_the_innermost_place_is_named_not_the_same_begin_of_both():
-    said = _first_difference(found(2.5), found(2.0))
+    said = first_difference(found(2.5), found(2.0))
     assert said == "Found.facts_json.next.1.seconds: 2.0 recorded, 2.5 computed"
 
 
 def test_a_plain_field_is_named_by_itself():
-    assert _first_difference(found(2.0, 3), found(2.0)) == "Found.number: 1 recorded, 3 computed"
+    assert first_difference(found(2.0, 3), found(2.0)) == "Found.number: 1 recorded, 3 computed"
 
 
 def test_a_limit_recorded_before_it_named_its_frequency_is_as_it_was():
     recorded = LimitExceeded(7, "velocity", 1.2, 1.0, "m/s", "lower the level")
     computed = replace(recorded, frequency_hz=160.0)
-    assert _as_known_then(computed, recorded) == recorded
-    assert _as_known_then(computed, computed) == computed
+    assert as_known_then(computed, recorded) == recorded
+    assert as_known_then(computed, computed) == computed
     assert recorded.message == "step 7: velocity 1.2 m/s, limit 1 m/s: lower the level"
     assert computed.message.startswith("at 160 Hz: velocity 1.2 m/s")

@@ -1,24 +1,24 @@
 import threading
 
-from drivers.modbus.turns import Turns
+from drivers.modbus.fair_lock import FairLock
 
 DEADLINE_S = 5.0
 
 
 def test_turns_go_in_the_order_of_arrival_also_before_who_comes_again():
-    turns, order = Turns(), []
+    lock, order = FairLock(), []
 
     def once(name):
-        with turns:
+        with lock:
             order.append(name)
 
     threads = [threading.Thread(target=once, args=(name,)) for name in ("second", "third")]
-    with turns:
+    with lock:
         for waiting, thread in enumerate(threads, 1):
             thread.start()
-            _stand_in_line(turns, waiting)
+            _stand_in_line(lock, waiting)
         order.append("first")
-    with turns:
+    with lock:
         order.append("first again")
     for thread in threads:
         thread.join(DEADLINE_S)
@@ -26,11 +26,11 @@ def test_turns_go_in_the_order_of_arrival_also_before_who_comes_again():
 
 
 def test_one_at_a_time():
-    turns, inside, most = Turns(), [0], [0]
+    lock, inside, most = FairLock(), [0], [0]
 
     def work():
         for _ in range(200):
-            with turns:
+            with lock:
                 inside[0] += 1
                 most[0] = max(most[0], inside[0])
                 inside[0] -= 1
@@ -44,10 +44,10 @@ def test_one_at_a_time():
     assert most == [1]
 
 
-def _stand_in_line(turns, count):
+def _stand_in_line(lock, count):
     tick = threading.Event()
     for _ in range(5000):
-        if turns.waiting == count:
+        if lock.waiting == count:
             return
         tick.wait(0.001)
-    raise AssertionError(f"{turns.waiting} in line, {count} expected")
+    raise AssertionError(f"{lock.waiting} in line, {count} expected")

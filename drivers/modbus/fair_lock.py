@@ -9,7 +9,7 @@ from collections import deque
 from types import TracebackType
 
 
-class Turns:
+class FairLock:
     """As a context manager: wait for one's turn, give it on at the end."""
 
     def __init__(self) -> None:

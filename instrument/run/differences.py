@@ -1,0 +1,60 @@
+"""In what a derived event that was computed again is another one than recorded."""
+
+import json
+from dataclasses import replace
+
+from instrument.stream.derived import DiagnosisFound, LimitExceeded, LimitWarned
+from instrument.stream.event import Event
+
+_SHOWN = 80
+"""Letters of a value."""
+_SAID_SINCE = ("next_measurements", "unseen")
+"""Of a diagnosis: what a recording of an older version does not have is not compared."""
+
+
+def as_known_then(computed: Event, recorded: Event) -> Event:
+    """What was computed, without what limits and diagnoses say only since the recording's version."""
+    if isinstance(computed, LimitWarned | LimitExceeded) and getattr(recorded, "frequency_hz", None) == 0:
+        return replace(computed, frequency_hz=0.0)
+    if not isinstance(computed, DiagnosisFound) or not isinstance(recorded, DiagnosisFound):
+        return computed
+    if computed.result is None or recorded.result is None:
+        return computed
+    since = [key for key in _SAID_SINCE if key not in recorded.result.model_fields_set]
+    result = computed.result.without(*since)
+    # What is advised follows from the ranking.
+    old = "next_measurements" in since
+    advised = {"next_measurement": recorded.result.next_measurement} if old else {}
+    return replace(computed, result=result.but(**advised))
+
+
+def first_difference(computed: Event, recorded: Event) -> str:
+    """The innermost place in which they are not the same, and what stands there in both, in a line."""
+    name = type(recorded).__name__
+    if type(computed) is not type(recorded):
+        return f"{name} recorded, {type(computed).__name__} computed"
+    a, b = computed.facts(), recorded.facts()
+    key = next((k for k in b if a.get(k) != b[k]), "?")
+    place, was, now = _where(f"{name}.{key}", _opened(b.get(key)), _opened(a.get(key)))
+    return f"{place}: {str(was)[:_SHOWN]} recorded, {str(now)[:_SHOWN]} computed"
+
+
+def _opened(value: object) -> object:
+    """What a field holds as JSON, as that."""
+    try:
+        return json.loads(value) if isinstance(value, str) else value
+    except ValueError:
+        return value
+
+
+def _where(place: str, recorded: object, computed: object) -> tuple[str, object, object]:
+    """The innermost place of the first difference, and both values there."""
+    if isinstance(recorded, dict) and isinstance(computed, dict):
+        for key in dict.fromkeys([*recorded, *computed]):
+            if recorded.get(key) != computed.get(key):
+                return _where(f"{place}.{key}", recorded.get(key), computed.get(key))
+    if isinstance(recorded, list) and isinstance(computed, list):
+        for k, (was, now) in enumerate(zip(recorded, computed, strict=False)):
+            if was != now:
+                return _where(f"{place}.{k}", was, now)
+    return place, recorded, computed
