@@ -275,9 +275,9 @@ class Specimen(Driven):
 
     @property
     def offers(self) -> frozenset[str]:
-        """As `StatedSpecimen` has it; `whole`: one treatment all over one side; `isotropic substrate`.
+        """As `StatedSpecimen` has it; `one side`: treated on one alone, `whole`: and all over it.
 
-        `root`: one clamped edge alone, both sides of the axis alike.
+        `root`: one clamped edge alone, both sides of the axis alike; `isotropic substrate`.
         """
         found = {"base"} if self.force_m is None else {"force"}
         if "clamped" in self.edges:
@@ -286,8 +286,8 @@ class Specimen(Driven):
             found.add("root")
         if self.pulled_along:
             found.add("two clamps")
-        if not self.patches and not self.both_sides:
-            found.add("whole")
+        if not self.both_sides:
+            found |= {"one side"} if self.patches else {"one side", "whole"}
         if self.substrate.rolled is None:
             found.add("isotropic substrate")
         return frozenset(found)

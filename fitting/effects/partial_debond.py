@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import WHOLE, Effect, EffectParameter
+from fitting.effects.base import ONE_SIDE, WHOLE, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
@@ -14,6 +14,8 @@ from fitting.effects.given import Points
 from fitting.effects.span import Span
 from fitting.element import core_shear_stiffness
 from fitting.linear import times
+from fitting.patches import Patch
+from fitting.specimen import StatedSpecimen
 
 LEFT = 0.01
 """Share of the shear stiffness that a loose strip keeps."""
@@ -55,27 +57,46 @@ def strips(full: FullPlate, along: str) -> list[sp.csc_array]:
         mesh, s = full.loose.mesh, full.specimen
         assert s.core is not None
         assert s.constraining is not None
-        Ae = core_shear_stiffness(mesh.shape, s.core, s.substrate, s.constraining)
-        i, j = np.divmod(np.arange(mesh.n_x * mesh.n_y), mesh.n_y)
+        every = np.arange(mesh.n_x * mesh.n_y)
+        i, j = np.divmod(every, mesh.n_y)
         place, count = (i, mesh.n_x) if along == "x" else (j, mesh.n_y)
-        return [full.loose.scatter(Ae, np.flatnonzero(place == k)) for k in range(count)]
+        found = [sp.csc_array((full.loose.size, full.loose.size)) for _ in range(count)]
+        for cell in full.loose.cells:
+            if not cell.treated:
+                continue
+            Ae = core_shear_stiffness(mesh.shape, s.core, s.substrate, s.constraining, cell.over)
+            elements = every[cell.elements]
+            for k in np.unique(place[elements]):
+                found[k] = found[k] + full.loose.scatter(Ae, elements[place[elements] == k])
+        return found
 
     return full.once(f"strips along {along}", make)
 
 
 class PartialDebondEffect(Effect):
-    """A strip across the plate or along it; or one that ends at an edge, its width alone unknown."""
+    """A strip across the plate or along it; or one that ends at an edge, its width alone unknown.
+
+    Of patches an edge is where one of them ends.
+    """
 
     name = "partial_debond"
     enters = "stiffness"
     source = "shear coupling lost in a strip, e.g. Wang and Wereley, AIAA J. 40 (2002)"
-    needs = WHOLE
+    needs = ONE_SIDE
     unexplained_share = 0.02
     chance = 0.03
     discriminating_test = "a tap test or ultrasound over the plate; a second spot off the axis"
 
-    def __init__(self, along: str = "x", *, at_edge: bool = False) -> None:
-        self.along, self.at_edge = along, at_edge
+    def __init__(
+        self,
+        along: str = "x",
+        *,
+        at_edge: bool = False,
+        patches: tuple[Patch, ...] = (),
+        edge_m: float | None = None,
+    ) -> None:
+        """`patches` are those of the specimen it stands on, `edge_m` the one edge that it begins at, if any."""
+        self.along, self.at_edge, self.patches, self.edge_m = along, at_edge, patches, edge_m
         self.spans = (Strips(along),)
         place = (
             EffectParameter(f"{along}_edge", "m", 0.0, np.inf, 0.02, neutral=None, fixed=True)
@@ -87,9 +108,36 @@ class PartialDebondEffect(Effect):
     def on(self, kind: str) -> Effect | None:
         return DebondOfBeamEffect() if kind == "beam" else super().on(kind)
 
+    def standing_on(self, specimen: StatedSpecimen) -> Effect | None:
+        form, patches = super().standing_on(specimen), getattr(specimen, "patches", ())
+        if form is None or not patches:
+            return form
+        return PartialDebondEffect(self.along, at_edge=self.at_edge, patches=patches, edge_m=self.edge_m)
+
     def variants(self) -> tuple[Effect, ...]:
         # Glue misses an edge first, and a place that is known need not be paid for.
-        return tuple(PartialDebondEffect(a, at_edge=e) for e in (False, True) for a in ("x", "y"))
+        anywhere, at_edge = (
+            [PartialDebondEffect(a, at_edge=e, patches=self.patches) for a in ("x", "y")]
+            for e in (False, True)
+        )
+        if not self.patches:
+            return (*anywhere, *at_edge)
+        # Each edge by itself: the best first step is not always that of the right one.
+        each = [
+            PartialDebondEffect(e.along, at_edge=True, patches=self.patches, edge_m=edge)
+            for e in at_edge
+            for edge in e._edges(0.0)
+        ]
+        return (*anywhere, *each)
+
+    def _treated(self, side: float) -> list[tuple[float, float]]:
+        """From where to where it is treated, patch by patch, in m."""
+        along_x = self.along == "x"
+        ends = [(p.from_x_m, p.to_x_m) if along_x else (p.from_y_m, p.to_y_m) for p in self.patches]
+        return sorted(set(ends)) or [(0.0, side)]
+
+    def _edges(self, side: float) -> list[float]:
+        return sorted({edge for ends in self._treated(side) for edge in ends})
 
     def _side(self, plate: EnrichedReducedPlate) -> float:
         return plate.length_m if self.along == "x" else plate.width_m
@@ -101,9 +149,14 @@ class PartialDebondEffect(Effect):
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         side = self._side(plate)
         if self.at_edge:
-            return [np.array([edge, width]) for width in _EDGE_WIDTHS_M for edge in (0.0, side)]
+            edges = self._edges(side) if self.edge_m is None else [self.edge_m]
+            return [np.array([edge, width]) for width in _EDGE_WIDTHS_M for edge in edges]
+        treated = self._treated(side)
         count = int(side / _WIDTH_M)
-        return [np.array([k / count * side, _WIDTH_M]) for k in range(count)]
+        places = (k / count * side for k in range(count))
+        return [
+            np.array([x, _WIDTH_M]) for x in places if any(a <= x + _WIDTH_M / 2 <= b for a, b in treated)
+        ]
 
     def scaled(self, u: Array, a: float) -> Array:
         width = max(0.0, a * u[1])
@@ -112,7 +165,8 @@ class PartialDebondEffect(Effect):
 
     def _ends(self, place: float, width: float) -> tuple[float, float]:
         """Between what places it is loose, in m."""
-        inwards = -1 if self.at_edge and place > 0 else 1
+        begins = {a for a, _ in self._treated(0.0)}
+        inwards = -1 if self.at_edge and place not in begins else 1
         low, high = sorted((place, place + inwards * width))
         return low, high
 
@@ -130,6 +184,8 @@ class PartialDebondEffect(Effect):
 
 class DebondOfBeamEffect(PartialDebondEffect):
     """A strip across a beam: there is none along it."""
+
+    needs = WHOLE
 
     discriminating_test = "a tap test or ultrasound along the beam; a second spot"
 
