@@ -7,7 +7,7 @@ from types import FrameType
 
 from instrument.errors import RigStopped
 
-_AGAIN_S = 0.05
+AGAIN_S = 0.05
 """A signal that comes just before the main thread begins to wait does not end the wait: it comes again."""
 
 
@@ -38,7 +38,7 @@ class Interruption:
         threading.Thread(target=self._insist, name="interruption", daemon=True).start()
 
     def _insist(self) -> None:
-        while not self._heard.wait(_AGAIN_S):
+        while not self._heard.wait(AGAIN_S):
             self._signal()
 
     @staticmethod

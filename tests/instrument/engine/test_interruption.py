@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import pytest
 
 from instrument.engine import __main__ as process
-from instrument.engine.interruption import _AGAIN_S, Interruption
+from instrument.engine.interruption import AGAIN_S, Interruption
 from instrument.errors import RigStopped
 
 
@@ -69,7 +69,7 @@ def test_a_signal_that_the_wait_did_not_hear_comes_again(signals, monkeypatch):
     asking.join()
     # Once it is heard, no more.
     count = len(sent)
-    threading.Event().wait(3 * _AGAIN_S)
+    threading.Event().wait(3 * AGAIN_S)
     assert len(sent) == count
 
 
@@ -80,7 +80,7 @@ def test_a_run_that_has_ended_meanwhile_is_not_signalled_again_and_again(signals
     with interruption:
         pass
     interruption.ask(Wanted("too late"))
-    threading.Event().wait(3 * _AGAIN_S)
+    threading.Event().wait(3 * AGAIN_S)
     assert len(sent) == 1
 
 
