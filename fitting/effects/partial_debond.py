@@ -1,6 +1,6 @@
 """The core has come loose along a strip: it carries hardly any shear there."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 import scipy.sparse as sp
@@ -73,6 +73,17 @@ def strips(full: FullPlate, along: str) -> list[sp.csc_array]:
     return full.once(f"strips along {along}", make)
 
 
+def joined(pieces: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Pieces of a line, those that touch as one; ascending."""
+    found = list[tuple[float, float]]()
+    for low, high in sorted(pieces):
+        if found and low <= found[-1][1]:
+            found[-1] = (found[-1][0], max(high, found[-1][1]))
+        else:
+            found.append((low, high))
+    return found
+
+
 class PartialDebondEffect(Effect):
     """A strip across the plate or along it; or one that ends at an edge, its width alone unknown.
 
@@ -95,7 +106,7 @@ class PartialDebondEffect(Effect):
         patches: tuple[Patch, ...] = (),
         edge_m: float | None = None,
     ) -> None:
-        """`patches` are those of the specimen it stands on, `edge_m` the one edge that it begins at, if any."""
+        """`patches` are those of the specimen it stands on, `edge_m` the one edge it begins at, if any."""
         self.along, self.at_edge, self.patches, self.edge_m = along, at_edge, patches, edge_m
         self.spans = (Strips(along),)
         place = (
@@ -173,8 +184,14 @@ class PartialDebondEffect(Effect):
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         stack = plate.stack(f"strips_{self.along}.")
         edges = np.linspace(0, self._side(plate), len(stack) + 1)
-        low, high = (np.clip(x, edges[:-1], edges[1:]) for x in self._ends(u[0], u[1]))
-        return Change(K_1=-(1 - LEFT) * np.tensordot((high - low) / np.diff(edges), stack, axes=1))
+        treated, loose = np.zeros(len(stack)), np.zeros(len(stack))
+        for a, b in joined(self._treated(self._side(plate))):
+            low, high = (np.clip(x, edges[:-1], edges[1:]) for x in (a, b))
+            treated += high - low
+            low, high = (np.clip(x, low, high) for x in self._ends(u[0], u[1]))
+            loose += high - low
+        share = np.divide(loose, treated, out=np.zeros_like(loose), where=treated > 0)
+        return Change(K_1=-(1 - LEFT) * np.tensordot(share, stack, axes=1))
 
     def story(self, u: Mapping[str, float]) -> str:
         where = "across the plate, x" if self.along == "x" else "along the plate, y"
