@@ -93,6 +93,9 @@ class Evidence:
     scale_known: bool
     """Whether chi-square means anything."""
     bare: BareModes | None = None
+    least_scale: float = 0.0
+    """Of the readings' mean square over that of `sigma_m_s`, where the scale is not known: few readings that
+    happen to be met well are not known so well."""
     whitening: Whitening = field(init=False)
 
     def __post_init__(self) -> None:

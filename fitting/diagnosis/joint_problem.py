@@ -210,6 +210,7 @@ class JointProblem:
             self.free,
             self._z,
             self.evidence.scale_known,
+            least_scale=self.evidence.least_scale,
         )
 
 

@@ -32,6 +32,10 @@ _AT_A_LIMIT = 0.1
 """Standard deviations from a limit within which a fit is held by it: a bounded fit stops a little before."""
 
 
+_NO_MISFIT = 1e-300
+"""Of a mean square: its logarithm is asked."""
+
+
 def cost(fitted: Refitted, plate: EnrichedReducedPlate, temper: float = 1.0) -> float:
     """-2 ln of prior times marginal likelihood. Where the noise is unknown its size is integrated too.
 
@@ -126,13 +130,17 @@ def _misfit(fitted: Refitted, temper: float) -> float:
     r, priors = fitted.residuals[: fitted.data], fitted.residuals[fitted.data :]
     if fitted.noise_known:
         return fitted.chi2 if temper == 1.0 else float(r @ r) / temper + float(priors @ priors)
-    return fitted.data * float(np.log(_mean_square(fitted))) / temper + float(priors @ priors)
+    size = _mean_square(fitted)
+    # With the likeliest size of the noise r^2/size is the number of data, alike for all; not with the least.
+    return (fitted.data * float(np.log(size)) + float(r @ r) / size - fitted.data) / temper + float(
+        priors @ priors
+    )
 
 
 def _mean_square(fitted: Refitted) -> float:
-    """Of what the readings leave."""
+    """Of what the readings leave, or the least that is supposed of them."""
     r = fitted.residuals[: fitted.data]
-    return max(float(r @ r), 1e-300) / max(1, fitted.data)
+    return max(float(r @ r) / max(1, fitted.data), fitted.least_scale, _NO_MISFIT)
 
 
 def _odds(effect: Effect) -> float:

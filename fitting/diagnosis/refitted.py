@@ -40,6 +40,8 @@ class Refitted:
     converged: bool = True
     pace: float = np.inf
     """Chi-square gained by the better one of the last two steps; infinite where there were too few."""
+    least_scale: float = 0.0
+    """Of the readings' mean square over their stated one, where that is not known (`Evidence`)."""
 
     @property
     def parameter_count(self) -> int:
@@ -118,8 +120,7 @@ class Refitted:
         """
         chi2 = self.chi2_per_dof
         scale = chi2 if np.isfinite(chi2) else 1.0
-        if self.noise_known:
-            scale = max(1.0, scale)
+        scale = max(1.0 if self.noise_known else self.least_scale, scale)
         kept = self._moving
         J = self.jacobian[:, kept]
         # An unknown noise is the readings'; a misfit is everyone's.

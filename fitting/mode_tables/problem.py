@@ -104,7 +104,8 @@ class ModalProblem:
         # One lab has read all of them alike.
         read = [np.broadcast_to(m.otherwise, (2, len(m.table.mode))) / m.std for m in self.members]
         B[:, -1] = np.hstack(read).ravel()
-        return Evidence(Readings(measured), sigma, sigma, B, scale_known)
+        # The usual errors, where none are stated, may be too small; a handful of modes met well says no more.
+        return Evidence(Readings(measured), sigma, sigma, B, scale_known, least_scale=1.0)
 
     def response(self, effects: Sequence[Effect] = ()) -> "ModalResponse":
         """What the modes are under some effects."""

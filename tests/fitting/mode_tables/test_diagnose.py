@@ -71,6 +71,23 @@ def test_of_a_beam_as_stated_nothing_is_named():
     assert costs == sorted(costs)
 
 
+@pytest.mark.parametrize("noise", [0.0, 0.5, 1.0])
+def test_a_table_that_states_no_errors_is_not_known_better_for_being_met_well(noise):
+    """Six modes within half the usual errors, or exact to the last digit: those errors are still allowed for."""
+    modes, noisy = small_modes(BEAM, LAW, 6), read(BEAM)
+    f, eta = (np.array([getattr(m, name) for m in modes]) for name in ("frequency_hz", "loss_factor"))
+    nearer = replace(
+        noisy,
+        frequency_hz=f * (noisy.frequency_hz / f) ** noise,
+        loss_factor=eta * (noisy.loss_factor / eta) ** noise,
+    )
+    silent = replace(nearer, frequency_std_hz=None, loss_factor_std=None)
+    stated, unsaid = (diagnosed(one, STIFFER, THICKER) for one in (nearer, silent))
+    assert unsaid.judgement.verdict == "none"
+    errors = [np.sqrt(np.diag(found.begun.none.covariance))[:2] for found in (stated, unsaid)]
+    assert np.all(errors[1] > 0.99 * errors[0])
+
+
 @pytest.mark.parametrize(
     ("name", "seen"),
     [("gain_error", False), ("channel_delay", False), ("core_law", True), ("substrate_stiffness", True)],
