@@ -226,7 +226,8 @@ class Together(QObject):
             return
         self.cancel()
         self._then_diagnose, self._leads_then = then_diagnose, True
-        results = (IdentificationResult, ModalResult)
+        # That of modes first: all it must have, its modes, a sweep's has not; the other way it would do.
+        results = (ModalResult, IdentificationResult)
         self._command.start(["identify", *arguments_of(self.files, self.hammer)], results)
         self.began.emit()
         self.changed.emit()

@@ -10,6 +10,7 @@ from gui.rediagnosis import DiagnosisAsked, Rediagnosis, ShownDiagnosis
 from gui.together import Together
 from instrument.cli.main import run
 from instrument.facts.identification import IdentificationResult
+from instrument.facts.modal import ModalResult
 
 
 @pytest.fixture(scope="module")
@@ -48,6 +49,18 @@ def test_one_law_is_the_command_line_s(qtbot, together, masses, tmp_path):
     assert found.untimed == said.untimed
     assert found.files == ("light.csv", "heavy.csv")
     assert together.leads
+
+
+def test_a_table_of_modes_is_shown_as_one(qtbot, together, tmp_path):
+    table = tmp_path / "modes.csv"
+    table.write_text(
+        "# read: model\nmode,frequency_hz,loss_factor\n1,74.3,0.221\n2,365.6,0.2228\n3,921.9,0.1788\n"
+        "4,1669.7,0.1266\n"
+    )
+    run(["new", "beam", str(table.with_suffix(".toml"))])
+    found = identified(qtbot, together, [table]).identified
+    assert isinstance(found, ModalResult)
+    assert [m.mode for m in found.modes] == [1, 2, 3, 4]
 
 
 def test_a_diagnosis_alone_asks_for_the_law_first(qtbot, together, masses):

@@ -73,7 +73,7 @@ def test_of_a_beam_as_stated_nothing_is_named():
 
 @pytest.mark.parametrize("noise", [0.0, 0.5, 1.0])
 def test_a_table_that_states_no_errors_is_not_known_better_for_being_met_well(noise):
-    """Six modes within half the usual errors, or exact to the last digit: those errors are still allowed for."""
+    """Within half the usual errors, or exact to the last digit: those errors are still allowed for."""
     modes, noisy = small_modes(BEAM, LAW, 6), read(BEAM)
     f, eta = (np.array([getattr(m, name) for m in modes]) for name in ("frequency_hz", "loss_factor"))
     nearer = replace(
