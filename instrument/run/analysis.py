@@ -61,6 +61,7 @@ class Analysis:
         self._settled_at = settled_at or {}
         self._acquisition: AcquisitionBegan | None = None
         self._range: RangeSet | None = None
+        self._range_is_new = False
         self._range_names: tuple[str, ...] = ()
         self._utc = ""
         self._signal_level: float | None = None
@@ -129,6 +130,7 @@ class Analysis:
                 self._acquire(event)
             case RangeSet():
                 self._range = event
+                self._range_is_new = self.step is None or self.step.done
                 if isinstance(self.hammer, StruckAnalysis) and self._strikes:
                     return self.hammer.range_set(event)
                 return self.step.range_set(event, self._wider()) if self.step is not None else []
@@ -232,6 +234,7 @@ class Analysis:
         if self._acquisition is None or self._range is None:
             # No run does that; a recording of which something is lost may.
             raise ValueError(f"step {began.step} begins before an acquisition and the vibrometer's range")
+        new, self._range_is_new = self._range_is_new, False
         return StepAnalysis(
             began,
             self._setup.sweep,
@@ -244,6 +247,7 @@ class Analysis:
             self._latest,
             self._temperature_c,
             self._settled_at.get(began.step),
+            range_is_new=new,
         )
 
     def _calibration(self, range_name: str) -> Calibration | None:

@@ -47,6 +47,9 @@ _LOST_BLOCKS = 3
 """So many in a row, until the loop counts as lost: a build-up rises meanwhile. A choice."""
 _RISES = 1.1
 """From block to block, by which a base that is only building up rises. A choice."""
+_RINGS = 4.0
+"""E-foldings of the slowest motion, until an overload of a range just set is no more of what went before:
+to a fiftieth. A choice."""
 _CLIPPED = 0.98
 """Share of the vibrometer's full scale from which its output counts as clipped."""
 
@@ -67,6 +70,8 @@ class StepAnalysis:
         latest: int,
         temperature_c: float | None = None,
         settled_at: frozenset[int] | None = None,
+        *,
+        range_is_new: bool = False,
     ) -> None:
         self._began, self._settings, self._scaling = began, settings, scaling
         self._rate = sample_rate_hz
@@ -77,6 +82,8 @@ class StepAnalysis:
         self._read_c = temperature_c
         # When a recorded run began to read; None where that is for this analysis to say.
         self._settled_at = settled_at
+        # What went before was read in another range, and may ring on beyond this one.
+        self._rings_until: int | None = None if range_is_new else latest
         self._guard = Guard(began, settings)
         self._samples = Samples(3)
         self._command: ShakerCommanded | None = None
@@ -115,6 +122,9 @@ class StepAnalysis:
         """A new drive: everything before it is worthless."""
         self._command = command
         self._from = begins_at(command, self._latest, self._rate, self._settings)
+        if self._rings_until is None:
+            rings_s = min(_RINGS / max(self._began.decay_1_s, 1e-9), self._settings.settle.most_s)
+            self._rings_until = self._from + int(rings_s * self._rate)
         self._restart()
         return []
 
@@ -131,11 +141,11 @@ class StepAnalysis:
         if self._command is None or self.done:
             return []
         row = self._scaling.rows
-        if overload[row["velocity"]] and self._latest > self._from:
-            return self._overloaded()
         if overload[row["base"]]:
             return [self._guard.stop("base acceleration channel overload", 1.0, 0.0, "", "raise its range")]
         x = self._in_units(volts)
+        if overload[row["velocity"]] and self._latest > self._from:
+            return self._guard.ramp(x[0]) or self._overloaded()
         self._samples.add(first_sample, x, self._from)
         events: list[Derived] = self._guard.ramp(x[0, : max(0, self._from - first_sample)])
         while not self.done and self._samples.count >= self._next_length() and not _final(events):
@@ -288,6 +298,10 @@ class StepAnalysis:
     # Corrections
 
     def _overloaded(self) -> list[Derived]:
+        if self._latest < (self._rings_until or 0):
+            self._from = self._latest
+            self._restart()
+            return []
         if not self._wider:
             what = "velocity at the vibrometer's coarsest range"
             full = self._range.scale_m_s_v * self._range.full_scale_v

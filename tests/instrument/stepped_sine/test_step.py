@@ -36,12 +36,15 @@ def follow(
     told=True,
     most=200,
     settled_at=None,
+    range_is_new=False,
 ):
     """Do what the step asks for until it is done or gives up; every event."""
     step = step or began()
     ask = (lambda name: calibration) if calibration else None
     analysis = StepAnalysis(
-        step, settings, SCALING, RATE, RANGE, wider, ask, light, station.now, settled_at=settled_at
+        *(step, settings, SCALING, RATE, RANGE, wider, ask, light, station.now),
+        settled_at=settled_at,
+        range_is_new=range_is_new,
     )
     events = list(analysis.commanded(station.command(step.frequency_hz, step.drive_v, told=told)))
     for _ in range(most):
@@ -154,6 +157,26 @@ def test_an_overload_asks_for_the_next_coarser_range():
     station = Station(response_s=0.03, gain_m_s2_v=9.81 / 1.9)
     (request,) = of_kind(follow(station, wider=("50mm/s/V", "100mm/s/V")), RangeRequested)
     assert request.name == "50mm/s/V"
+
+
+def test_what_still_rings_beyond_a_range_just_set_is_waited_for():
+    """A segment read finely after one that was read coarsely keeps its range; it asked for another before."""
+
+    def rung(**how):
+        return follow(Station(stirred=8.0, gain_m_s2_v=9.81 / 1.9), wider=("50mm/s/V",), **how)
+
+    assert of_kind(rung(), RangeRequested)
+    events = rung(range_is_new=True)
+    assert not of_kind(events, RangeRequested)
+    assert point_of(events).range_name == RANGE.name
+    assert abs(point_of(events).velocity_m_s / point_of(events).base_m_s2 / (0.004 - 0.002j) - 1) < 1e-3
+
+
+def test_what_does_not_ring_down_asks_for_a_coarser_range_all_the_same():
+    station = Station(response_s=0.03, gain_m_s2_v=9.81 / 1.9)
+    (request,) = of_kind(follow(station, wider=("50mm/s/V",), range_is_new=True), RangeRequested)
+    assert request.name == "50mm/s/V"
+    assert station.now / RATE < 4.0 / 8.0 + 1.0
 
 
 def test_an_overload_of_the_coarsest_range_stops():
