@@ -318,12 +318,19 @@ class AppController(QObject):
 
     def _laid(self, path: Path, what: str) -> None:
         """Says where they are to be found."""
-        sweeps = self.beside[path].sweeps
+        found = self.beside[path]
+        sweeps = found.sweeps
         where = "laid beside the session" if self.feed is not None else "read"
         if sweeps and all("force_re_n" in columns for columns in sweeps):
             where += "; over a force, so not drawn on Sweep: Diagnosis takes it"
         elif sweeps and self.feed is None:
             where += "; Diagnosis takes it with its specimen"
+        if found.modes:
+            where += "; a law of them: Several files"
+        if found.hits:
+            where += f"; records in time are not drawn, their damping ratios: viscorig damping {path.name}"
+        if found.frfs and self.feed is None:
+            where += "; drawn on Hammer once a session is open"
         self.said.emit(f"{path.name}: {what} {where}")
 
 

@@ -73,8 +73,11 @@ class DataBeside(QObject):
         if self._stamps.get(work.path, work.stamp) != work.stamp:
             self.renewed.emit(work.path)
         self.files[work.path], self._stamps[work.path] = found, work.stamp
-        counts = ((len(found.sweeps), "sweep"), (len(found.frfs), "FRF"), (len(found.hits), "hit"))
-        self.read.emit(work.path, ", ".join(f"{n} {what}{'s' if n > 1 else ''}" for n, what in counts if n))
+        counts = (
+            *((len(found.sweeps), "sweep"), (len(found.frfs), "FRF"), (len(found.hits), "hit")),
+            (len(found.modes), "table of modes"),
+        )
+        self.read.emit(work.path, ", ".join(_counted(n, what) for n, what in counts if n))
         self.changed.emit()
 
     def _not_read(self, message: str) -> None:
@@ -87,6 +90,11 @@ class DataBeside(QObject):
         self._works.pop(work.path, None)
         self.busy.emit("")
         work.deleteLater()
+
+
+def _counted(n: int, what: str) -> str:
+    first, *rest = what.split(" ", 1)
+    return " ".join([str(n), first + ("s" if n > 1 else ""), *rest])
 
 
 class _Reading(BackgroundTask[Found]):

@@ -2,6 +2,7 @@
 
 import pytest
 
+from gui.controller import AppController
 from gui.data_beside import DataBeside
 
 
@@ -55,3 +56,32 @@ def test_what_cannot_be_read_leaves_what_is_there(qtbot, beside, tmp_path):
     lay(qtbot, beside, bad)
     assert len(said) == 1
     assert list(beside.files) == [path]
+
+
+FILES_THAT_ARE_NOT_DRAWN = {
+    "a table of modes": (
+        "mode,frequency_hz,loss_factor\n1,74.3,0.221\n2,365.6,0.2228\n",
+        "1 table of modes read; a law of them: Several files",
+    ),
+    "a record in time": (
+        "time_s,force_n,velocity_m_s\n"
+        + "".join(f"{k / 1024},{k == 20:d},{0.001 * (k > 20)}\n" for k in range(2048)),
+        "1 hit read; records in time are not drawn, their damping ratios: viscorig damping given.csv",
+    ),
+    "an FRF over a force": (
+        "frequency_hz,mobility_re,mobility_im\n" + "".join(f"{f},0.01,0.002\n" for f in range(10, 90)),
+        "1 FRF read; drawn on Hammer once a session is open",
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", FILES_THAT_ARE_NOT_DRAWN)
+def test_a_file_that_no_open_page_draws_is_told_where_it_goes(qtbot, tmp_path, kind):
+    text, told = FILES_THAT_ARE_NOT_DRAWN[kind]
+    path, said = tmp_path / "given.csv", []
+    path.write_text(text)
+    controller = AppController()
+    controller.said.connect(said.append)
+    lay(qtbot, controller.data_beside, path)
+    controller.close()
+    assert said == [f"given.csv: {told}"]
