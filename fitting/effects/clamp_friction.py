@@ -26,7 +26,7 @@ class ClampFrictionEffect(Effect):
     )
     spans = ClampComplianceEffect.spans
     extends = "clamp_compliance"
-    unexplained_share = 0.003
+    unexplained_share = ClampComplianceEffect.unexplained_share
     chance = 0.03
     discriminating_test = (
         "the hammer test repeated with the clamp tightened: its losses change, the core's do not"

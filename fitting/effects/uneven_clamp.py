@@ -69,7 +69,7 @@ class UnevenClampEffect(Effect):
     )
     spans = (UnevenRoot(),)
     extends = "clamp_compliance"
-    unexplained_share = 0.003
+    unexplained_share = ClampComplianceEffect.unexplained_share
     chance = 0.015
     discriminating_test = (
         "two spots at the same x, one on either side of the axis; the screws tightened by torque"
