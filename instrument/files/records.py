@@ -1,5 +1,6 @@
 """Impact records and FRFs of any kind, by the file's ending; what a file does not say, options do."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -132,6 +133,14 @@ def _frf(path: Path, f: Function) -> Frf:
     return Frf(f.x, f.values, f.unit.quantity)
 
 
+def _no_vectors(content: Mapping[str, Any]) -> str:
+    """What there is in their place."""
+    shapes = [
+        f"{name} {' x '.join(map(str, v.shape))}" for name, v in content.items() if isinstance(v, np.ndarray)
+    ]
+    return f"found no vector but {', '.join(shapes) or 'nothing'}, expected a vector a channel, a file a hit"
+
+
 def _mat(path: Path, named: Named) -> Hit:
     """MATLAB 5 to 7.2: numeric vectors only. Names carry the unit (`acceleration_m_s2`) or the options do."""
     content = read_mat_variables(path)
@@ -147,7 +156,8 @@ def _mat(path: Path, named: Named) -> Hit:
         )
     force = named.force or ("force_n" if "force_n" in vectors else None)
     if force is None or force not in vectors:
-        raise BadInput(f"{path}: which variable is the force? found {', '.join(vectors)}, say --force NAME")
+        found = f"found {', '.join(vectors)}, say --force NAME" if vectors else _no_vectors(content)
+        raise BadInput(f"{path}: which variable is the force? {found}")
     lengths = {n: v for n, v in vectors.items() if len(v) == len(vectors[force])}
     units = {n: u for n in lengths for u in [_unit_in_name(n)] if u}
     named_here = Named(force, named.responses or tuple(n for n in units if n != force), rate)

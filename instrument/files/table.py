@@ -27,6 +27,7 @@ _OFF_GRID = 0.2
 """Times are often written with few digits: judged by their place on the grid, in steps."""
 _ROUNDING = 1e-12
 """Relative: times that are exact but for it are exact."""
+_SPREADSHEET_ERROR = re.compile(r"\s*\"?#(N/A|DIV/0!|VALUE!|REF!|NAME\?|NUM!|NULL!)")
 _DECIMAL_COMMA = re.compile(r"\d,\d")
 
 
@@ -129,9 +130,19 @@ def rate_of_times(t: Array) -> float | None:
     return rate_of_step(float(step), 2 * off / float(t[-1] - t[0]) + _ROUNDING)
 
 
+def is_comment(line: str) -> bool:
+    """Whether a line is for people; a spreadsheet's error in its first cell is a value that is missing."""
+    return line.lstrip().startswith("#") and not is_error(line)
+
+
+def is_error(text: str) -> bool:
+    """Whether a cell, or a line's first one, is what a spreadsheet writes where it has no value."""
+    return _SPREADSHEET_ERROR.match(text) is not None
+
+
 def _fields(path: Path, separator: str) -> Iterator[tuple[int, list[str]]]:
     for line, text in enumerate(read_text(path).splitlines(), start=1):
-        if text.strip() and not text.lstrip().startswith("#"):
+        if text.strip() and not is_comment(text):
             try:
                 yield (
                     line,

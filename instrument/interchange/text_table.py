@@ -13,12 +13,14 @@ from pathlib import Path
 from typing import NamedTuple
 
 from instrument.errors import BadInput
-from instrument.files.table import Rows
+from instrument.files.table import Rows, is_comment, is_error
 from instrument.files.units import unit_of
 from instrument.interchange.naming import PASSED_OVER, Naming
 from instrument.interchange.preamble import named_by_preamble, with_stated_units
 from instrument.interchange.unit_in_name import bracketed
 
+_MOST_SHOWN = 60
+"""Letters of a line in a message."""
 SEPARATORS = (";", "\t", ",", "")
 """Between columns; empty for blanks, any number of them."""
 _SAMPLED = 1000
@@ -51,7 +53,7 @@ def find_table(path: Path, text: str, naming: Naming | None = None) -> TextTable
     """
     lines = [(n, line) for n, line in enumerate(text.splitlines(), start=1) if line.strip()]
     separator = _separator(lines)
-    fields = [(n, _fields(path, n, line, separator)) for n, line in lines if not _is_comment(line)]
+    fields = [(n, _fields(path, n, line, separator)) for n, line in lines if not is_comment(line)]
     first, count = _longest_run(fields)
     if count == 0:
         raise BadInput(f"{path}: no rows of numbers, expected a table with a line of names above it")
@@ -85,10 +87,6 @@ def number_of(text: str, *, comma: bool) -> complex:
 
 
 # Lines
-
-
-def _is_comment(line: str) -> bool:
-    return line.lstrip().startswith("#")
 
 
 def _fields(path: Path, n: int, line: str, separator: str) -> list[str]:
@@ -145,6 +143,11 @@ def _check_above(path: Path, above: Sequence[tuple[int, list[str]]], first: tupl
     """Raise `BadInput` for rows above the table: a part of it would be lost in silence."""
     for n, row in above:
         if _is_row(row) and (len(row) == len(first[1]) or n == above[-1][0]):
+            for odd, cells in reversed(above):
+                names = all(cell and not is_number(cell, comma=True) and not is_error(cell) for cell in cells)
+                if odd > n and len(cells) == len(first[1]) and not names and not _is_row(cells):
+                    shown = ", ".join(cells)[:_MOST_SHOWN]
+                    raise BadInput(f"{path}: line {odd}: {shown!r} among rows of numbers, expected numbers")
             table = f"the table that begins in line {first[0]} with {len(first[1])}"
             raise BadInput(
                 f"{path}: line {n}: {len(row)} columns of numbers above {table}, expected one table"
@@ -160,7 +163,7 @@ def _named(
     """With the names, and the units, that stand above the rows; a comment's where there are no others."""
     preamble = [line for _, line in lines]
     widths = {len(rows[0][1]), _filled(rows)}
-    for above in ([line for line in lines if not _is_comment(line[1])], lines):
+    for above in ([line for line in lines if not is_comment(line[1])], lines):
         near = [(n, _cells(line, separator, widths)) for n, line in reversed(above[-2:])]
         names = _of_lines([cells for _, cells in near])
         if names is None:

@@ -101,6 +101,14 @@ REFUSED = {
         TABLE.replace("\n1.85", "\n7,1.85"),
         "line 2: 3 columns of numbers above",
     ),
+    "a spreadsheet's error in a first cell": (
+        TABLE.replace("\n1.85", "\n#N/A,,\n1.85"),
+        r"line \d+: '#N/A, , ' among rows of numbers",
+    ),
+    "an overload in the place of a row": (
+        TABLE.replace("\n1.85", "\nOVERLOAD,,\n1.85"),
+        r"line \d+: 'OVERLOAD, , ' among rows of numbers",
+    ),
     "a value in a column without a name": (
         TABLE.replace("\n", ",\n").replace("e-03,\n", "e-03,5\n"),
         "4 columns, expected 3",
