@@ -215,3 +215,12 @@ def test_matlab_times_that_are_no_samples_give_no_rate(tmp_path):
     savemat(tmp_path / "a.mat", {"time_s": times, "force_n": times, "acceleration_m_s2": times})
     with pytest.raises(BadInput, match="time_s is not evenly spaced"):
         read_records(tmp_path / "a.mat", Named())
+
+
+def test_matlab_hits_as_rows_of_a_matrix_are_told_how_they_are_expected(tmp_path):
+    rows = {"force_n": np.zeros((3, 64)), "velocity_m_s": np.ones((3, 64)), "sample_rate_hz": RATE}
+    savemat(tmp_path / "a.mat", rows)
+    with pytest.raises(
+        BadInput, match="no vector but force_n 3 x 64, velocity_m_s 3 x 64, expected a vector"
+    ):
+        read_records(tmp_path / "a.mat", Named())
