@@ -4,6 +4,8 @@ from math import exp, floor, log
 
 _WRITTEN = 1e4
 """Odds up to which they are written out: of larger ones the power of ten says enough."""
+_SELDOM = 1e-6
+"""Chance below which its size says nothing more."""
 
 
 def written_out(value: float, digits: int) -> str:
@@ -19,6 +21,15 @@ def all_digits(value: float, digits: int) -> str:
 def two_digits(value: float) -> str:
     """The same of two: 630 and not 6.3e+02; a share of 99.8 is 100."""
     return written_out(value, 2)
+
+
+def seldom(chance: float) -> str:
+    """How often what has a small chance happens: `once in 340 times`."""
+    return (
+        f"once in {written_out(1 / chance, 2)} times"
+        if chance > _SELDOM
+        else "once in more than a million times"
+    )
 
 
 def times(log_odds: float) -> str:

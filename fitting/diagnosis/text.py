@@ -14,7 +14,7 @@ from fitting.diagnosis.several import SeveralProblem
 from fitting.diagnosis.structure import in_words
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.diagnosis.verdict import Judgement
-from fitting.digits import all_digits, two_digits, written_out
+from fitting.digits import all_digits, seldom, two_digits, written_out
 from fitting.effects.base import Effect
 from fitting.identification.quoted import quoted_hz
 
@@ -69,7 +69,7 @@ def explain(
         said.append(f"{scored.too_large} ends at the limit of what is plausible: it would be larger still.")
     if scored.strains is not None and not judgement.by_hand:
         said.append(
-            f"It has stated numbers as far off as they are once in {1 / scored.strains:.2g} times, and may "
+            f"It has stated numbers as far off as they are {seldom(scored.strains)}, and may "
             "stand in for what is not known."
         )
     for name, group in judgement.equivalent.items():

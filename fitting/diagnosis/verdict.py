@@ -19,7 +19,7 @@ from fitting.diagnosis.result import Verdict
 from fitting.diagnosis.search import ScoredFit, best_of_each
 from fitting.diagnosis.stand_in import supposes_too_much
 from fitting.diagnosis.thresholds import VERDICT
-from fitting.digits import two_digits
+from fitting.digits import seldom, two_digits
 
 _MOST_OF_KIN = 1 - 1e-9
 """Probability: what is listed keeps its order beside it."""
@@ -328,7 +328,7 @@ def against_by_checks(best: ScoredFit) -> str:
     worst = weakest(best.checks)
     if worst is None or worst[1] >= VERDICT.check_level:
         return ""
-    return f"would leave such data once in {1 / max(worst[1], 1e-99):.2g} times ({worst[0]})"
+    return f"would leave such data {seldom(worst[1])} ({worst[0]})"
 
 
 def _against(none: ScoredFit, best: ScoredFit, held_out: Callable[[ScoredFit], float]) -> str:

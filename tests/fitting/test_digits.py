@@ -2,7 +2,7 @@
 
 import pytest
 
-from fitting.digits import all_digits, times, two_digits, written_out
+from fitting.digits import all_digits, seldom, times, two_digits, written_out
 
 
 @pytest.mark.parametrize(
@@ -30,3 +30,15 @@ def test_zeros_at_the_end_are_kept_where_numbers_stand_beside_each_other():
 def test_odds_are_said_as_how_many_times_as_likely():
     assert [times(x) for x in (0.0, 0.7, 3.0, 9.2)] == ["1.0 times", "2.0 times", "20 times", "9900 times"]
     assert times(200.0) == "over 10^86 times"
+
+
+@pytest.mark.parametrize(
+    ("chance", "said"),
+    [
+        (0.0029, "once in 340 times"),
+        (1e-99, "once in more than a million times"),
+        (0.0, "once in more than a million times"),
+    ],
+)
+def test_a_chance_too_small_to_mean_anything_has_no_digits(chance, said):
+    assert seldom(chance) == said
