@@ -81,9 +81,11 @@ def test_what_is_on_it_weighs(reduced, effects, more):
 
 
 def test_a_stiffer_substrate_rings_higher(reduced):
+    f = np.linspace(60.0, 140.0, 401)
     plain, stiffer = hung(reduced), hung(reduced, e.Effects(substrate_stiffness=e.SubstrateStiffness(1.2)))
-    elastic = [p.modes(8)[0][p.modes(8)[0] > 50][0] for p in (plain, stiffer)]
-    assert 1.01 < elastic[1] / elastic[0] < np.sqrt(1.2)
+    # A pole that no blow stirs may lie anywhere: what is seen of it is nothing.
+    peaks = [f[np.argmax([abs(p.mobility(x)) for x in f])] for p in (plain, stiffer)]
+    assert 1.01 < peaks[1] / peaks[0] < np.sqrt(1.2)
 
 
 def test_loose_all_over_it_has_the_core_of_a_law_as_much_softer():
