@@ -245,7 +245,7 @@ def test_the_model_s_error_counts_the_layers_that_are_there():
 
 def test_effects_that_ask_for_the_whole_treatment_stand_on_no_patch():
     patched = replace(PLATE, patches=(Patch(0.0, 0.1, 0.0, 0.2),))
-    for name in ("partial_debond", "graded_core", "treatment_not_gripped"):
+    for name in ("graded_core", "treatment_not_gripped"):
         assert CATALOGUE[name].standing_on(PLATE) is not None
         assert CATALOGUE[name].standing_on(patched) is None
     assert CATALOGUE["orthotropic_substrate"].standing_on(TURNED) is None

@@ -10,6 +10,7 @@ from found_law_cases import facts
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fitting.chances import Z_95
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.modes import ComplexModeRow, ModesResult
@@ -179,7 +180,7 @@ def test_its_law_is_drawn_with_both_bands(identified):
     np.testing.assert_allclose(right.lines[0].get_ydata(), identified.loss_factor)
     band = left.collections[0].get_paths()[0].vertices[:, 1].max()
     error = identified.to_numpy()["storage_modulus_standard_error_pa"]
-    assert band == pytest.approx((identified.storage_modulus_pa + 1.96 * error).max() / 1e6)
+    assert band == pytest.approx((identified.storage_modulus_pa + Z_95 * error).max() / 1e6)
 
 
 # A diagnosis

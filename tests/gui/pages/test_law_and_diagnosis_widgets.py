@@ -7,6 +7,7 @@ import pytest
 from diagnosis_cases import diagnosis
 from result_cases import identification
 
+from fitting.chances import Z_95
 from gui.pages.diagnosis.candidates import Candidates
 from gui.pages.diagnosis.comparison import HeldOutBars, LawChange
 from gui.pages.diagnosis.finding import Finding, headline
@@ -31,7 +32,7 @@ def test_the_shaded_band_is_as_wide_as_chosen(made):
     wide = plots.storage.columns()
     changed = [np.ptp([narrow[k], wide[k]], axis=0) for k in narrow if not np.array_equal(narrow[k], wide[k])]
     assert len(changed) == 2
-    np.testing.assert_allclose(changed, 0.096)
+    np.testing.assert_allclose(changed, 0.1 * (Z_95 - 1))
     plots.show_lines([])
     assert list(plots.storage.names) == []
 

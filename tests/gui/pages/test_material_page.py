@@ -8,6 +8,7 @@ from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 from result_cases import identification
 
+from fitting.chances import Z_95
 from gui.pages.material import MaterialPage, comparison
 from gui.pages.material.compared import PAPER
 from gui.pages.material.numbers import headline, parameters
@@ -96,7 +97,7 @@ def test_the_width_of_the_bands_is_chosen(qtbot, page):
     error = np.array([row.loss_factor_standard_error for row in diagnosis_of(page).after.law])
     qtbot.keyClick(page.plots.bands, Qt.Key.Key_Down)
     low = page.plots.loss.columns()["result: with added_mass, band low: Loss factor η"]
-    assert low == pytest.approx(eta - 1.96 * error)
+    assert low == pytest.approx(eta - Z_95 * error)
 
 
 def test_numbers_stand_at_the_references_and_the_resonances(looked_at):
