@@ -1,7 +1,13 @@
-"""Work that nobody watches is told all the same."""
+"""Work tells how far it is, and does the same where nobody listens."""
 
-from fitting.progress import unheard
+from fitting.diagnosis.executor import ALONE
+from fitting.progress import Report, unheard
 
 
-def test_a_fraction_that_nobody_asked_for_is_taken():
-    assert unheard(0.5) is None
+def test_work_that_nobody_watches_is_the_same_work():
+    told = list[float]()
+    report: Report = told.append
+    watched = list(ALONE.each(str, [1, 2, 3, 4], report))
+    assert watched == list(ALONE.each(str, [1, 2, 3, 4], unheard)) == ["1", "2", "3", "4"]
+    assert told[-1] == 1.0
+    assert told == sorted(told)
