@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.element import face_plane_stress
-from fitting.specimen import Face
+from fitting.layers import Face
 
 EDGE_WIDTH = 0.63 / 2
 """Of the thickness: so wide a strip carries no twist at a free edge (decision 13)."""

@@ -17,7 +17,7 @@ from math import perm
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.specimen import Core, Face
+from fitting.layers import Core, Face
 
 U_C, V_C, U_B, V_B, W, THETA_X, THETA_Y, G_X, G_Y = range(9)
 """Places of a node's degrees of freedom: both faces in their plane, w, its slopes, slip of glue."""

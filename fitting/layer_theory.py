@@ -14,7 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.exact_layers import lowest
-from fitting.specimen import Core, Face, Specimen
+from fitting.layers import Core, Face
+from fitting.specimen import Specimen
 
 _STEPS = 30
 """A bound for Newton's method."""

@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 from fitting.arrays import Array, Complex
 from fitting.element import DOFS, GLUE_TURNS, THETA_X, THETA_Y, face_plane_stress
 from fitting.laws.constant import ConstantModulus
+from fitting.layers import Core, Face, Glue, Orthotropy
 from fitting.mesh import is_turned
 from fitting.patches import Patch, shifts_of
-from fitting.specimen import Core, Face, Glue, Orthotropy, Specimen
+from fitting.specimen import Specimen
 
 _LAYER = ("thickness_m", "young_pa", "poisson", "density_kg_m3", "loss_factor")
 _MEMBRANE = ("11", "22", "12", "66 yy", "66 xx", "66 xy")

@@ -5,9 +5,10 @@ from dataclasses import dataclass, field, replace
 from math import exp
 from typing import Any
 
+from fitting.layers import Face, Orthotropy
 from fitting.mesh import is_turned
 from fitting.patches import OF_PATCHES, shift_of, shifts_of
-from fitting.specimen import Face, Orthotropy, Specimen
+from fitting.specimen import Specimen
 from fitting.tolerances import OF_OWN_AXES, PLATE, STATED, StatedNumber, number_of
 
 _LARGEST_POISSON = 0.4999

@@ -23,7 +23,8 @@ from fitting.errors import OutsideModel
 from fitting.exact_layers import ElasticLayer, exact_lambda
 from fitting.laws import CoreLaw
 from fitting.layer_theory import as_isotropic, layerwise_lambda, wavenumber
-from fitting.specimen import Face, Glue, Specimen
+from fitting.layers import Face, Glue
+from fitting.specimen import Specimen
 
 FREQUENCY_LIMIT = 5e-3
 """Largest error of a resonance. A tenth to a third of the stiffness is the core's: G' is then 3 to 10 % off,

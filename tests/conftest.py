@@ -18,9 +18,10 @@ from fitting import model_error, plugins
 from fitting.domain import domain_of
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
+from fitting.layers import Core, Face
 from fitting.mesh_error import MeshError
 from fitting.plate import Plate
-from fitting.specimen import Core, Face, Specimen
+from fitting.specimen import Specimen
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.other_processes import VARIABLE as PROCESSES

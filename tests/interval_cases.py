@@ -16,10 +16,11 @@ from fitting.diagnosis.whitening import SHARE
 from fitting.direct import displacement_direct
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from fitting.laws.fractional_zener import FractionalZener
+from fitting.layers import Core, Face
 from fitting.model_error import DRIFT, GAIN, model_error_at
 from fitting.plate import Plate
 from fitting.plate_numbers import moved, plate_numbers, tolerance
-from fitting.specimen import Core, Face, Specimen
+from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.campaign.materials import draw_material
 

@@ -1,6 +1,7 @@
 """A simply supported sandwich of aluminium, struck at a point and read at another; exact."""
 
-from fitting.specimen import Core, Face, Specimen
+from fitting.layers import Core, Face
+from fitting.specimen import Specimen
 
 ALUMINIUM = (70e9, 0.33, 2700.0)
 

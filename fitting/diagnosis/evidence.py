@@ -8,10 +8,10 @@ import numpy as np
 from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.whitening import SHARE, Whitening
 from fitting.effects.base import Effect
+from fitting.layers import Face
 from fitting.noise import Noise
 from fitting.nuisances import Nuisances
 from fitting.readings import Readings
-from fitting.specimen import Face
 from fitting.sweep import Sweep
 
 _BLUNT = 0.03

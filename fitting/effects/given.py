@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.laws import CoreLaw
+from fitting.layers import Face
 from fitting.levels import count_of_levels
-from fitting.specimen import Drive, Face, Reading
+from fitting.specimen import Drive, Reading
 
 
 @dataclass(frozen=True)

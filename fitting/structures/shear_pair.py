@@ -20,7 +20,8 @@ from numpy.polynomial import Legendre
 
 from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.specimen import BaseDriven, Core, Reading
+from fitting.layers import Core
+from fitting.specimen import BaseDriven, Reading
 from fitting.structures.small import Parts, as_coefficients
 from fitting.tolerances import KG, STATED, StatedValue, number_of
 

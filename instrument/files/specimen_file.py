@@ -11,7 +11,8 @@ from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import LAWS, CoreLaw
 from fitting.laws.table import Tabulated
-from fitting.specimen import Core, Drive, PlacedMass, Reading, Specimen
+from fitting.layers import Core
+from fitting.specimen import Drive, PlacedMass, Reading, Specimen
 from fitting.structures.shear_pair import TYPICAL as OF_PAIR
 from fitting.tolerances import OF_FEW, OF_TEMPERATURE, STATED
 from instrument.errors import BadInput

@@ -19,7 +19,8 @@ from rich.progress import track
 
 from fitting.errors import FittingError
 from fitting.laws import LAWS
-from fitting.specimen import Core, Face, Specimen
+from fitting.layers import Core, Face
+from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.models.identification import identify
 

@@ -11,9 +11,10 @@ from drivers.simulated.plant import air as lattice
 from fitting.air import air_factor, air_lowering, still_air
 from fitting.effects.air_added_mass import AirAddedMassEffect
 from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
+from fitting.layers import Face
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
-from fitting.specimen import Face, Specimen
+from fitting.specimen import Specimen
 
 ALUMINIUM = Face(1.9e-3, 68.9e9, 0.3, 2700.0)
 MODES = 10

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from fitting.edge_twist import EDGE_WIDTH, EdgeTwist
 from fitting.element import face_plane_stress
+from fitting.layers import Face, Orthotropy
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
-from fitting.specimen import Face, Orthotropy
 
 PLY = Face(
     thickness_m=5e-3,

@@ -4,7 +4,7 @@ import pytest
 from fitting import element
 from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, Shape, W
 from fitting.laws.constant import ConstantModulus
-from fitting.specimen import Core, Face
+from fitting.layers import Core, Face
 
 A, B = 0.02, 0.03
 SHAPE = Shape(A, B)

@@ -9,6 +9,7 @@ from fitting.effects import CATALOGUE
 from fitting.element import face_plane_stress
 from fitting.laws.constant import ConstantModulus
 from fitting.layer_theory import layerwise_lambda
+from fitting.layers import Core, Face, Glue, Orthotropy
 from fitting.mesh import SHIFT_M
 from fitting.nuisances import Nuisances, nuisances_of
 from fitting.part_matrices import moving_part, projected_parts
@@ -17,7 +18,7 @@ from fitting.patches import Patch, shifts_of
 from fitting.plate import Plate
 from fitting.plate_numbers import plate_numbers
 from fitting.real_modes import real_modes
-from fitting.specimen import Core, Face, Glue, Orthotropy, Specimen
+from fitting.specimen import Specimen
 from fitting.theory_error import check_theory, theory_error
 
 G = 5e5

@@ -8,10 +8,11 @@ import pytest
 from fitting.complex_modes import complex_modes
 from fitting.laws.constant import ConstantModulus
 from fitting.layer_theory import layerwise_lambda
+from fitting.layers import Core, Face, Glue, Orthotropy
 from fitting.mesh_error import mesh_error
 from fitting.model_error import FREQUENCY, model_error_at
 from fitting.plate import Plate
-from fitting.specimen import Core, Face, Glue, Orthotropy, Specimen
+from fitting.specimen import Specimen
 
 ALUMINIUM = Face(2e-3, 70e9, 0.3, 2700.0)
 FOIL = Face(0.5e-3, 70e9, 0.3, 2700.0)

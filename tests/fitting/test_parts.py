@@ -11,6 +11,7 @@ from fitting.element import DOFS, core_shear_stiffness
 from fitting.element import Shape as ElementShape
 from fitting.element_matrices import element_matrices
 from fitting.laws.constant import ConstantModulus
+from fitting.layers import Core, Face
 from fitting.mesh import Mesh
 from fitting.part_matrices import element_parts, load_part, projected_parts
 from fitting.parts import (
@@ -21,7 +22,7 @@ from fitting.parts import (
     stretched,
 )
 from fitting.plate import Plate
-from fitting.specimen import Core, Face, Specimen
+from fitting.specimen import Specimen
 
 LAW = ConstantModulus(1e6, 0.0)
 REFERENCE = Specimen(

@@ -11,9 +11,10 @@ from fitting.direct import displacement_direct, solve_direct
 from fitting.errors import OutsideModel
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
+from fitting.layers import Core, Face
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
-from fitting.specimen import Core, Face, Specimen
+from fitting.specimen import Specimen
 
 
 def hertz(modes):

@@ -9,8 +9,9 @@ from fitting.errors import OutsideModel
 from fitting.exact_layers import ElasticLayer, exact_lambda
 from fitting.laws.constant import ConstantModulus
 from fitting.layer_theory import layerwise_lambda, wavenumber
+from fitting.layers import Core, Face
 from fitting.plate import Plate
-from fitting.specimen import Core, Face, Specimen
+from fitting.specimen import Specimen
 from fitting.theory_error import (
     FREQUENCY_LIMIT,
     LOSS_LIMIT,

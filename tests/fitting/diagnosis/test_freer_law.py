@@ -15,8 +15,8 @@ from fitting.diagnosis.search import Search
 from fitting.diagnosis.small_problem import SmallProblem
 from fitting.effects import CATALOGUE
 from fitting.laws import LAWS
+from fitting.layers import Core, Face
 from fitting.noise import Noise
-from fitting.specimen import Core, Face
 from fitting.structures.beam import Beam
 from fitting.structures.small import system_of
 from fitting.structures.small_sum import rational_of

@@ -12,9 +12,9 @@ from fitting.diagnosis.small_error import theory_rows
 from fitting.diagnosis.small_problem import SmallProblem
 from fitting.laws import LAWS
 from fitting.laws.constant import ConstantModulus
+from fitting.layers import Core, Face
 from fitting.narrow import THEORY
 from fitting.noise import Noise
-from fitting.specimen import Core, Face
 from fitting.structures import Beam
 from fitting.structures.small_modes import small_modes
 from fitting.sweep import Sweep

@@ -7,8 +7,8 @@ from fitting.diagnosis.begin import begin
 from fitting.diagnosis.overstated_noise import is_overstated, share_left, with_own_noise
 from fitting.diagnosis.small_problem import SmallProblem
 from fitting.laws import LAWS
+from fitting.layers import Core, Face
 from fitting.noise import Noise, noise_of
-from fitting.specimen import Core, Face
 from fitting.structures.beam import Beam
 from fitting.structures.small import system_of
 from fitting.structures.small_sum import rational_of

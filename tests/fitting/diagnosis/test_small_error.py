@@ -5,7 +5,7 @@ import pytest
 
 from fitting.diagnosis.small_error import octaves, theory_rows
 from fitting.laws.constant import ConstantModulus
-from fitting.specimen import Core, Face
+from fitting.layers import Core, Face
 from fitting.structures import Beam, ShearPair
 from fitting.structures.small import displacement, system_of, widened_system_of
 

@@ -20,8 +20,8 @@ from fitting.effects.other_plates import changed_to, mixed
 from fitting.effects.substrate_stiffness import SubstrateStiffnessEffect
 from fitting.effects.substrate_thickness import SubstrateThicknessEffect, with_substrate
 from fitting.element import DOFS, THETA_Y, U_B, V_B, Shape, core_shear, face_plane_stress, face_stiffness
+from fitting.layers import Face
 from fitting.plate import Plate
-from fitting.specimen import Face
 
 ORTHOTROPIC, GRADED = CATALOGUE["orthotropic_substrate"], CATALOGUE["graded_core"]
 STIFFNESS, THICKNESS = ConstrainingStiffnessEffect(), ConstrainingThicknessEffect()

@@ -1,7 +1,7 @@
 from fitting.effects import CATALOGUE
 from fitting.laws.constant import ConstantModulus
+from fitting.layers import Core
 from fitting.mode_tables.standing import standing
-from fitting.specimen import Core
 from fitting.structures import ShearPair
 
 

@@ -5,10 +5,11 @@ import pytest
 from scipy.sparse.linalg import LinearOperator, eigsh
 
 from fitting.laws.constant import ConstantModulus
+from fitting.layers import Core, Face
 from fitting.patches import Patch
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
-from fitting.specimen import Core, Face, Specimen
+from fitting.specimen import Specimen
 from instrument.campaign.plates.geometry import plate_named
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.solid import Build, Solid, factorised

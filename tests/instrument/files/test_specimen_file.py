@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from fitting.laws import LAWS
+from fitting.layers import Glue, Orthotropy
 from fitting.patches import Patch
 from fitting.plate_numbers import tolerance
-from fitting.specimen import Glue, Orthotropy
 from fitting.tolerances import OF_TEMPERATURE, STATED
 from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from fitting.laws import LAWS
-from fitting.specimen import Core, Face, PlacedMass
+from fitting.layers import Core, Face
+from fitting.specimen import PlacedMass
 from fitting.structures.beam import Beam
 from fitting.structures.small import displacement, system_of
 from fitting.sweep import Sweep

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 from following_cases import BACKWARDS, SPOT
 
-from fitting.specimen import Face, Specimen
+from fitting.layers import Face
+from fitting.specimen import Specimen
 from fitting.structures import ShearPair
 from instrument.facts.follow_up import FollowUp
 from instrument.results.offer_sketch import offer_view
