@@ -9,7 +9,7 @@ by overriding some of the hooks; all others leave the response as it is.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal, NamedTuple
 
@@ -156,9 +156,13 @@ class Effect:
         """The form it has on a `plate`, `beam` or `shear-pair`; None where it has no meaning."""
         return self if kind in self.structures else None
 
+    def form_on(self, specimens: Sequence[StatedSpecimen]) -> Effect | None:
+        """The form it has on some specimens of one kind; None where it has no meaning."""
+        return self.on(specimens[0].kind)
+
     def standing_on(self, specimen: StatedSpecimen) -> Effect | None:
         """The form it has on a specimen; None where that lacks what it needs."""
-        form = self.on(specimen.kind)
+        form = self.form_on([specimen])
         return form if form is not None and form.needs <= specimen.offers else None
 
     def seen(self, sweep: Sweep, noise: Noise) -> ChannelFinding | None:

@@ -1,6 +1,6 @@
 """The core has come loose along a strip: it carries hardly any shear there."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 import scipy.sparse as sp
@@ -119,11 +119,13 @@ class PartialDebondEffect(Effect):
     def on(self, kind: str) -> Effect | None:
         return DebondOfBeamEffect() if kind == "beam" else super().on(kind)
 
-    def standing_on(self, specimen: StatedSpecimen) -> Effect | None:
-        form, patches = super().standing_on(specimen), getattr(specimen, "patches", ())
-        if form is None or not patches:
+    def form_on(self, specimens: Sequence[StatedSpecimen]) -> Effect | None:
+        form = super().form_on(specimens)
+        # Of plates with unlike patches an edge of one is no edge of the other.
+        alike = {getattr(s, "patches", ()) for s in specimens}
+        if form is not self or len(alike) > 1:
             return form
-        return PartialDebondEffect(self.along, at_edge=self.at_edge, patches=patches, edge_m=self.edge_m)
+        return PartialDebondEffect(self.along, at_edge=self.at_edge, patches=alike.pop(), edge_m=self.edge_m)
 
     def variants(self) -> tuple[Effect, ...]:
         # Glue misses an edge first, and a place that is known need not be paid for.

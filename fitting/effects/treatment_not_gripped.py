@@ -4,7 +4,7 @@ A free end of the constraining layer carries no tension: the plate is softer the
 otherwise. The springs that hold it in its plane say how free it is.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import scipy.sparse as sp
@@ -74,11 +74,12 @@ class TreatmentNotGrippedEffect(Effect):
     def on(self, kind: str) -> Effect | None:
         return TreatmentOfBeamEffect() if kind == "beam" else super().on(kind)
 
-    def standing_on(self, specimen: StatedSpecimen) -> Effect | None:
-        form = super().standing_on(specimen)
-        if isinstance(form, TreatmentOfBeamEffect) and "two clamps" in specimen.offers:
-            return TreatmentOfBeamEffect(clamps=2)
-        return form
+    def form_on(self, specimens: Sequence[StatedSpecimen]) -> Effect | None:
+        form = super().form_on(specimens)
+        if not isinstance(form, TreatmentOfBeamEffect):
+            return form
+        clamps = {2 if "two clamps" in s.offers else 1 for s in specimens}
+        return TreatmentOfBeamEffect(clamps.pop() if len(clamps) == 1 else None)
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return None if "treatment" in plate.group else "the plate has no clamp"
@@ -106,11 +107,12 @@ class TreatmentOfBeamEffect(TreatmentNotGrippedEffect):
     needs = CLAMP | CONSTRAINED
     spans: tuple[Span, ...] = (LetGo(),)
 
-    def __init__(self, clamps: int = 1) -> None:
+    def __init__(self, clamps: int | None = 1) -> None:
+        """`clamps` of the beam; None for beams of which one has more of them than another."""
         self.clamps = clamps
 
     def variants(self) -> tuple[Effect, ...]:
-        return (self, TreatmentEndsShortEffect(self.clamps))
+        return (self,) if self.clamps is None else (self, TreatmentEndsShortEffect(self.clamps))
 
 
 class TreatmentEndsShortEffect(TreatmentOfBeamEffect):
@@ -134,6 +136,7 @@ class TreatmentEndsShortEffect(TreatmentOfBeamEffect):
         return np.maximum(lower, _LEAST_M), np.minimum(upper, _MOST * plate.length_m)
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
+        assert self.clamps is not None
         g = float(u[0])
         shorter = 1 - self.clamps * g / plate.length_m
 

@@ -1,10 +1,13 @@
-"""The effects that have a meaning on a specimen whose modes are known."""
+"""The effects that have a meaning on specimens whose modes are known."""
+
+from collections.abc import Sequence
 
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
 from fitting.structures import AnySpecimen
 
 
-def standing(specimen: AnySpecimen) -> list[Effect]:
-    """The forms that effects have on it."""
-    return [form for e in CATALOGUE.values() if (form := e.standing_on(specimen)) is not None]
+def standing(specimens: Sequence[AnySpecimen]) -> list[Effect]:
+    """The forms that effects have on all of some specimens, which are of one kind."""
+    forms = (e.form_on(specimens) for e in CATALOGUE.values())
+    return [f for f in forms if f is not None and all(f.needs <= s.offers for s in specimens)]

@@ -62,7 +62,7 @@ def effects_among(
     first = specimens[0]
     standing = {}
     for name, effect in CATALOGUE.items():
-        form = effect.on(first.kind)
+        form = effect.form_on(specimens)
         if form is None or not all(form.needs - (BASE | FORCE | ROOT) <= s.offers for s in specimens):
             continue
         of_level = form.enters == "level" and any(s.drive == "base" for s in specimens)

@@ -121,7 +121,7 @@ class Members:
     def effects(self) -> list[Effect]:
         """The forms that effects have on all of them."""
         if self.are_tables:
-            return standing(self.specimens[0])
+            return standing(self.specimens)
         return [effect for effect, _ in effects_among(self.specimens)]
 
     def _sweep(self, one: AtTemperature, *, with_effects: bool) -> AloneSweep:

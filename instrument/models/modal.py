@@ -134,7 +134,7 @@ def diagnose_tables(
                 for t, s in zip(tables, specimens, strict=True)
             ]
         ready = perf_counter()
-        effects = tuple(e for e in standing(members[0].specimen) if e.name not in without)
+        effects = tuple(e for e in standing(specimens) if e.name not in without)
         with progress("tracing what is left") as report:
             found = diagnose_modes(ModalProblem.of(members), effects, start, report)
     accepted = found.judgement.accepted

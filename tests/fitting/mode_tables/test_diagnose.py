@@ -15,7 +15,7 @@ from fitting.mode_tables.standing import standing
 from fitting.mode_tables.table import ModalTable
 from fitting.structures.small_modes import small_modes
 
-FORMS = {e.name: e for e in standing(BEAM)}
+FORMS = {e.name: e for e in standing([BEAM])}
 STIFFER, THICKER = FORMS["substrate_stiffness"], FORMS["core_thickness"]
 
 
@@ -114,7 +114,7 @@ def test_a_pad_s_mass_hides_in_its_law_and_is_said_to():
         f, eta = mode.frequency_hz * (1 + 1e-3 * rng.normal()), mode.loss_factor * (1 + 0.03 * rng.normal())
         table = ModalTable(*np.array([[1.0], [f], [eta], [1e-3 * f], [0.03 * eta]]), read="model")
         members.append(member_of(table, specimen))
-    mass = next(e for e in standing(specimens[0]) if e.name == "added_mass")
+    mass = next(e for e in standing(specimens) if e.name == "added_mass")
     judgement = diagnose_modes(ModalProblem.of(members), [mass], law).judgement
     assert judgement.verdict == "ambiguous"
     assert judgement.equivalent == {"added_mass": ("added_mass", "none")}

@@ -8,7 +8,7 @@ from beam_tables import BEAM, FACE, begun, read
 from fitting.diagnosis.of_files import OfFiles
 from fitting.mode_tables.standing import standing
 
-STIFFER = next(e for e in standing(BEAM) if e.name == "substrate_stiffness")
+STIFFER = next(e for e in standing([BEAM]) if e.name == "substrate_stiffness")
 
 
 def test_modes_left_out_are_predicted_within_their_errors_and_not_from_a_wrong_beam():
@@ -23,7 +23,7 @@ def test_modes_left_out_are_predicted_within_their_errors_and_not_from_a_wrong_b
 
 def test_another_law_is_not_held_to_what_was_left_out():
     work = begun(read(BEAM))
-    other = next(e for e in standing(BEAM) if e.replaces_law)
+    other = next(e for e in standing([BEAM]) if e.replaces_law)
     fitted = work.fits(other, work.begun.none)
     assert fitted
     assert np.isnan(work.held_out(work.scored(fitted[0])))

@@ -9,7 +9,7 @@ from fitting.diagnosis.kin import CHANCE
 from fitting.mode_tables.kin import kin_of_modes
 from fitting.mode_tables.standing import standing
 
-STIFFER = next(e for e in standing(BEAM) if e.name == "substrate_stiffness")
+STIFFER = next(e for e in standing([BEAM]) if e.name == "substrate_stiffness")
 TABLE = read(replace(BEAM, substrate=replace(FACE, young_pa=1.35 * 70e9)))
 
 

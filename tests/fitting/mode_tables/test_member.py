@@ -22,7 +22,7 @@ MEMBER = member_of(TABLE, BEAM)
 STATED = np.zeros(len(MEMBER.stated))
 ZENER = FractionalZener(5e5, 2e7, 1e-4, 0.6)
 """So that a mode's own frequency moves the law too."""
-STIFFER = next(e for e in standing(BEAM) if e.name == "substrate_stiffness")
+STIFFER = next(e for e in standing([BEAM]) if e.name == "substrate_stiffness")
 
 
 @given(own=st.floats(0.0, 0.05), of_loss=st.floats(0.0, 0.2))

@@ -12,7 +12,7 @@ from fitting.mode_tables.misread import misread
 from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.standing import standing
 
-FORMS = {e.name: e for e in standing(BEAM)}
+FORMS = {e.name: e for e in standing([BEAM])}
 
 
 def with_row(table, k, f=1.0, eta=1.0):

@@ -8,7 +8,7 @@ from fitting.mode_tables.pairs import best_pairs, called_for
 from fitting.mode_tables.standing import standing
 
 WANTED = ("substrate_stiffness", "constraining_thickness")
-EFFECTS = [e for e in standing(BEAM) if e.name in WANTED]
+EFFECTS = [e for e in standing([BEAM]) if e.name in WANTED]
 WRONG = replace(
     BEAM,
     substrate=replace(FACE, young_pa=1.35 * 70e9),

@@ -14,7 +14,7 @@ from fitting.mode_tables.standing import standing
 from fitting.planning.unseen_in_tables import unseen_in_tables
 from fitting.readings import Readings
 
-FORMS = {e.name: e for e in standing(BEAM)}
+FORMS = {e.name: e for e in standing([BEAM])}
 SOME = tuple(FORMS[name] for name in ("substrate_stiffness", "core_thickness", "tether", "channel_delay"))
 
 

@@ -47,7 +47,7 @@ def questions(monkeypatch):
 
 @pytest.fixture(scope="module")
 def diagnosed():
-    effects = tuple(e for e in standing(BEAM) if e.name == "substrate_stiffness")
+    effects = tuple(e for e in standing([BEAM]) if e.name == "substrate_stiffness")
     found = diagnose_members(ModalProblem.of([member_of(TABLE, BEAM)]), effects, LAW)
     return TablesDiagnosed(found, effects, 0.5, 1.5, ())
 

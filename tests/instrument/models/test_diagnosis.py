@@ -8,16 +8,19 @@ import pytest
 from fitting.diagnosis.diagnose import seen_in_channels
 from fitting.diagnosis.kin import UNLISTED
 from fitting.effects import CATALOGUE
+from fitting.effects.treatment_not_gripped import TreatmentEndsShortEffect
 from fitting.errors import OutsideModel
 from fitting.laws.fractional_zener import FractionalZener
+from fitting.patches import Patch
 from instrument.campaign.cases import draw
 from instrument.campaign.plates.cases import draw_case
 from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
-from instrument.models.diagnosis import diagnose
+from instrument.models.diagnosis import diagnose, effects_among, effects_on
 from instrument.models.other_processes import VARIABLE
 from instrument.paper_case import case_file
+from tests.beam_temperatures import beam
 from tests.conftest import DATA
 from tests.rig_plate import MESH, plate_of_the_rig
 from tests.rivals import all_but, among
@@ -41,6 +44,33 @@ def practice(name):
 def every(nth, sweep):
     """Of its points; for what does not depend on how many there are."""
     return sweep.take(np.arange(0, len(sweep), nth))
+
+
+def test_a_sweep_of_a_patch_is_asked_about_each_of_its_edges():
+    plate = plate_of_the_rig()
+    patched, unlike = (replace(plate, patches=(Patch(0.0, x, 0.05, 0.12),)) for x in (0.25, 0.2))
+
+    def edges(effects):
+        (debond,) = (e for e in effects if e.name == "partial_debond")
+        return [(e.along, e.edge_m) for e in debond.variants() if e.at_edge]
+
+    assert edges(effects_on(patched)) == [("x", 0.0), ("x", 0.25), ("y", 0.05), ("y", 0.12)]
+    both = [effect for effect, _ in effects_among([patched, unlike])]
+    assert edges(both) == [("x", None), ("y", None)]
+
+
+def test_a_treatment_that_ends_short_does_so_at_every_clamp_of_its_beam():
+    one = beam()
+    two = replace(one, boundary="clamped-clamped")
+
+    def clamps(effects):
+        (free,) = (e for e in effects if e.name == "treatment_not_gripped")
+        return [e.clamps for e in free.variants() if isinstance(e, TreatmentEndsShortEffect)]
+
+    assert clamps(effects_on(one)) == [1]
+    assert clamps(effects_on(two)) == [2]
+    assert clamps([e for e, _ in effects_among([two, two])]) == [2]
+    assert clamps([e for e, _ in effects_among([one, two])]) == []
 
 
 RIVALS = "spot_offset", "gain_error", "added_mass", "base_rocking", "channel_delay"

@@ -133,7 +133,7 @@ def test_a_cause_that_all_sweeps_have_is_named_with_its_size():
 # Tables of modes
 
 
-FORMS = {e.name: e for e in standing(BEAM)}
+FORMS = {e.name: e for e in standing([BEAM])}
 
 
 def diagnosed(table, *names):
