@@ -10,7 +10,7 @@ Reasons = NDArray[np.object_]
 LOST = "signal_dropout"
 """Off the curve of its neighbours by far (`fitting.strays`)."""
 DISTURBED = "fixture_resonance"
-"""In a stretch that no law follows (`fitting.diagnosis.glitch`)."""
+"""In a stretch that no law follows (`fitting.diagnosis.problem.glitch`)."""
 INSENSITIVE = "insensitive"
 """Of a file with a misfit: the reading depends so little on the core that it speaks of the rig alone."""
 

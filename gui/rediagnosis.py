@@ -9,7 +9,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
-from fitting.diagnosis.names import split
+from fitting.diagnosis.verdict.names import split
 from gui.one_command import OneCommand
 from gui.pairing import PairedFile, arguments_of
 from gui.short_name import short_name

@@ -4,8 +4,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.damping import viscous_damping
-from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.response import SweepResponse
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.direct import solve_direct
 from fitting.domain import domain_of
 from fitting.effects.added_mass import PointMass

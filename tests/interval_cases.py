@@ -12,7 +12,7 @@ import numpy as np
 
 from fitting.bent_law import LOSS, REACH, STORAGE
 from fitting.damping import viscous_damping
-from fitting.diagnosis.whitening import SHARE
+from fitting.diagnosis.inference.whitening import SHARE
 from fitting.direct import displacement_direct
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from fitting.laws.fractional_zener import FractionalZener

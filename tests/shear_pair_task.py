@@ -2,12 +2,12 @@
 
 from shear_pair_cases import pair, sweep
 
-from fitting.diagnosis.begin import begin
-from fitting.diagnosis.candidate_fits import CandidateFits
 from fitting.diagnosis.diagnose import diagnose_task
 from fitting.diagnosis.executor import ALONE
-from fitting.diagnosis.search import Search
-from fitting.diagnosis.small_problem import SmallProblem
+from fitting.diagnosis.inference.begin import begin
+from fitting.diagnosis.problem.small_problem import SmallProblem
+from fitting.diagnosis.search.candidate_fits import CandidateFits
+from fitting.diagnosis.search.catalogue_search import Search
 from fitting.effects import CATALOGUE
 from fitting.noise import noise_of
 

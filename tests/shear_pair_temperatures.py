@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import shear_pair_cases as cases
 
-from fitting.diagnosis.begin import begin
-from fitting.diagnosis.small_problem import SmallProblem
+from fitting.diagnosis.inference.begin import begin
+from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.noise import Noise, noise_of
 from fitting.temperature.joint import TemperatureProblem, fit_shifted
 from fitting.temperature.shifted_law import ShiftedLaw

@@ -7,7 +7,7 @@ import scipy.sparse as sp
 import scipy.sparse.linalg as sla
 
 from fitting.damping import viscous_damping
-from fitting.diagnosis.plate_answer import answer
+from fitting.diagnosis.problem.plate_answer import answer
 from fitting.domain import domain_of
 from fitting.effects import CATALOGUE
 from fitting.effects.enriching import enriched

@@ -2,9 +2,9 @@
 
 from types import SimpleNamespace
 
-from fitting.diagnosis.search import ScoredFit
+from fitting.diagnosis.search.catalogue_search import ScoredFit
 from fitting.diagnosis.thresholds import VERDICT
-from fitting.diagnosis.verdict import judge
+from fitting.diagnosis.verdict.judgement import judge
 from fitting.effects import CATALOGUE
 
 

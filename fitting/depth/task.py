@@ -10,9 +10,9 @@ from functools import cached_property
 import numpy as np
 
 from fitting.arrays import Array, Mask
-from fitting.diagnosis.begin import Begun
-from fitting.diagnosis.joint_problem import JointProblem
-from fitting.diagnosis.responses import response_of
+from fitting.diagnosis.inference.begin import Begun
+from fitting.diagnosis.inference.joint_problem import JointProblem
+from fitting.diagnosis.several.responses import response_of
 from fitting.identification.uncertainty import limits_reached
 from fitting.laws import CoreLaw
 

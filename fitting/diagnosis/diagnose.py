@@ -6,22 +6,22 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.aside import Reasons, reasons
-from fitting.diagnosis import text
-from fitting.diagnosis.begin import begin
-from fitting.diagnosis.cautions import warnings_of
-from fitting.diagnosis.evidence import BareModes
+from fitting.diagnosis.checks.overstated_noise import is_overstated, with_noise_of_left
 from fitting.diagnosis.executor import ALONE, Executor
-from fitting.diagnosis.kin import UNLISTED, Unlisted, kin_of
-from fitting.diagnosis.overstated_noise import is_overstated, with_noise_of_left
-from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refitted import Refitted
-from fitting.diagnosis.resampling import Again, Resampled, gain, repeats_of, resampled_of
-from fitting.diagnosis.result import Candidate, Diagnosis, FoundEffect, ParameterEstimate, Rivals
-from fitting.diagnosis.search import ScoredFit, Search, best_of_each
-from fitting.diagnosis.singles import Singles
-from fitting.diagnosis.stage import few_of_law, found_effects, mixed_band, stage_of
-from fitting.diagnosis.verdict import Judgement, in_light_of, judge, told
-from fitting.diagnosis.with_pairs import with_pairs
+from fitting.diagnosis.inference.begin import begin
+from fitting.diagnosis.inference.evidence import BareModes
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.search.catalogue_search import ScoredFit, Search, best_of_each
+from fitting.diagnosis.search.singles import Singles
+from fitting.diagnosis.search.with_pairs import with_pairs
+from fitting.diagnosis.verdict import text
+from fitting.diagnosis.verdict.cautions import warnings_of
+from fitting.diagnosis.verdict.judgement import Judgement, in_light_of, judge, told
+from fitting.diagnosis.verdict.kin import UNLISTED, Unlisted, kin_of
+from fitting.diagnosis.verdict.resampling import Again, Resampled, gain, repeats_of, resampled_of
+from fitting.diagnosis.verdict.result import Candidate, Diagnosis, FoundEffect, ParameterEstimate, Rivals
+from fitting.diagnosis.verdict.stage import few_of_law, found_effects, mixed_band, stage_of
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel

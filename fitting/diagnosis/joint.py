@@ -1,9 +1,9 @@
 """The joint fit as an identification: the posterior of the law, and the stated numbers as it has them."""
 
-from fitting.diagnosis.begin import Begun
-from fitting.diagnosis.posterior import posterior
-from fitting.diagnosis.responses import response_of
-from fitting.diagnosis.stage import adjusted_of
+from fitting.diagnosis.inference.begin import Begun
+from fitting.diagnosis.inference.posterior import posterior
+from fitting.diagnosis.several.responses import response_of
+from fitting.diagnosis.verdict.stage import adjusted_of
 from fitting.identification.fit import Fit
 
 

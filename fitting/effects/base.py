@@ -105,7 +105,8 @@ class Effect:
     """What its formula leaves out that readings hardly tell, where that matters to the law: a sentence."""
     replaces_law: ClassVar[bool] = False
     unexplained_share: ClassVar[float] = 0.0
-    """Share of the chi-square it explains that its own formula may leave (`fitting.diagnosis.predictive`)."""
+    """Share of the chi-square it explains that its own formula may leave
+    (`fitting.diagnosis.checks.predictive`)."""
 
     structures: ClassVar[frozenset[str]] = PLATE_ONLY
     """Kinds of specimens on which it has a meaning as it is."""

@@ -77,7 +77,7 @@ class FixtureResonanceEffect(Effect):
 
 
 class LocalDisturbanceEffect(FixtureResonanceEffect):
-    """On a shear pair: a stretch of frequencies that is set aside (`fitting.diagnosis.glitch`)."""
+    """On a shear pair: a stretch of frequencies that is set aside (`fitting.diagnosis.problem.glitch`)."""
 
     parameters = ()
     spans = ()

@@ -8,7 +8,10 @@ from fitting.effects.given import Points
 
 
 class FixtureTransferEffect(Effect):
-    """Seen in what several masses have in common (`fitting.diagnosis.rig_transfer`); no unknown is fitted."""
+    """Seen in what several masses have in common; no unknown is fitted.
+
+    See `fitting.diagnosis.verdict.rig_transfer`.
+    """
 
     name = "fixture_transfer"
     enters = "channel"

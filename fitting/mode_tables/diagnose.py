@@ -9,13 +9,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fitting.diagnosis.confounded import hides
-from fitting.diagnosis.names import NONE
-from fitting.diagnosis.predictive import temper
-from fitting.diagnosis.refit import kept
-from fitting.diagnosis.search import ScoredFit, best_of_each
+from fitting.diagnosis.checks.predictive import temper
+from fitting.diagnosis.inference.refit import kept
+from fitting.diagnosis.search.catalogue_search import ScoredFit, best_of_each
 from fitting.diagnosis.thresholds import SEARCH
-from fitting.diagnosis.verdict import Judgement, judge
+from fitting.diagnosis.verdict.confounded import hides
+from fitting.diagnosis.verdict.judgement import Judgement, judge
+from fitting.diagnosis.verdict.names import NONE
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
 from fitting.mode_tables.explaining import Explaining

@@ -7,15 +7,15 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.chances import normal_above
-from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.looks import Start, promising
-from fitting.diagnosis.marginal import cost
-from fitting.diagnosis.of_files import OfFiles
-from fitting.diagnosis.predictive import TOLERANCES, form_error, of_stated_numbers
-from fitting.diagnosis.refit import COMPARABLE, ROUGH, refit
-from fitting.diagnosis.refitted import Refitted
-from fitting.diagnosis.search import ScoredFit
-from fitting.diagnosis.stand_in import too_large
+from fitting.diagnosis.checks.predictive import TOLERANCES, form_error, of_stated_numbers
+from fitting.diagnosis.inference.evidence import Evidence
+from fitting.diagnosis.inference.marginal import cost
+from fitting.diagnosis.inference.refit import COMPARABLE, ROUGH, refit
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.search.catalogue_search import ScoredFit
+from fitting.diagnosis.search.looks import Start, promising
+from fitting.diagnosis.search.stand_in import too_large
+from fitting.diagnosis.several.of_files import OfFiles
 from fitting.diagnosis.thresholds import SEARCH, VERDICT
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel

@@ -11,12 +11,12 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.bent_law import BentLaw
-from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.kin import Kin
-from fitting.diagnosis.posterior import posterior
-from fitting.diagnosis.refit import ROUGH, refit
-from fitting.diagnosis.refitted import Refitted
-from fitting.diagnosis.usual_law import within_search
+from fitting.diagnosis.inference.evidence import Evidence
+from fitting.diagnosis.inference.posterior import posterior
+from fitting.diagnosis.inference.refit import ROUGH, refit
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.inference.usual_law import within_search
+from fitting.diagnosis.verdict.kin import Kin
 from fitting.errors import OutsideModel, TooFewPoints
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.uncertainty import Uncertainty, limits_reached

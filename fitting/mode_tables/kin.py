@@ -1,10 +1,10 @@
-"""The kin of an explanation of tables of modes (`fitting.diagnosis.kin`): modes elsewhere, and lossier."""
+"""Kin (`fitting.diagnosis.verdict.kin`) of an explanation of mode tables: modes elsewhere, and lossier."""
 
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.diagnosis.kin import FREQUENCY, HAVE_MODES, LOSS, Kin, kin_along
-from fitting.diagnosis.refitted import Refitted
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.verdict.kin import FREQUENCY, HAVE_MODES, LOSS, Kin, kin_along
 from fitting.mode_tables.fit import BegunModal
 
 

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.chances import chi2_exceeded
-from fitting.diagnosis.marginal import cost
-from fitting.diagnosis.refit import refit
-from fitting.diagnosis.refitted import Refitted
-from fitting.diagnosis.search import ScoredFit
+from fitting.diagnosis.inference.marginal import cost
+from fitting.diagnosis.inference.refit import refit
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.search.catalogue_search import ScoredFit
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.errors import OutsideModel

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from fitting.diagnosis.refitted import Refitted
-from fitting.diagnosis.search import ScoredFit
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.search.catalogue_search import ScoredFit
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
 from fitting.mode_tables.explaining import Explaining

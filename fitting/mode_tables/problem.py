@@ -8,12 +8,12 @@ import scipy.linalg as la
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
-from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.member_laws import by_all, law_at
-from fitting.diagnosis.of_files import OfFiles
-from fitting.diagnosis.response import SweepResponse
-from fitting.diagnosis.sharing import OF_EACH_KELVIN
-from fitting.diagnosis.unknowns import STATED_NUMBER
+from fitting.diagnosis.inference.evidence import Evidence
+from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.response.unknowns import STATED_NUMBER
+from fitting.diagnosis.several.member_laws import by_all, law_at
+from fitting.diagnosis.several.of_files import OfFiles
+from fitting.diagnosis.several.sharing import OF_EACH_KELVIN
 from fitting.effects.base import Effect
 from fitting.effects.given import Points
 from fitting.identification.adjusted import Adjusted, adjusted

@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from fitting.arrays import Array, Complex, Integers
-from fitting.diagnosis.plate_poles import PlatePoles
+from fitting.diagnosis.problem.plate_poles import PlatePoles
 
 _SHARE = 0.25
 """Of the distance to the nearest pole, between two candidates."""

@@ -7,8 +7,8 @@ are few.
 import numpy as np
 
 from fitting.arrays import Array, Integers
-from fitting.diagnosis.nodes import Nodes
-from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid, points_of
+from fitting.diagnosis.problem.base import DiagnosisProblem, NodeGrid, points_of
+from fitting.diagnosis.problem.nodes import Nodes
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances import nuisances_of
 from fitting.rational import rational_sweep

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
-from fitting.diagnosis.marginal import cost, probabilities
-from fitting.diagnosis.of_files import OfFiles
-from fitting.diagnosis.refitted import Refitted
-from fitting.diagnosis.result import Rivals
-from fitting.diagnosis.usual_law import polished
+from fitting.diagnosis.inference.marginal import cost, probabilities
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.inference.usual_law import polished
+from fitting.diagnosis.several.of_files import OfFiles
+from fitting.diagnosis.verdict.result import Rivals
 from fitting.effects.base import Effect
 
 _LEAST = 0.02

@@ -14,17 +14,17 @@ import scipy.linalg as la
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, Mask
-from fitting.diagnosis.evidence import BareModes, Evidence
-from fitting.diagnosis.marginal import prior_precision
-from fitting.diagnosis.model_error import model_error
-from fitting.diagnosis.of_files import OfFiles, Place
-from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refitted import Refitted
-from fitting.diagnosis.response import SweepResponse
-from fitting.diagnosis.responses import response_of
-from fitting.diagnosis.result import Rivals, name_of
-from fitting.diagnosis.several import SeveralProblem
-from fitting.diagnosis.whitening import SHARE
+from fitting.diagnosis.inference.evidence import BareModes, Evidence
+from fitting.diagnosis.inference.marginal import prior_precision
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.inference.whitening import SHARE
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.problem.model_error import model_error
+from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.several.of_files import OfFiles, Place
+from fitting.diagnosis.several.responses import response_of
+from fitting.diagnosis.several.several_problem import SeveralProblem
+from fitting.diagnosis.verdict.result import Rivals, name_of
 from fitting.effects.base import Effect
 from fitting.planning.forms import forms_of
 from fitting.planning.known_mass import KnownMass

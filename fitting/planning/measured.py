@@ -6,11 +6,11 @@ import numpy as np
 from scipy.optimize import nnls
 
 from fitting.arrays import Array, Complex, Mask
-from fitting.diagnosis.evidence import BareModes, Evidence
-from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import ROUGH, refit
-from fitting.diagnosis.refitted import Refitted
-from fitting.diagnosis.responses import response_of
+from fitting.diagnosis.inference.evidence import BareModes, Evidence
+from fitting.diagnosis.inference.refit import ROUGH, refit
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.several.responses import response_of
 from fitting.laws import CoreLaw
 from fitting.noise import Noise
 from fitting.planning.sensitivity import ReadingNoise

@@ -5,10 +5,10 @@ The posterior of any choice of readings follows without another look at the plat
     C = (P + sum of a_i^T a_i)^-1
 
 a_i are the two rows of one phasor: derivatives to the law's log parameters, its bend, the stated numbers
-and the model's own errors, each in its units of the joint inference (`fitting.diagnosis.begin`), over the
-reading's standard deviation. P holds what is known without any reading: the ranges that are searched, the
-bend's and the tolerances' priors, the hammer test. Linear about a law and stated numbers: an error of the
-law is one of this matrix too.
+and the model's own errors, each in its units of the joint inference (`fitting.diagnosis.inference.begin`),
+over the reading's standard deviation. P holds what is known without any reading: the ranges that are
+searched, the bend's and the tolerances' priors, the hammer test. Linear about a law and stated numbers: an
+error of the law is one of this matrix too.
 """
 
 from dataclasses import dataclass, replace
@@ -17,11 +17,11 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.bent_law import BentLaw
-from fitting.diagnosis.evidence import BareModes
-from fitting.diagnosis.model_error import model_error
-from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.responses import response_of
-from fitting.diagnosis.whitening import SHARE
+from fitting.diagnosis.inference.evidence import BareModes
+from fitting.diagnosis.inference.whitening import SHARE
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.problem.model_error import model_error
+from fitting.diagnosis.several.responses import response_of
 from fitting.laws import CoreLaw
 from fitting.reduced import ReducedPlate
 

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.diagnosis.looks import has_place, slopes
-from fitting.diagnosis.marginal import expected_size
-from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.response import SweepResponse
-from fitting.diagnosis.responses import response_of
+from fitting.diagnosis.inference.marginal import expected_size
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.search.looks import has_place, slopes
+from fitting.diagnosis.several.responses import response_of
 from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.given import Points
 from fitting.laws import CoreLaw

@@ -15,9 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.refitted import Refitted
-from fitting.diagnosis.result import Rivals
+from fitting.diagnosis.inference.evidence import Evidence
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.verdict.result import Rivals
 from fitting.effects.base import Effect
 from fitting.planning.aims import Aims
 from fitting.planning.confusion import SEEN

@@ -12,10 +12,10 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.diagnosis.executor import ALONE, Executor
-from fitting.diagnosis.marginal import cost
-from fitting.diagnosis.result import FoundEffect
-from fitting.diagnosis.stage import found_effects
+from fitting.diagnosis.inference.marginal import cost
 from fitting.diagnosis.thresholds import VERDICT
+from fitting.diagnosis.verdict.result import FoundEffect
+from fitting.diagnosis.verdict.stage import found_effects
 from fitting.effects.base import Effect
 from fitting.progress import Report, unheard
 from fitting.temperature.joint import TemperatureProblem, fit_shifted

@@ -14,9 +14,9 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.bent_law import REACH, BentLaw
-from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.refit import refit
-from fitting.diagnosis.refitted import Refitted
+from fitting.diagnosis.inference.evidence import Evidence
+from fitting.diagnosis.inference.refit import refit
+from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
-from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.executor import Executor
-from fitting.diagnosis.looks import Start
-from fitting.diagnosis.refitted import Refitted
-from fitting.diagnosis.response import SweepResponse
+from fitting.diagnosis.inference.evidence import Evidence
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.search.looks import Start
 from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points

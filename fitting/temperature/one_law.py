@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
-from fitting.diagnosis.member_laws import MemberLaws
+from fitting.diagnosis.several.member_laws import MemberLaws
 from fitting.laws.base import CoreLaw, Quantity
 from fitting.temperature.shifted_law import ShiftedLaw
 from fitting.temperature.shifts import FARTHEST, Shift

@@ -8,20 +8,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
-from fitting.diagnosis.begin import Begun
-from fitting.diagnosis.candidates import CandidateFit
-from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.executor import Executor
-from fitting.diagnosis.looks import Start, look
-from fitting.diagnosis.model_error import model_error
-from fitting.diagnosis.one_rig import alike_rows
-from fitting.diagnosis.refit import refit
-from fitting.diagnosis.refitted import Refitted
-from fitting.diagnosis.response import SweepResponse
-from fitting.diagnosis.responses import response_of
-from fitting.diagnosis.search import Search
-from fitting.diagnosis.several import SeveralProblem
-from fitting.diagnosis.singles import Singles
+from fitting.diagnosis.inference.begin import Begun
+from fitting.diagnosis.inference.evidence import Evidence
+from fitting.diagnosis.inference.refit import refit
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.problem.model_error import model_error
+from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.search.candidates import CandidateFit
+from fitting.diagnosis.search.catalogue_search import Search
+from fitting.diagnosis.search.looks import Start, look
+from fitting.diagnosis.search.singles import Singles
+from fitting.diagnosis.several.one_rig import alike_rows
+from fitting.diagnosis.several.responses import response_of
+from fitting.diagnosis.several.several_problem import SeveralProblem
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.bent_law import BentLaw
-from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.executor import Executor
-from fitting.diagnosis.looks import Start, promising
-from fitting.diagnosis.refit import refit
-from fitting.diagnosis.refitted import Refitted
-from fitting.diagnosis.response import SweepResponse
+from fitting.diagnosis.inference.evidence import Evidence
+from fitting.diagnosis.inference.refit import refit
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.search.looks import Start, promising
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate

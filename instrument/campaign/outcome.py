@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.diagnosis.result import Diagnosis, Stage
+from fitting.diagnosis.verdict.result import Diagnosis, Stage
 from fitting.identification.quoted import REFERENCE_FREQUENCIES_HZ
 from fitting.laws import CoreLaw
 from instrument.campaign.cases import Case

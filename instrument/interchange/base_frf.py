@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fitting.diagnosis.joining import joined
+from fitting.diagnosis.several.joining import joined
 from fitting.modal.frf import Frf
 from fitting.specimen import Drive
 from fitting.sweep import Sweep, segments_by_gap

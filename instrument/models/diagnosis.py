@@ -7,7 +7,7 @@ from time import perf_counter
 from threadpoolctl import threadpool_limits
 
 from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
-from fitting.diagnosis.result import Diagnosis
+from fitting.diagnosis.verdict.result import Diagnosis
 from fitting.effects import CATALOGUE, Effect
 from fitting.effects.base import BASE, FORCE, ROOT
 from fitting.errors import OutsideModel

@@ -6,7 +6,7 @@ from itertools import combinations
 
 import numpy as np
 
-from fitting.diagnosis.begin import Begun, begin
+from fitting.diagnosis.inference.begin import Begun, begin
 from fitting.digits import two_digits
 from fitting.errors import OutsideModel
 from fitting.structures import Beam, ShearPair

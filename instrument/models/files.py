@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fitting.diagnosis.evidence import BareModes
-from fitting.diagnosis.mountings import of_mounting
-from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.diagnosis.inference.evidence import BareModes
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.several.mountings import of_mounting
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen, Beam

@@ -11,14 +11,14 @@ import numpy as np
 
 from fitting.arrays import Mask
 from fitting.aside import DISTURBED, INSENSITIVE, LOST, Reasons, reasons
-from fitting.diagnosis.begin import Begun, begin
-from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.executor import ALONE, Executor
-from fitting.diagnosis.glitch import Glitch, glitches
-from fitting.diagnosis.of_files import Place
-from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.several import SeveralProblem
-from fitting.diagnosis.small_problem import DEAF, SmallProblem
+from fitting.diagnosis.inference.begin import Begun, begin
+from fitting.diagnosis.inference.evidence import BareModes
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.problem.glitch import Glitch, glitches
+from fitting.diagnosis.problem.small_problem import DEAF, SmallProblem
+from fitting.diagnosis.several.of_files import Place
+from fitting.diagnosis.several.several_problem import SeveralProblem
 from fitting.digits import two_digits
 from fitting.errors import OutsideModel
 from fitting.identification.result import BIASED

@@ -7,7 +7,7 @@ from typing import Literal
 from threadpoolctl import threadpool_limits
 
 from fitting.aside import LOST, Reasons, reasons
-from fitting.diagnosis.stretches import words_of_stretches
+from fitting.diagnosis.checks.stretches import words_of_stretches
 from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import BarePlateFit
 from fitting.identification.result import Identification, summarise

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from fitting.diagnosis.begin import begin
-from fitting.diagnosis.several import SeveralProblem
+from fitting.diagnosis.inference.begin import begin
+from fitting.diagnosis.several.several_problem import SeveralProblem
 from fitting.effects.base import Effect
 from fitting.effects.enriching import reach_over
 from fitting.errors import OutsideModel

@@ -7,12 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Mask
-from fitting.diagnosis.begin import Begun, begin
-from fitting.diagnosis.freer_law import loosened
+from fitting.diagnosis.checks.overstated_noise import with_own_noise
+from fitting.diagnosis.checks.prediction import held_out
+from fitting.diagnosis.checks.stretches import parts_held_out
+from fitting.diagnosis.inference.begin import Begun, begin
+from fitting.diagnosis.inference.freer_law import loosened
 from fitting.diagnosis.joint import fit_of
-from fitting.diagnosis.overstated_noise import with_own_noise
-from fitting.diagnosis.prediction import held_out
-from fitting.diagnosis.stretches import parts_held_out
 from fitting.digits import written_out
 from fitting.errors import OutsideModel
 from fitting.identification import paper

@@ -10,8 +10,8 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array, Complex
-from fitting.diagnosis.model_error import model_error
-from fitting.diagnosis.response import SweepResponse
+from fitting.diagnosis.problem.model_error import model_error
+from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.errors import OutsideModel, TooFewPoints
 from fitting.kramers_kronig import KramersKronig, kramers_kronig
 from fitting.moved_plate import moved_plate

@@ -8,8 +8,8 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.bare_modes import CarriedSensor
-from fitting.diagnosis.evidence import BareModes
-from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.diagnosis.inference.evidence import BareModes
+from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.effects import all_spans, span_modules
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.enriching import enriched

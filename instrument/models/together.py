@@ -7,17 +7,17 @@ from time import perf_counter
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from fitting.diagnosis.among import among
-from fitting.diagnosis.begin import Begun, ended
-from fitting.diagnosis.confounded import last_word
+from fitting.diagnosis.checks.overstated_noise import with_own_noise
+from fitting.diagnosis.checks.prediction import held_out
+from fitting.diagnosis.checks.stretches import parts_held_out, words_of_stretches
 from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
-from fitting.diagnosis.freer_law import loosened
-from fitting.diagnosis.joining import joined
+from fitting.diagnosis.inference.begin import Begun, ended
+from fitting.diagnosis.inference.freer_law import loosened
 from fitting.diagnosis.joint import fit_of
-from fitting.diagnosis.overstated_noise import with_own_noise
-from fitting.diagnosis.prediction import held_out
-from fitting.diagnosis.result import FoundEffect, ParameterEstimate
-from fitting.diagnosis.stretches import parts_held_out, words_of_stretches
+from fitting.diagnosis.several.among import among
+from fitting.diagnosis.several.joining import joined
+from fitting.diagnosis.verdict.confounded import last_word
+from fitting.diagnosis.verdict.result import FoundEffect, ParameterEstimate
 from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import fit_bare_plate
 from fitting.identification.result import summarise

@@ -6,16 +6,16 @@ from typing import Protocol
 import numpy as np
 
 from fitting.arrays import Complex, Mask
-from fitting.diagnosis.begin import Begun, begin
-from fitting.diagnosis.evidence import BareModes, Evidence
-from fitting.diagnosis.model_error import model_error
-from fitting.diagnosis.responses import response_of
-from fitting.diagnosis.result import Diagnosis, FoundEffect, ParameterEstimate, Stage
-from fitting.diagnosis.rig_transfer import RigTransfer, rig_transfer, validation_of
-from fitting.diagnosis.several import SeveralProblem
-from fitting.diagnosis.small_problem import SmallProblem
-from fitting.diagnosis.stage import stage_of
-from fitting.diagnosis.structure import structure
+from fitting.diagnosis.checks.structure import structure
+from fitting.diagnosis.inference.begin import Begun, begin
+from fitting.diagnosis.inference.evidence import BareModes, Evidence
+from fitting.diagnosis.problem.model_error import model_error
+from fitting.diagnosis.problem.small_problem import SmallProblem
+from fitting.diagnosis.several.responses import response_of
+from fitting.diagnosis.several.several_problem import SeveralProblem
+from fitting.diagnosis.verdict.result import Diagnosis, FoundEffect, ParameterEstimate, Stage
+from fitting.diagnosis.verdict.rig_transfer import RigTransfer, rig_transfer, validation_of
+from fitting.diagnosis.verdict.stage import stage_of
 from fitting.digits import times
 from fitting.effects import CATALOGUE
 from fitting.identification.result import differences_percent

@@ -14,8 +14,8 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array
-from fitting.diagnosis.begin import begin
-from fitting.diagnosis.refitted import Refitted
+from fitting.diagnosis.inference.begin import begin
+from fitting.diagnosis.inference.refitted import Refitted
 from fitting.digits import two_digits
 from fitting.errors import FittingError
 from fitting.laws import CoreLaw

@@ -10,10 +10,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from fitting.diagnosis.of_files import OfFiles
-from fitting.diagnosis.plate_poles import PlatePoles
-from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.sharing import CHANNELS, OF_EACH_FILE, OF_EACH_KELVIN, OF_EACH_PLATE, OF_EACH_SPOT
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.problem.plate_poles import PlatePoles
+from fitting.diagnosis.several.of_files import OfFiles
+from fitting.diagnosis.several.sharing import (
+    CHANNELS,
+    OF_EACH_FILE,
+    OF_EACH_KELVIN,
+    OF_EACH_PLATE,
+    OF_EACH_SPOT,
+)
 from fitting.effects import CATALOGUE
 from fitting.effects.base import BASE, CLAMP, Effect
 from fitting.laws import CoreLaw

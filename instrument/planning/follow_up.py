@@ -6,8 +6,8 @@ from itertools import groupby
 
 import numpy as np
 
-from fitting.diagnosis.result import Rivals
 from fitting.diagnosis.thresholds import VERDICT
+from fitting.diagnosis.verdict.result import Rivals
 from fitting.planning.further import Expecting
 from fitting.planning.rivalry import Forecast, Outcome, outcome
 from fitting.specimen import Specimen

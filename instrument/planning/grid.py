@@ -7,11 +7,11 @@ import numpy as np
 
 from fitting.arrays import Array, Complex, Integers
 from fitting.bent_law import BentLaw
-from fitting.diagnosis.evidence import BareModes
-from fitting.diagnosis.model_error import model_error
-from fitting.diagnosis.plate_poles import PlatePoles
-from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.responses import response_of
+from fitting.diagnosis.inference.evidence import BareModes
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.problem.model_error import model_error
+from fitting.diagnosis.problem.plate_poles import PlatePoles
+from fitting.diagnosis.several.responses import response_of
 from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw

@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array, Integers, Mask
-from fitting.diagnosis.plate_poles import PlatePoles
-from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.sharing import OF_EACH_FILE, OF_EACH_KELVIN, OF_EACH_PLATE, OF_EACH_SPOT
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.problem.plate_poles import PlatePoles
+from fitting.diagnosis.several.sharing import OF_EACH_FILE, OF_EACH_KELVIN, OF_EACH_PLATE, OF_EACH_SPOT
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.planning.candidates import resonances_hz
 from fitting.planning.elsewhere import read_elsewhere

@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.diagnosis.evidence import BareModes
-from fitting.diagnosis.plate_poles import PlatePoles
-from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.diagnosis.inference.evidence import BareModes
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.problem.plate_poles import PlatePoles
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.errors import OutsideModel
 from fitting.planning.candidates import Candidates, candidate_frequencies, regions, resonances_hz

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array, Integers
-from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
 from fitting.gravity import PUBLISHED_G_M_S2

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 
-from fitting.diagnosis.names import split
+from fitting.diagnosis.verdict.names import split
 from fitting.effects import CATALOGUE
 from fitting.effects.base import CLAMP
 from instrument.facts.follow_up import FollowUpKind

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
-from fitting.diagnosis.plate_poles import ODD, PlatePoles
+from fitting.diagnosis.problem.plate_poles import ODD, PlatePoles
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.planning.candidates import resonances_hz

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.bare_modes import bare_modes
-from fitting.diagnosis.evidence import BareModes
-from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.diagnosis.inference.evidence import BareModes
+from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.identification.bare_plate import match_modes
 from fitting.plate import Plate
 from fitting.specimen import Specimen

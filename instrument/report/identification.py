@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fitting.diagnosis.structure import in_words
+from fitting.diagnosis.checks.structure import in_words
 from fitting.digits import two_digits, written_out
 from fitting.identification.result import Identification
 from fitting.specimen import Specimen

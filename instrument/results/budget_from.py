@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fitting.diagnosis.budget import Budget, budget_of
+from fitting.diagnosis.inference.budget import Budget, budget_of
 from fitting.identification.quoted import REFERENCE_FREQUENCIES_HZ
 from instrument.facts.budget import BudgetRow, BudgetSource
 from instrument.models.identification import Identified

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fitting.diagnosis.result import Candidate, FoundEffect, Stage
+from fitting.diagnosis.verdict.result import Candidate, FoundEffect, Stage
 from fitting.noise import noise_of
 from fitting.sweep import Sweep
 from instrument.facts.diagnosis import (

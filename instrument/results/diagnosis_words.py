@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 from itertools import groupby
 from math import isnan, nan
 
-from fitting.diagnosis.kin import UNLISTED
-from fitting.diagnosis.of_files import ALIKE, EACH, FILE
+from fitting.diagnosis.several.of_files import ALIKE, EACH, FILE
 from fitting.diagnosis.thresholds import VERDICT
+from fitting.diagnosis.verdict.kin import UNLISTED
 from fitting.digits import two_digits
 from fitting.identification.result import doubts_itself
 from instrument.facts.diagnosis import CandidateFitted, DiagnosisResult, EffectFound, ParameterFound

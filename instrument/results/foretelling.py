@@ -1,6 +1,6 @@
 """Whether data held out say anything of an effect that is in them alone."""
 
-from fitting.diagnosis.parts_with import PartWith, part_with
+from fitting.diagnosis.several.parts_with import PartWith, part_with
 from instrument.facts.diagnosis import DiagnosisResult, EffectFound
 
 

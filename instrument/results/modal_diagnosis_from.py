@@ -4,11 +4,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from fitting.diagnosis import text
-from fitting.diagnosis.kin import UNLISTED, Unlisted
-from fitting.diagnosis.result import Candidate, FoundEffect
-from fitting.diagnosis.search import ScoredFit
-from fitting.diagnosis.stage import FEW, each_of, found_effects, mixture_of
+from fitting.diagnosis.search.catalogue_search import ScoredFit
+from fitting.diagnosis.verdict import text
+from fitting.diagnosis.verdict.kin import UNLISTED, Unlisted
+from fitting.diagnosis.verdict.result import Candidate, FoundEffect
+from fitting.diagnosis.verdict.stage import FEW, each_of, found_effects, mixture_of
 from fitting.digits import two_digits
 from fitting.identification.result import LawBand
 from fitting.mode_tables.diagnose import DiagnosedModes

@@ -5,9 +5,9 @@ from itertools import product
 from math import isnan
 from typing import Literal
 
-from fitting.diagnosis.kin import UNLISTED
-from fitting.diagnosis.names import split
-from fitting.diagnosis.verdict import holding
+from fitting.diagnosis.verdict.judgement import holding
+from fitting.diagnosis.verdict.kin import UNLISTED
+from fitting.diagnosis.verdict.names import split
 from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageFitted, StageName
 
 Standing = Literal["found", "equal", "none", "other"]

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fitting.diagnosis.response import SweepResponse
+from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.sweep import Sweep
 from instrument.files.specimen_file import read_specimen
 from instrument.models.identification import identify

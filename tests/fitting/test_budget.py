@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from conftest import DATA
 
-from fitting.diagnosis.budget import BEND, MODEL, NOISE, budget_of
+from fitting.diagnosis.inference.budget import BEND, MODEL, NOISE, budget_of
 from fitting.identification.uncertainty import Uncertainty
 from instrument.files.sweep_file import read_sweep
 from instrument.models.identification import identify

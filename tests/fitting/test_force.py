@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from driven_plate import F_HZ, OMEGA, Driven
 
-from fitting.diagnosis.candidates import CandidateFit
-from fitting.diagnosis.of_files import Place
-from fitting.diagnosis.one_plate import plates_of
-from fitting.diagnosis.plate_answer import StrainedCore
-from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.response import SweepResponse
-from fitting.diagnosis.several import SeveralProblem, SeveralResponse
-from fitting.diagnosis.strains import Reference, Strains
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.problem.plate_answer import StrainedCore
+from fitting.diagnosis.response.strains import Reference, Strains
+from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.search.candidates import CandidateFit
+from fitting.diagnosis.several.of_files import Place
+from fitting.diagnosis.several.one_plate import plates_of
+from fitting.diagnosis.several.several_problem import SeveralProblem, SeveralResponse
 from fitting.direct import displacement_direct
 from fitting.effects import CATALOGUE
 from fitting.effects.change import Change

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from fitting.damping import viscous_damping
-from fitting.diagnosis.plate_answer import answer
-from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.response import SweepResponse
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.problem.plate_answer import answer
+from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.direct import displacement_direct
 from fitting.domain import domain_of
 from fitting.effects.change import Change

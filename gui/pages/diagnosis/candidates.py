@@ -3,7 +3,7 @@
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
-from fitting.diagnosis.kin import UNLISTED
+from fitting.diagnosis.verdict.kin import UNLISTED
 from gui.pages.diagnosis.ranking import (
     WORDS,
     CandidateRow,

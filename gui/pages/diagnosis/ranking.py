@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from inspect import getdoc, getmodule
 from typing import Literal
 
-from fitting.diagnosis.kin import UNLISTED
+from fitting.diagnosis.verdict.kin import UNLISTED
 from fitting.digits import times
 from fitting.effects import CATALOGUE
 from gui.rediagnosis import effects_of

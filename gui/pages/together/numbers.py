@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fitting.aside import DISTURBED
-from fitting.diagnosis.of_files import ALIKE, EACH, FILE
+from fitting.diagnosis.several.of_files import ALIKE, EACH, FILE
 from gui.pages.together.fits import FAR_STD, FittedFile
 from gui.short_name import short_name
 from gui.together import Fitted

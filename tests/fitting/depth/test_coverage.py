@@ -15,10 +15,10 @@ from fitting.depth.posterior import sample
 from fitting.depth.profile import profile
 from fitting.depth.quantities import Quantities
 from fitting.depth.task import DepthTask
-from fitting.diagnosis.begin import begin
-from fitting.diagnosis.model_error import model_error
-from fitting.diagnosis.response import SweepResponse
-from fitting.diagnosis.whitening import SHARE
+from fitting.diagnosis.inference.begin import begin
+from fitting.diagnosis.inference.whitening import SHARE
+from fitting.diagnosis.problem.model_error import model_error
+from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.noise import noise_of
 from instrument.campaign.bench import GRID_HZ, synthetic_sweep
 from instrument.models.set_up import set_up

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse.linalg as sla
 
 from fitting.damping import viscous_damping
-from fitting.diagnosis.plate_answer import answer
+from fitting.diagnosis.problem.plate_answer import answer
 from fitting.domain import domain_of
 from fitting.effects.enriching import USUAL_HZ, enriched, reach_over
 from fitting.effects.full_plate import FullPlate

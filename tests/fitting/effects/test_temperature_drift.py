@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from shear_pair_cases import LAW
 
-from fitting.diagnosis.stand_in import asks_for_more
+from fitting.diagnosis.search.stand_in import asks_for_more
 from fitting.effects import CATALOGUE
 from fitting.effects.given import ModulusAt, Points
 from fitting.effects.temperature_drift import TemperatureCycleEffect, time_scale

@@ -9,13 +9,13 @@ from conftest import TABLE_4
 from threadpoolctl import threadpool_limits
 
 from fitting.bent_law import BentLaw
-from fitting.diagnosis.begin import begin
+from fitting.diagnosis.inference.begin import begin
+from fitting.diagnosis.inference.posterior import posterior
+from fitting.diagnosis.inference.usual_law import within_search
+from fitting.diagnosis.inference.whitening import SHARE
 from fitting.diagnosis.joint import fit_of
-from fitting.diagnosis.model_error import model_error
-from fitting.diagnosis.posterior import posterior
-from fitting.diagnosis.response import SweepResponse
-from fitting.diagnosis.usual_law import within_search
-from fitting.diagnosis.whitening import SHARE
+from fitting.diagnosis.problem.model_error import model_error
+from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.identification.direct import fit_direct
 from fitting.identification.uncertainty import uncertainty_of
 from fitting.laws.fractional_zener import FractionalZener
@@ -173,7 +173,7 @@ def test_a_fit_by_the_law_alone_that_ended_in_a_valley_of_its_own_is_begun_again
         g0, ginf, tau, alpha = found.law.values
         return replace(found, law=FractionalZener(5 * g0, ginf / 5, tau, alpha))
 
-    monkeypatch.setattr("fitting.diagnosis.begin.fit_direct", astray)
+    monkeypatch.setattr("fitting.diagnosis.inference.begin.fit_direct", astray)
     with threadpool_limits(1, "blas"):
         one = Drawn(ready, 3)
     assert one.begun.none.chi2_per_dof < 1.5

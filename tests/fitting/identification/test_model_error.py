@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from conftest import DATA
 
-from fitting.diagnosis.begin import begin
-from fitting.diagnosis.model_error import model_error
+from fitting.diagnosis.inference.begin import begin
+from fitting.diagnosis.problem.model_error import model_error
 from fitting.identification.result import law_band
 from fitting.identification.uncertainty import uncertainty_of
 from fitting.laws.fractional_zener import FractionalZener

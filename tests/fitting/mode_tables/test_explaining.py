@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from beam_tables import BEAM, FACE, begun, read
 
-from fitting.diagnosis.of_files import OfFiles
+from fitting.diagnosis.several.of_files import OfFiles
 from fitting.mode_tables.standing import standing
 
 STIFFER = next(e for e in standing([BEAM]) if e.name == "substrate_stiffness")

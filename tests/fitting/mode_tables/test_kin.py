@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from beam_tables import BEAM, FACE, begun, read
 
-from fitting.diagnosis.kin import CHANCE
+from fitting.diagnosis.verdict.kin import CHANCE
 from fitting.mode_tables.kin import kin_of_modes
 from fitting.mode_tables.standing import standing
 

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fitting.diagnosis.of_files import EACH, OfFiles
+from fitting.diagnosis.several.of_files import EACH, OfFiles
 from fitting.effects import CATALOGUE
 from fitting.planning import forms
 from fitting.planning.forms import forms_of

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from shear_pair_task import GAIN, HIGH, MASS, Task
 
-from fitting.diagnosis.result import Rivals
-from fitting.diagnosis.usual_law import polished
-from fitting.diagnosis.whitening import SHARE
+from fitting.diagnosis.inference.usual_law import polished
+from fitting.diagnosis.inference.whitening import SHARE
+from fitting.diagnosis.verdict.result import Rivals
 from fitting.planning.further import Expecting, Further
 from fitting.planning.sensitivity import ReadingNoise
 

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.model_error import model_error
-from fitting.diagnosis.refit import kept
-from fitting.diagnosis.responses import response_of
+from fitting.diagnosis.inference.evidence import Evidence
+from fitting.diagnosis.inference.refit import kept
+from fitting.diagnosis.problem.model_error import model_error
+from fitting.diagnosis.several.responses import response_of
 from fitting.noise import Noise
 from fitting.planning.exact_problem import exact_problem
 from fitting.planning.sensitivity import ReadingNoise, bent, sensitivity

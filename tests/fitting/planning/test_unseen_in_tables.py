@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from beam_tables import BEAM, FACE, LAW, read
 
-from fitting.diagnosis.refit import refit
+from fitting.diagnosis.inference.refit import refit
 from fitting.mode_tables.build import member_of
 from fitting.mode_tables.diagnose import diagnose_modes
 from fitting.mode_tables.problem import ModalProblem

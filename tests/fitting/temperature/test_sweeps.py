@@ -7,9 +7,9 @@ import pytest
 import shear_pair_cases as cases
 from shear_pair_temperatures import PAIR, POINTS, alone, begun, shifted
 
-from fitting.diagnosis.begin import begin
 from fitting.diagnosis.executor import ALONE
-from fitting.diagnosis.small_problem import SmallProblem
+from fitting.diagnosis.inference.begin import begin
+from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.effects import CATALOGUE
 from fitting.noise import noise_of
 from fitting.temperature.members import Joined

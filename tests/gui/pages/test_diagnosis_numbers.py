@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from diagnosis_cases import AFTER, BEFORE, diagnosis
 
-from fitting.diagnosis.kin import UNLISTED
+from fitting.diagnosis.verdict.kin import UNLISTED
 from fitting.effects import CATALOGUE
 from gui.pages.diagnosis.ranking import Decisions, about, group_words, ranked
 from gui.pages.diagnosis.residual import limit, panel, quantities, segments

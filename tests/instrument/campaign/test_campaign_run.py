@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from fitting.diagnosis.result import Diagnosis, FoundEffect, ParameterEstimate, Stage
+from fitting.diagnosis.verdict.result import Diagnosis, FoundEffect, ParameterEstimate, Stage
 from fitting.identification.result import LawBand
 from fitting.identification.validation import HeldOutSegment, Validation
 from fitting.laws.fractional_zener import FractionalZener

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitting.diagnosis.responses import response_of
-from fitting.diagnosis.small_problem import SmallProblem
+from fitting.diagnosis.problem.small_problem import SmallProblem
+from fitting.diagnosis.several.responses import response_of
 from fitting.laws import LAWS
 from fitting.layers import Core, Face
 from fitting.structures import Beam

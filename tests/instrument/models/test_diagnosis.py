@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fitting.diagnosis.diagnose import seen_in_channels
-from fitting.diagnosis.kin import UNLISTED
+from fitting.diagnosis.verdict.kin import UNLISTED
 from fitting.effects import CATALOGUE
 from fitting.effects.treatment_not_gripped import TreatmentEndsShortEffect
 from fitting.errors import OutsideModel

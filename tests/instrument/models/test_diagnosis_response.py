@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
-from fitting.diagnosis.plate_answer import answer
-from fitting.diagnosis.response import SweepResponse
+from fitting.diagnosis.problem.plate_answer import answer
+from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.effects import CATALOGUE
 from fitting.effects.temperature_drift import C_1, C_2_K
 from fitting.planning.known_mass import KnownMass

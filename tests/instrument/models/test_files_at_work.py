@@ -7,7 +7,7 @@ import pytest
 from shear_pair_cases import pair, sweep
 
 from fitting.aside import DISTURBED
-from fitting.diagnosis.glitch import Glitch
+from fitting.diagnosis.problem.glitch import Glitch
 from fitting.identification.result import doubts_itself
 from instrument.models.files import File
 from instrument.models.files_at_work import FilesAtWork, SetAside

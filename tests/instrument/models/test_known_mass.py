@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from fitting.damping import viscous_damping
-from fitting.diagnosis.response import SweepResponse
-from fitting.diagnosis.responses import response_of
+from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.several.responses import response_of
 from fitting.direct import solve_direct
 from fitting.effects import CATALOGUE
 from fitting.errors import OutsideModel

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitting.diagnosis.response import SweepResponse
+from fitting.diagnosis.response.sweep_response import SweepResponse
 from instrument.files.sweep_file import read_sweep
 from instrument.models.identification import identify
 from instrument.models.remarks import remarks_on_damping

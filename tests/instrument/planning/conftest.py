@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitting.diagnosis.begin import begin
-from fitting.diagnosis.response import SweepResponse
-from fitting.diagnosis.result import Rivals
-from fitting.diagnosis.usual_law import polished
+from fitting.diagnosis.inference.begin import begin
+from fitting.diagnosis.inference.usual_law import polished
+from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.verdict.result import Rivals
 from fitting.effects import CATALOGUE
 from fitting.noise import noise_of
 from instrument.files.sweep_file import read_sweep

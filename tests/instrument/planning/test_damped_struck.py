@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fitting.damping import viscous_damping
-from fitting.diagnosis.usual_law import polished
+from fitting.diagnosis.inference.usual_law import polished
 from fitting.direct import displacement_direct
 from fitting.effects import CATALOGUE
 from fitting.planning.further import Expecting

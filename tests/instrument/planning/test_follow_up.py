@@ -6,9 +6,9 @@ from itertools import groupby
 import numpy as np
 import pytest
 
-from fitting.diagnosis.response import SweepResponse
-from fitting.diagnosis.usual_law import polished
-from fitting.diagnosis.whitening import SHARE
+from fitting.diagnosis.inference.usual_law import polished
+from fitting.diagnosis.inference.whitening import SHARE
+from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.effects import CATALOGUE
 from fitting.planning.forms import forms_of
 from fitting.planning.further import Expecting, Further

@@ -9,7 +9,7 @@ from beam_tables import BEAM, FACE, LAW, read
 from result_cases import identification
 from shear_pair_temperatures import LOG_A, REFERENCE, T, alone, fitted, shifted
 
-from fitting.diagnosis.result import FoundEffect, ParameterEstimate
+from fitting.diagnosis.verdict.result import FoundEffect, ParameterEstimate
 from fitting.identification.result import LawBand
 from fitting.mode_tables.build import member_of
 from fitting.mode_tables.diagnose import diagnose_modes

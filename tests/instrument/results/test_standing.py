@@ -1,7 +1,7 @@
 import numpy as np
 from diagnosis_cases import diagnosis
 
-from fitting.diagnosis.kin import UNLISTED
+from fitting.diagnosis.verdict.kin import UNLISTED
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_figures import law_figure
 from instrument.results.diagnosis_words import candidate_words, probability_words, verdict_line

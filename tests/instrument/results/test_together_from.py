@@ -3,7 +3,7 @@
 import numpy as np
 from diagnosis_cases import diagnosed, sweep
 
-from fitting.diagnosis.joining import joined
+from fitting.diagnosis.several.joining import joined
 from instrument.files.hammer_file import HammerModes
 from instrument.files.specimen_file import read_specimen
 from instrument.hammer_test.expected import expected_modes_hz

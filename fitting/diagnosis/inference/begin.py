@@ -1,0 +1,164 @@
+"""The joint fit without any effect: law, stated numbers, model error and hammer test in one posterior.
+
+`identify` reports it, `diagnose` begins with it.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from fitting.arrays import Array
+from fitting.bent_law import BentLaw
+from fitting.diagnosis.executor import ALONE, Executor
+from fitting.diagnosis.inference.evidence import BareModes, Evidence
+from fitting.diagnosis.inference.refit import ROUGH, refit
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.inference.usual_law import at_rest, followed, polished, within_search
+from fitting.diagnosis.inference.wide_valley import in_wide_valley, with_stated
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.problem.model_error import model_error
+from fitting.diagnosis.several.responses import response_of
+from fitting.diagnosis.thresholds import SEARCH
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.identification.direct import fit_direct
+from fitting.identification.fit import Fit
+from fitting.identification.model import SweepModel
+from fitting.identification.residuals import Residuals
+from fitting.laws import CoreLaw
+from fitting.noise import Noise
+from fitting.reduced import ReducedPlate
+
+_FAR = 0.1
+"""Relative change of the modulus from which the grids and the model's error are made anew."""
+_THE_SAME = 1.0
+"""Chi-square by which rough fits from two laws may differ that have met: what a standard error is worth."""
+_ROUNDS = 3
+"""A bound on time."""
+
+
+@dataclass(frozen=True)
+class Begun:
+    """Where everything starts."""
+
+    problem: DiagnosisProblem
+    """Its grids made for the law found, its plate condensed."""
+    plate: EnrichedReducedPlate
+    """As it was given: on the reduced plate's columns."""
+    evidence: Evidence
+    none: Refitted
+    first: Fit
+    """By the law alone, the plate as stated: how the start was found."""
+    is_clear: bool
+    """Whether all starts led to one law that explains the readings: there is no other to look for."""
+
+
+def begin(
+    problem: DiagnosisProblem,
+    reduced: ReducedPlate | None,
+    noise: Noise,
+    bare: BareModes | None,
+    start: CoreLaw,
+    executor: Executor = ALONE,
+    *,
+    to_its_end: bool = True,
+) -> Begun:
+    """The fit without any effect, and the evidence all candidates are judged by.
+
+    `to_its_end`: as far as is reported; else as far as a search begins from, which follows it if it matters.
+    """
+    sweep = problem.sweep
+    start = start.to_fit(sweep.frequency_hz)
+    points, every = problem.points, np.arange(len(sweep))
+    model = SweepModel(problem.rational, every, sweep.commanded_m_s2, points.reads, points.at_rest)
+    first = fit_direct(Residuals.of(sweep, noise, model), start)
+    inside = within_search(first.law, sweep.omega)
+    # A law alone may end at its limits, where numbers that are not quite as stated keep it.
+    at_limits = inside is not first.law
+    laws = [_free_to_bend(problem, law) for law in ((first.law, inside) if at_limits else (first.law,))]
+    problem = problem.with_narrow(laws[0])
+    law, u, meets = laws[0], problem.as_stated, False
+    v = model.velocity(law)
+    for round in range(_ROUNDS):
+        here = problem.condensed(law).around(law)
+        evidence = Evidence.of(sweep, noise, model_error(here, reduced, law, v), v, bare)
+        if not noise.is_known and len(u):
+            evidence = _sized(evidence, first, law)
+        if len(laws) > 1:
+            rough = response_of(here, (), here.coarse)
+            fits = [refit(rough, evidence, one, u, tolerance=ROUGH) for one in laws]
+            best = min(fits, key=lambda f: f.chi2)
+            law, u, laws, meets = best.law, best.u, [best.law], _are_one(fits)
+        none = polished(here, (), evidence, law, u)
+        is_clear = meets and none.chi2_per_dof < SEARCH.unclear
+        if round == 0 and not is_clear and (at_limits or none.chi2_per_dof > SEARCH.wrong):
+            # The law alone did what tolerances might do, and led to a valley of its own.
+            none = _from_elsewhere(here, evidence, _free_to_bend(problem, start), none, executor)
+        omega = problem.coarse.nodes.omega
+        moved = np.max(np.abs(none.law.modulus(omega) / law.modulus(omega) - 1))
+        law, u = none.law, none.u
+        if moved < _FAR and not (problem.errs_as_found and round == 0):
+            break
+        v = model.velocity(law)
+        if problem.errs_as_found:
+            problem, v = problem.as_found(none.z), none.velocity_m_s
+    begun = Begun(here, problem.plate, evidence, none, first, is_clear)
+    if to_its_end:
+        return ended(begun, executor)
+    return replace(begun, none=at_rest(here, evidence, none)) if none.chi2_per_dof < SEARCH.wrong else begun
+
+
+def ended(begun: Begun, executor: Executor = ALONE) -> Begun:
+    """The same, its fit followed as far as is reported."""
+    follow = at_rest if begun.is_clear else partial(followed, executor=executor)
+    return replace(begun, none=follow(begun.problem, begun.evidence, begun.none))
+
+
+def _free_to_bend(problem: DiagnosisProblem, law: CoreLaw) -> CoreLaw:
+    """As it is fitted: that of an exact specimen is its formula."""
+    if problem.specimen.exact:
+        return law
+    return BentLaw.over(law, problem.sweep.frequency_hz, problem.freedom)
+
+
+def _sized(evidence: Evidence, first: Fit, law: CoreLaw) -> Evidence:
+    """With the noise that the law alone has left, where nobody knows of another.
+
+    Tolerances weigh against readings: those need a size, and their misfit is all there is.
+    """
+    dof = max(1, evidence.count - len(law.names))
+    return evidence.scaled(float(np.linalg.norm(first.residuals) / np.sqrt(dof)))
+
+
+def _are_one(fits: Sequence[Refitted]) -> bool:
+    """Whether rough fits from several laws have come to the same end."""
+    chi2 = [f.chi2 for f in fits]
+    return max(chi2) - min(chi2) < _THE_SAME and all(f.converged for f in fits)
+
+
+def _from_elsewhere(
+    problem: DiagnosisProblem, evidence: Evidence, stated: CoreLaw, none: Refitted, executor: Executor
+) -> Refitted:
+    """The best of a fit and those from everything as stated, and from the wide valley about its law."""
+    wide = in_wide_valley(problem, (), evidence, none.law, np.zeros(0))
+    starts = [(stated, problem.as_stated), (wide.law, with_stated(problem, wide))]
+    found = executor.each(_Elsewhere(problem, evidence, none).polished, starts)
+    return min([none, *found], key=lambda f: f.chi2)
+
+
+@dataclass(frozen=True)
+class _Elsewhere:
+    """Fits from elsewhere, as far as they may come below one that is known."""
+
+    problem: DiagnosisProblem
+    evidence: Evidence
+    none: Refitted
+
+    def polished(self, start: tuple[CoreLaw, Array]) -> Refitted:
+        """From a law and stated numbers, shape (stated,)."""
+        rough = response_of(self.problem, (), self.problem.coarse)
+        found, goal = refit(rough, self.evidence, *start, tolerance=ROUGH), self.none.chi2
+        if found.chi2 >= goal and (found.converged or not found.may_reach(goal)):
+            return self.none
+        return polished(self.problem, (), self.evidence, found.law, found.u, goal=goal)

@@ -1,0 +1,295 @@
+"""Answers of the changed plate at a few frequencies, with their derivatives by the adjoint.
+
+A q = load,   A z = observe,   x = observe . q,   dx = z . (dload - dA q) + dobserve . q
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from fitting.arrays import Array, Complex
+from fitting.diagnosis.problem.pole_following import KnownPoles
+from fitting.dynamic_stiffness import Matrices, dynamic_stiffness, stacked
+from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.nuisances import Nuisances
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What is to be solved: a plate as something changes it, at some nodes."""
+
+    plate: EnrichedReducedPlate
+    omega: Array
+    """Shape (nodes,)."""
+    G: Complex
+    change: Change
+    poles: KnownPoles | None
+    """Those of the unchanged plate that are to be followed."""
+    with_pitch: bool
+
+    @property
+    def sides(self) -> list[Array]:
+        """Load, row that reads, and the load of a turning base. Shape (k,) each."""
+        found = [self.plate.load + self.change.load, self.plate.observe + self.change.observe]
+        return [*found, self.plate.pitch] if self.with_pitch else found
+
+    @cached_property
+    def matrices(self) -> Matrices:
+        """As changed."""
+        plate, change = self.plate, self.change
+        C_1 = plate.viscous(change.damping) + change.C
+        return stacked(plate.K_0 + change.K, plate.K_1 + change.K_1, plate.M + change.M, C_1)
+
+    def alike(self, other: "Asked") -> bool:
+        """Whether another asks for the same matrix at the same nodes, but for what drives and reads it."""
+        pairs = [(self.omega, other.omega), (self.G, other.G), (self.matrices, other.matrices)]
+        if self.poles is None or other.poles is None:
+            followed = self.poles is other.poles
+        else:
+            followed = self.poles.alike(other.poles)
+        return (
+            followed and self.with_pitch == other.with_pitch and all(np.array_equal(a, b) for a, b in pairs)
+        )
+
+
+@dataclass(frozen=True)
+class Motions:
+    """Of the plate asked for: to its load, to a unit force at its pickup, and to a turning base.
+
+    Shape (nodes, k) each.
+    """
+
+    q: Complex
+    z: Complex
+    p: Complex | None
+    poles: Complex
+    """Where the poles that were asked for have gone, rad/s."""
+
+
+def motions(asked: Sequence[Asked]) -> list[Motions]:
+    """Of each; those that differ in what drives or reads them are solved with one another."""
+    found: dict[int, Motions] = {}
+    for k, one in enumerate(asked):
+        if k not in found:
+            same = [n for n in range(k, len(asked)) if n not in found and (n == k or one.alike(asked[n]))]
+            found |= dict(zip(same, _together([asked[n] for n in same]), strict=True))
+    return [found[k] for k in range(len(asked))]
+
+
+def _together(asked: Sequence[Asked]) -> list[Motions]:
+    one = asked[0]
+    A = dynamic_stiffness(one.matrices, one.omega, one.G)
+    each: list[Array] = []
+    places = []
+    travel = -1 / one.omega**2
+    for a in asked:
+        rows = [np.broadcast_to(side, (len(a.omega), len(side))) for side in a.sides]
+        if np.any(a.change.travel_load):
+            rows[0] = rows[0] + travel[:, None] * a.change.travel_load
+        places.append([_place(row, each) for row in rows])
+    solved = np.asarray(np.linalg.solve(A, np.stack(each, axis=2).astype(complex)), dtype=np.complex128)
+    columns = [solved[:, :, n] for n in range(len(each))]
+    poles = one.poles.followed(one.matrices)[0] if one.poles else np.empty(0, complex)
+    return [
+        Motions(columns[at[0]], columns[at[1]], columns[at[2]] if one.with_pitch else None, poles)
+        for at in places
+    ]
+
+
+def _place(row: Array, each: list[Array]) -> int:
+    """Of a side among those to be solved, itself added where it is new."""
+    for n, other in enumerate(each):
+        if np.array_equal(row, other):
+            return n
+    each.append(row)
+    return len(each) - 1
+
+
+@dataclass(frozen=True)
+class PlateAnswer:
+    """What is read of the motions of what was asked for, each worked out as it is asked for.
+
+    At every node; displacements per base acceleration (heave) or angular acceleration (pitch).
+    """
+
+    asked: Asked
+    moved: Motions
+    nearby: Sequence[tuple[Change, Change, float]] = ()
+    """For every unknown the changes a step above and below, and the step between them."""
+    nuisances: tuple[Nuisances, Array] | None = None
+    """With where they are: the change has what they change in it."""
+
+    @property
+    def poles(self) -> Complex:
+        """Where the poles that were asked for have gone, rad/s. Shape (poles,)."""
+        return self.moved.poles
+
+    @cached_property
+    def heave(self) -> Complex:
+        """Shape (nodes,)."""
+        return self.moved.q @ self._observe - self.asked.change.travel / self.asked.omega**2
+
+    @cached_property
+    def pitch(self) -> Complex:
+        """Shape (nodes,)."""
+        p = self.moved.p
+        return np.zeros(len(self.asked.omega), complex) if p is None else p @ self._observe
+
+    @cached_property
+    def heave_by_G(self) -> Complex:
+        """Shape (nodes,)."""
+        K_1 = self.asked.matrices[1]
+        return np.asarray(-np.einsum("pi,pi->p", self.moved.z, self.moved.q @ K_1.T))
+
+    @cached_property
+    def heave_by_u(self) -> Complex:
+        """To each unknown. Shape (unknowns, nodes)."""
+        q, step = self.moved.q, self._step
+        return self._each([step.by(d, q) + step.by_base(d) for d in self._slopes])
+
+    @cached_property
+    def pitch_by_u(self) -> Complex:
+        """The same of a turning base. Shape (unknowns, nodes)."""
+        p, step = self.moved.p, self._step
+        return self._each([step.by(d, p) for d in self._slopes]) if p is not None else 0 * self.heave_by_u
+
+    @cached_property
+    def heave_by_z(self) -> Complex:
+        """To each stated number, in standard deviations. Shape (count, nodes)."""
+        if self.nuisances is None:
+            return self._each([])
+        (who, at), a = self.nuisances, self.asked
+        return who.by_response(a.plate, a.omega, a.G, self.moved.q, self.moved.z, at)
+
+    @cached_property
+    def pitch_by_z(self) -> Complex:
+        """The same of a turning base. Shape (count, nodes)."""
+        p = self.moved.p
+        if self.nuisances is None or p is None:
+            return 0 * self.heave_by_z
+        (who, at), a = self.nuisances, self.asked
+        return who.by_pitch(a.plate, a.omega, a.G, p, self.moved.z, at)
+
+    @cached_property
+    def _observe(self) -> Array:
+        return np.asarray(self.asked.plate.observe + self.asked.change.observe)
+
+    @cached_property
+    def _step(self) -> "_Step":
+        return _Step(self.asked.plate, self.asked.omega, self.asked.G, self.moved.z)
+
+    @cached_property
+    def _slopes(self) -> list[Change]:
+        return [_between(up, down, 1 / h) for up, down, h in self.nearby]
+
+    def _each(self, rows: list[Complex]) -> Complex:
+        return np.array(rows) if rows else np.zeros((0, len(self.asked.omega)), complex)
+
+
+def answer(
+    plate: EnrichedReducedPlate,
+    omega: Array,
+    G: Complex,
+    change: Change,
+    nearby: Sequence[tuple[Change, Change, float]],
+    *,
+    with_pitch: bool,
+    nuisances: tuple[Nuisances, Array] | None = None,
+) -> PlateAnswer:
+    """Solve the nodes, and read; no poles are followed. As `Asked` and `PlateAnswer` have it.
+
+    Shape (nodes,) for `omega` and `G`.
+    """
+    asked = Asked(plate, omega, G, change, None, with_pitch)
+    return PlateAnswer(asked, motions([asked])[0], nearby, nuisances)
+
+
+def _between(up: Change, down: Change, per_step: float) -> Change:
+    return Change(
+        *(
+            (getattr(up, n) - getattr(down, n)) * per_step
+            for n in ("K", "K_1", "M", "load", "observe", "C", "damping", "travel_load", "travel")
+        )
+    )
+
+
+@dataclass(frozen=True)
+class _Step:
+    plate: EnrichedReducedPlate
+    omega: Array
+    G: Complex
+    z: Complex
+
+    def by_base(self, d: Change) -> Complex:
+        """Derivative of x along what the derivative `d` of a change makes of the base's motion."""
+        travel = -1 / self.omega**2
+        load = d.load + travel[:, None] * d.travel_load
+        return np.asarray((self.z * load).sum(axis=1) + travel * d.travel, dtype=np.complex128)
+
+    def by(self, d: Change, q: Complex) -> Complex:
+        """And along what it makes of the plate's motion `q`. Shape (nodes,)."""
+        found = np.zeros(len(self.omega), complex)
+        parts: list[tuple[object, Complex | Array | float]] = [
+            (d.K, 1.0),
+            (d.K_1, self.G),
+            (d.M, -(self.omega**2)),
+            (d.C, np.asarray(1j * self.omega, dtype=complex)),
+        ]
+        for A, factor in parts:
+            if isinstance(A, np.ndarray):
+                found -= factor * np.einsum("pi,pi->p", self.z, q @ A.T)
+        if np.any(d.damping):
+            U, weights = self.plate.U, self.plate.d * d.damping
+            found -= 1j * self.omega * np.einsum("pr,pr,r->p", self.z @ U, q @ U, weights)
+        if isinstance(d.observe, np.ndarray):
+            found += q @ d.observe
+        return found
+
+
+@dataclass(frozen=True)
+class StrainedCore:
+    """How far the core of a plate shears, as something changes it, at some frequencies and moduli."""
+
+    plate: EnrichedReducedPlate
+    omega: Array
+    """Shape (nodes,)."""
+    G: Complex
+    change: Change
+
+    @cached_property
+    def strain(self) -> Array:
+        """Rms over the core of its shear strain for a base acceleration of 1 m/s^2. Shape (nodes,)."""
+        q = self._motion
+        square = np.real(np.einsum("pi,pi->p", q.conj(), q @ self._mean_square))
+        return np.sqrt(np.maximum(square, 1e-300))
+
+    def by(self, nearby: tuple[Change, Change, float]) -> Array:
+        """Derivative of ln strain to an unknown; `nearby` as `PlateAnswer` has it of each. Shape (nodes,)."""
+        up, down, h = nearby
+        # What the pickup reads strains nothing.
+        d = replace(_between(up, down, 1 / h), observe=0.0, travel=0.0)
+        step = _Step(self.plate, self.omega, self.G, self._adjoint)
+        return np.asarray((step.by(d, self._motion) + step.by_base(d)).real / self.strain**2)
+
+    @cached_property
+    def _motion(self) -> Complex:
+        """Q of A q = load. Shape (nodes, k)."""
+        travel = -1 / self.omega**2
+        return self._solved(self.plate.load + self.change.load + travel[:, None] * self.change.travel_load)
+
+    @cached_property
+    def _adjoint(self) -> Complex:
+        """Z of A z = S conj(q), with S the mean square. Shape (nodes, k)."""
+        return self._solved(self._motion.conj() @ self._mean_square)
+
+    @property
+    def _mean_square(self) -> Array:
+        return self.plate.matrix("strain.mean_square")
+
+    def _solved(self, sides: Complex | Array) -> Complex:
+        matrices = Asked(self.plate, self.omega, self.G, self.change, None, with_pitch=False).matrices
+        A = dynamic_stiffness(matrices, self.omega, self.G)
+        return np.asarray(np.linalg.solve(A, sides[:, :, None].astype(complex))[:, :, 0])

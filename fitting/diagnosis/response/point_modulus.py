@@ -1,0 +1,87 @@
+"""The core's modulus at every point of a sweep: a law's, as effects soften or warm it."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from fitting.arrays import Array, Complex
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.response.plate_changes import PlateChanges
+from fitting.diagnosis.response.strains import Reference, Strains
+from fitting.diagnosis.response.unknowns import Unknowns
+from fitting.effects.base import Effect
+from fitting.effects.change import Change
+from fitting.effects.given import ModulusAt, Strain
+from fitting.effects.span import Span
+from fitting.laws import CoreLaw
+
+_H = 1e-4
+"""Step of differences, of the logarithm of a law's parameter."""
+
+
+class PointModulus:
+    """G* in Pa, shape (points,), under a law and unknowns `u` of shape (unknowns,)."""
+
+    def __init__(
+        self,
+        problem: DiagnosisProblem,
+        unknowns: Unknowns,
+        changes: PlateChanges,
+        spans: Sequence[Span],
+        reference: Reference,
+    ) -> None:
+        self._points, self._unknowns, self._changes = problem.points, unknowns, changes
+        self.effects = [k for k, e in enumerate(unknowns.effects) if type(e).modulus is not Effect.modulus]
+        """Numbers of those that shift a modulus."""
+        self.strained = bool(self.effects) and any(s.name == "strain" for s in spans)
+        """Whether one of them goes by the core's strain."""
+        self._strains = Strains(problem, changes.plate, reference)
+        self._latest: tuple[CoreLaw, Complex] | None = None
+
+    def of_law(self, law: CoreLaw) -> Complex:
+        """Before any effect; the latest is kept."""
+        if self._latest is None or self._latest[0] is not law:
+            self._latest = law, law.modulus(self._points.omega)
+        return self._latest[1]
+
+    def at(self, law: CoreLaw, u: Array) -> Complex:
+        """With all effects."""
+        return self._shifted(law, u, self.of_law(law))
+
+    def by_law(self, law: CoreLaw, u: Array) -> Complex:
+        """Its derivatives to the logarithms of the law's parameters. Shape (parameters, points)."""
+        omega = self._points.omega
+        if not self.effects:
+            return np.asarray(law.jacobian(omega) * law.values[:, None])
+        logs = np.log(law.values)
+        h = np.where(logs + _H < law.log_limits[1], _H, -_H)
+        others = np.vstack([logs, logs + np.diag(h)])
+        G = self._shifted(law, u, law.moduli(others, omega), self._strain(law, u), others)
+        return (G[1:] - G[0]) / h[:, None]
+
+    def along(self, law: CoreLaw, u: Array, nearby: tuple[Change, Change, float], h: float) -> Complex:
+        """A step `h` of an unknown further, as a changed plate strains its core otherwise.
+
+        `nearby` as `Strains.along` takes it.
+        """
+        strain = self._strains.along(law, self._changes.key(u), lambda: self._changes.every(u), nearby, h)
+        return self._shifted(law, u, self.of_law(law), strain)
+
+    def _shifted(
+        self, law: CoreLaw, u: Array, G_law: Complex, strain: Strain | None = None, logs: Array | None = None
+    ) -> Complex:
+        """`strain` where something is a step away from what strains are known of.
+
+        Of many laws where their `logs` are given: shape (laws, points), as `G_law` then.
+        """
+        G = G_law
+        for k in self.effects:
+            at = ModulusAt(law, self._points, strain or self._strain(law, u), logs)
+            shifted = self._unknowns.effects[k].modulus(at, self._points, self._unknowns.of(k, u))
+            if shifted is not None:
+                G = G * (shifted / G_law)
+        return G
+
+    def _strain(self, law: CoreLaw, u: Array) -> Strain:
+        """Of the core at every point, softened by a share, over the reference."""
+        return self._strains.under(law, self._changes.key(u), lambda: self._changes.every(u))

@@ -1,0 +1,180 @@
+"""How strained the core is at every point of a sweep, softened or not: what softening with strain goes by."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from typing import TypeVar
+
+import numpy as np
+
+from fitting.arrays import Array, Complex
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.problem.plate_answer import Asked, StrainedCore
+from fitting.diagnosis.problem.plate_poles import PLAIN
+from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.given import Strain
+from fitting.effects.kraus import strained
+from fitting.gravity import PUBLISHED_G_M_S2
+from fitting.laws import CoreLaw
+
+_SOFTENED = np.array([-0.3, 0.0, 0.25, 0.5])
+"""Shares by which the core softens where its strain is computed: a cubic through them serves all between.
+
+Where little damps the plate its strain rises near a pole as one over the distance, and the pole moves as the
+core softens: times the distance it is smooth, in the frequency and in the share.
+"""
+_GAINED = np.array([0.0, 0.3])
+"""The same of the loss modulus that it gains, in shares of sqrt(G' G''): a line through them serves.
+
+A rubber that loses a fifth of its modulus gains some 0.25.
+"""
+_MOST_LOG = 50.0
+"""Of the logarithm of a strain: no core is so strained, and beyond it numbers end."""
+_KEPT = 8
+"""Tables of the core's strain for unknowns just asked for; more are begun anew. A choice."""
+
+
+@dataclass
+class Reference:
+    """The strain that softening is told for: the largest at 1 g, or at 1 N of a force, when first asked for.
+
+    Sweeps of one core have one, of the first of them: shear pairs with other masses strain otherwise.
+    """
+
+    strain: float | None = None
+
+
+@dataclass(frozen=True)
+class _Table:
+    """Strain for a unit of what drives it, and the cores that it was read of, one a gain and share.
+
+    Cubics in the softening, the first without any gain of loss, the second, where there is one, with the
+    largest.
+    """
+
+    cubics: Array
+    """Of ln strain times the distance from the poles. Shape (gains, 4, points)."""
+    poles: Complex
+    """Of their squares. Shape (gains, 4, poles)."""
+    away: Array
+    """From the poles, at the nodes of every gain and share. Shape (gains 4 nodes,)."""
+    core: StrainedCore
+
+
+Changes = Callable[[], Change]
+A = TypeVar("A", Array, Complex)
+
+
+class Strains:
+    """Of one sweep on a plate."""
+
+    def __init__(self, problem: DiagnosisProblem, plate: EnrichedReducedPlate, reference: Reference) -> None:
+        self._problem, self._plate, self._reference = problem, plate, reference
+        self._known: dict[bytes, _Table] = {}
+
+    def under(self, law: CoreLaw, key: bytes, changes: Changes) -> Strain:
+        """At every point, softened by a share, over the reference; `changes` of the plate go by `key`.
+
+        Solved for when it is first asked for, and once: who looks for how far a core softens asks many times.
+        """
+        return self._of(lambda gains: self._table(law, key, changes, gains))
+
+    def along(
+        self, law: CoreLaw, key: bytes, changes: Changes, nearby: tuple[Change, Change, float], step: float
+    ) -> Strain:
+        """The same a `step` of an unknown further, to first order: `nearby` as `StrainedCore.by` takes it."""
+
+        @cache
+        def further(gains: bool) -> Array:
+            table = self._table(law, key, changes, gains)
+            # As a pole moves this changes as one over the distance, and as its conjugate's.
+            return step * self._cubics(table.core.by(nearby) * table.away**2)
+
+        return self._of(lambda gains: self._table(law, key, changes, gains), further)
+
+    def _of(self, table: Callable[[bool], _Table], further: Callable[[bool], Array] | None = None) -> Strain:
+        """`further`: what ln strain changes by, times the square of the distance. Shape (gains, 4, points).
+
+        Both are asked whether the loss gains.
+        """
+        points = self._problem.points
+        drive = points.acceleration_m_s2 if points.force_n is None else points.force_n
+        of = cache(table)
+
+        def strain(softened: Array, gained: Array | None = None) -> Array:
+            gains = gained is not None
+            known, more = of(gains), np.zeros(len(softened)) if gained is None else gained
+            away = self._away(known.poles, softened, more)
+            logs_here = _at(known.cubics, softened, more)
+            if further is not None:
+                logs_here = logs_here + _at(further(gains), softened, more) / away**2
+            assert self._reference.strain is not None
+            # A step far beyond what the table is of would overflow; what it leads to is refused anyway.
+            logs_here = np.clip(logs_here, -_MOST_LOG, _MOST_LOG)
+            return np.asarray(np.exp(logs_here) / away * drive / self._reference.strain)
+
+        return strain
+
+    def _away(self, poles: Complex, softened: Array, gained: Array) -> Array:
+        """From the poles, each point's core softened by its share. Shape (points,)."""
+        return self._problem.dense.away(
+            lambda mine, at: _at(poles[:, :, mine, None], softened[at], gained[at])
+        )
+
+    def _table(self, law: CoreLaw, key: bytes, changes: Changes, gains: bool) -> _Table:
+        key = law.values.tobytes() + key + bytes([gains])
+        if key not in self._known:
+            dense = self._problem.dense
+            G, change = law.modulus(dense.omega), changes()
+            moduli = [strained(G, s, g) for g in _GAINED[: 1 + gains] for s in _SOFTENED]
+            core = StrainedCore(
+                self._plate, np.tile(dense.omega, len(moduli)), np.concatenate(moduli), change
+            )
+            squares: Complex = np.array([self._poles(each, change) for each in moduli]) ** 2
+            away = np.concatenate([self._away_at_nodes(p) for p in squares])
+            poles = _through(squares.reshape(1 + gains, len(_SOFTENED), *squares.shape[1:]))
+            table = _Table(self._cubics(np.log(core.strain * away)), poles, away, core)
+            if len(self._known) > _KEPT:
+                self._known.clear()
+            self._known[key] = table
+            if self._reference.strain is None:
+                unit = PUBLISHED_G_M_S2 if self._problem.points.drive == "base" else 1.0
+                none = np.zeros(len(dense.points))
+                largest = np.exp(table.cubics[0, -1]) / self._away(table.poles, none, none)
+                self._reference.strain = float(largest.max()) * unit
+        return self._known[key]
+
+    def _away_at_nodes(self, squares: Complex) -> Array:
+        """The same at the nodes, from poles that are the same for all. Shapes (poles,) to (nodes,)."""
+        return self._problem.dense.away(lambda mine, at: squares[mine, None], at_nodes=True)
+
+    def _poles(self, G: Complex, change: Change) -> Complex:
+        """That the nodes were made for, under a modulus given there, of the plate as something changes it."""
+        dense, poles = self._problem.dense, self._problem.fine.poles
+        if poles is None or not len(dense.poles):
+            return dense.poles
+        known = poles.known(dense, G).on(self._plate.group == PLAIN)
+        asked = Asked(self._plate, dense.omega, G, change, known, with_pitch=False)
+        return known.followed(asked.matrices)[0]
+
+    def _cubics(self, values: Array) -> Array:
+        """Through values at the nodes, share by share and gain by gain. To shape (gains, 4, points)."""
+        dense = self._problem.dense
+        each = values.reshape(-1, len(dense.omega)) @ dense.plain.T
+        return _through(each.reshape(-1, len(_SOFTENED), len(dense.points))).astype(float)
+
+
+def _through(values: A) -> A:
+    """Coefficients of cubics in the share through values at `_SOFTENED`. Shape (gains, 4, ...), as given."""
+    return np.linalg.solve(np.vander(_SOFTENED), values)  # type: ignore[return-value]
+
+
+def _at(cubics: A, softened: Array, gained: Array) -> A:
+    """Cubics of shape (gains, 4, ...) at some places; shape (...) joined with that of `softened`."""
+
+    def at(cubic: A) -> A:
+        return ((cubic[0] * softened + cubic[1]) * softened + cubic[2]) * softened + cubic[3]
+
+    plain = at(cubics[0])
+    return plain if len(cubics) == 1 else plain + gained / _GAINED[-1] * (at(cubics[1]) - plain)

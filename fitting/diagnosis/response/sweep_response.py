@@ -1,0 +1,332 @@
+"""What a sweep reads of a plate with some effects, and how that changes with law and unknowns.
+
+The stated numbers come first among the unknowns (`fitting.nuisances`), then those of each effect.
+
+The unchanged plate is exact at every point (a rational sum in G*). What effects change of the plate is
+solved at a few nodes and interpolated, to first order in how far a point's modulus is off the law's.
+Channels, sharp factors and the law itself act at every point.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+
+import numpy as np
+
+from fitting.arrays import Array, Complex
+from fitting.diagnosis.problem.base import DiagnosisProblem, NodeGrid, spans_of
+from fitting.diagnosis.problem.plate_answer import Asked, Motions, PlateAnswer, motions
+from fitting.diagnosis.problem.plate_poles import PLAIN
+from fitting.diagnosis.response.channels import Channels
+from fitting.diagnosis.response.plate_changes import PlateChanges
+from fitting.diagnosis.response.point_modulus import PointModulus
+from fitting.diagnosis.response.strains import Reference
+from fitting.diagnosis.response.unknowns import Unknowns, stepped
+from fitting.effects.base import Effect
+from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.laws import CoreLaw
+
+
+class SweepResponse:
+    """The sweep of a problem under a law and effects.
+
+    `u` holds the stated numbers in standard deviations, then the effects' unknowns, one after the other.
+    """
+
+    apart = False
+    """Whether phasors come for less without derivatives, and these then for the rest."""
+
+    def __init__(
+        self,
+        problem: DiagnosisProblem,
+        effects: Sequence[Effect],
+        grid: NodeGrid | None = None,
+        plate: EnrichedReducedPlate | None = None,
+        reference: Reference | None = None,
+        *,
+        every: bool = False,
+    ) -> None:
+        """Where they are at hand: `plate`, as far as these effects need it, and softening's `reference`.
+
+        `every`: derivatives to unknowns that a fit leaves alone too; else they are zero.
+        """
+        self.problem, self.effects, self.nuisances = problem, tuple(effects), problem.nuisances
+        self.apart = True
+        self._unknowns = Unknowns(len(self.nuisances), self.effects)
+        self.parameters = self._unknowns.parameters
+        self._channels = Channels(problem, self._unknowns)
+        spans = spans_of(problem, effects)
+        self.plate: EnrichedReducedPlate = plate or problem.plate.take(spans)
+        if grid is problem.coarse and grid is not problem.fine:
+            self.plate = self.plate.roughly
+        sharp = any(e.sharp for e in self.effects)
+        if sharp:
+            self.plate = self.plate.with_part
+        self._changes = PlateChanges(problem, self._unknowns, self.plate)
+        self._modulus = PointModulus(problem, self._unknowns, self._changes, spans, reference or Reference())
+        self._pitching = [k for k, e in enumerate(self.effects) if type(e).pitch is not Effect.pitch]
+        each = self._unknowns.slices
+        self._fitted = [n for n, q in enumerate(self.parameters) if every or not q.fixed]
+        moving_it = [n for k in self._changes.effects for n in range(each[k].start, each[k].stop)]
+        self._moving_it = [n for n in moving_it if n in self._fitted]
+        grid = grid or problem.fine
+        if self._modulus.effects and self._moves:
+            # The modulus is another one in every pass.
+            grid = problem.passes
+        self._smooth, self.grid = grid, problem.each if sharp else grid
+        """The grid of what is smooth between nodes, and the one that all of these effects need."""
+        self._last: tuple[bytes, _OfPlate] | None = None
+        self._latest: tuple[CoreLaw, Array, _At] | None = None
+        self._ready: tuple[Array, Asked, Motions] | None = None
+
+    def velocity(self, law: CoreLaw, u: Array) -> Complex:
+        """Phasors in m/s. Shape (points,)."""
+        return self._at(law, u).v
+
+    def with_derivatives(self, law: CoreLaw, u: Array) -> tuple[Complex, Complex]:
+        """Phasors, and their derivatives to log parameters and then to `u`. Shape (parameters, points)."""
+        at = self._with_slopes(law, u)
+        by_law = self._modulus.by_law(law, u) * (at.plate.slope * at.per_x)
+        count = len(self.nuisances)
+        by_z = self._by_stated(at) if count else np.zeros((0, len(at.raw)))
+        of_effects = [k for k in self._fitted if k >= count]
+        raw = np.zeros((len(by_law) + len(self.parameters), len(at.raw)), complex)
+        raw[: len(by_law)] = by_law
+        raw[len(by_law) : len(by_law) + count] = by_z
+        for k in of_effects:
+            raw[len(by_law) + k] = self._by(k, law, u, at)
+        moved = self._channels.along(at.raw, at.v, raw, u)
+        for k in of_effects:
+            moved[len(by_law) + k] += self._channels.by(k, at.raw, u)
+        if count:
+            by_reading = self.nuisances.by_reading(at.v, self.problem.points.omega, u[self._unknowns.stated])
+            for k, d in by_reading.items():
+                moved[len(by_law) + k] += d
+        return at.v, moved
+
+    def signatures(self, law: CoreLaw, known: Array, starts: Sequence[Array]) -> Complex:
+        """To first order, what the last effect changes as it comes in. Shape (starts, points).
+
+        It changes the plate alone; `known` are the unknowns of the others.
+        """
+        others = SweepResponse(self.problem, self.effects[:-1], self._smooth)
+        at = others._at(law, known)
+        grid, last = others.grid, self.effects[-1]
+        found = [others._changes.of(k, known, self.plate) for k in others._changes.effects]
+        G, _ = others._bearing(law, others._modulus.of_law(law), at.plate.G)
+        change = reduce(Change.and_then, [*found, *self._changes.stated(known)], Change())
+        asked = self._asked(G, change, grid)
+        each = [self._changes.moving(last.coming_in(self.plate, u)) for u in starts]
+        # What is sharp starts at many frequencies in one place: one change serves them all.
+        of = [np.asarray(c.M).tobytes() if last.sharp else k for k, c in enumerate(each)]
+        number = {key: n for n, key in enumerate(dict.fromkeys(of))}
+        by_start = [(each[of.index(key)], Change(), 1.0) for key in number]
+        solved = PlateAnswer(asked, motions([asked])[0], by_start)
+        by_u = grid.nodes.spread(np.stack([solved.heave_by_u, solved.pitch_by_u]), solved.poles, solved.poles)
+        raw = at.per_x * (by_u[0] + at.pitch * by_u[1])
+        if last.sharp:
+            factors = [last.sharply(self.problem.points.omega, u) for u in starts]
+            raw = raw[[number[key] for key in of]] * np.array(factors)
+        return others._channels.along(at.raw, at.v, raw, known)
+
+    # The parts of the response.
+
+    def _at(self, law: CoreLaw, u: Array) -> "_At":
+        """The latest is kept: derivatives are asked for where the phasors were."""
+        if self._latest is None or self._latest[0] is not law or not np.array_equal(self._latest[1], u):
+            self._latest = law, u.copy(), self._at_anew(law, u)
+        return self._latest[2]
+
+    def _at_anew(self, law: CoreLaw, u: Array) -> "_At":
+        points = self.problem.points
+        omega, a = points.omega, points.acceleration_m_s2
+        plate = self._of_plate(law, u)
+        pitch = np.zeros(len(omega), complex)
+        for k in self._pitching:
+            h = self.effects[k].pitch(omega, self._unknowns.of(k, u))
+            pitch = pitch + (h if h is not None else 0.0)
+        per_x: Complex = np.asarray(1j * omega * a, dtype=complex)
+        lever = self.problem.pickup_x_m * a / (1j * omega)
+        raw = per_x * (plate.x + pitch * plate.turned) + lever * pitch
+        if points.reads == "absolute":
+            raw = raw + a / (1j * omega)
+        return _At(self._channels.read(raw, u), raw, per_x, pitch, lever, plate)
+
+    def _with_slopes(self, law: CoreLaw, u: Array) -> "_At":
+        """The same, its plate's derivatives worked out."""
+        at = self._at(law, u)
+        if at.plate.solved is not None and at.plate.by is None:
+            assert self._last is not None
+            plate = self._slopes_of(at.plate, u)
+            at = replace(at, plate=plate)
+            self._last, self._latest = (self._last[0], plate), (law, u.copy(), at)
+        return at
+
+    def _of_plate(self, law: CoreLaw, u: Array) -> "_OfPlate":
+        """What goes with the plate and its core: one for all that only turns its base or reads it."""
+        G_law = self._modulus.of_law(law)
+        key = self._key(G_law, u)
+        if self._last is None or self._last[0] != key:
+            self._last = key, self._of_plate_anew(law, u, G_law)
+        return self._last[1]
+
+    def _of_plate_anew(self, law: CoreLaw, u: Array, G_law: Complex) -> "_OfPlate":
+        G = self._modulus.at(law, u)
+        x, slope = self.problem.rational.with_derivative(G)
+        if not self._moves:
+            return _OfPlate(G, x, slope, np.zeros(len(G), complex), None, None)
+        G_nodes, smooth = self._bearing(law, G_law, G)
+        asked, moved = self._solved(u, G_nodes)
+        solved, nodes = PlateAnswer(asked, moved), self.grid.nodes
+        changed = np.array([solved.heave - self.grid.rational.displacement(G_nodes), solved.pitch])
+        more, turned = nodes.spread(changed, self.grid.unchanged_poles(G_nodes), solved.poles)
+        x = x + more
+        if self._modulus.effects:
+            _, plain_slope = self.problem.rational.with_derivative(smooth)
+            slope = nodes.spread(solved.heave_by_G, solved.poles, solved.poles)
+            x = x + (slope - plain_slope) * (G - smooth)
+        return _OfPlate(G, x, slope, turned, (asked, moved), None)
+
+    def _slopes_of(self, plate: "_OfPlate", u: Array) -> "_OfPlate":
+        """The same with its derivatives."""
+        assert plate.solved is not None
+        asked, moved = plate.solved
+        nearby = []
+        for n in self._moving_it:
+            k, h = self._unknowns.owner(n), self._unknowns.step(n, u)
+            up, down = (self._changes.of(k, stepped(u, n, s * h), self.plate) for s in (1, -1))
+            nearby.append((up, down, 2 * h))
+        stated = (self.nuisances, u[self._unknowns.stated]) if self.nuisances else None
+        solved = PlateAnswer(asked, moved, nearby, stated)
+        # A derivative has every pole twice, and only those of the changed plate.
+        twice = [solved.heave_by_G[None], solved.heave_by_z, solved.heave_by_u]
+        if self._pitching:
+            twice += [solved.pitch_by_z, solved.pitch_by_u]
+        spread = self.grid.nodes.spread(np.concatenate(twice), solved.poles, solved.poles)
+        heaves = len(solved.heave_by_z) + len(solved.heave_by_u)
+        heave, turned = spread[1 : 1 + heaves], spread[1 + heaves :]
+        by = _ByChange(heave, turned)
+        return replace(plate, slope=spread[0], by=by)
+
+    def _bearing(self, law: CoreLaw, G_law: Complex, G: Complex) -> tuple[Complex, Complex]:
+        """The modulus at the nodes, and the smooth one at every point that goes through it."""
+        nodes = self.grid.nodes
+        at_nodes = law.modulus(nodes.omega)
+        if not self._modulus.effects:
+            return at_nodes, G_law
+        share = nodes.fit @ (G / G_law)
+        return at_nodes * share, G_law * (nodes.plain @ share)
+
+    def _solved(self, u: Array, G: Complex) -> tuple[Asked, Motions]:
+        """What was asked at the nodes, and how it moves."""
+        ready, self._ready = self._ready, None
+        if ready is not None and np.array_equal(ready[0], u) and np.array_equal(ready[1].G, G):
+            return ready[1:]
+        asked = self._asked(G, self._changes.every(u))
+        return asked, motions([asked])[0]
+
+    @property
+    def _moves(self) -> bool:
+        """Whether anything changes the plate or the base's motion."""
+        return bool(self._changes.effects or self._pitching or not self.nuisances.change_nothing)
+
+    def _key(self, G_law: Complex, u: Array) -> bytes:
+        moving = self._changes.effects + self._modulus.effects
+        own = [u[self._unknowns.stated], *(self._unknowns.of(k, u) for k in moving)]
+        return b"".join(part.tobytes() for part in (G_law, *own))
+
+    def _asked(self, G: Complex, change: Change, grid: NodeGrid | None = None) -> Asked:
+        grid = grid or self.grid
+        known, own = grid.known_poles(G), self.plate.group == PLAIN
+        if known is not None:
+            known = known.on(own)
+        return Asked(self.plate, grid.nodes.omega, G, change, known, bool(self._pitching))
+
+    def asked(self, law: CoreLaw, u: Array) -> Asked | None:
+        """What has to be solved there; None: nothing. `u` of shape (unknowns,)."""
+        if not self._moves:
+            return None
+        G_law = self._modulus.of_law(law)
+        if self._last is not None and self._last[0] == self._key(G_law, u):
+            return None
+        G, _ = self._bearing(law, G_law, self._modulus.at(law, u))
+        return self._asked(G, self._changes.every(u))
+
+    def know(self, asked: Asked, moved: Motions, u: Array) -> None:
+        """The motions asked for there. `u` of shape (unknowns,)."""
+        self._ready = u, asked, moved
+
+    # Derivatives to unknown n.
+
+    def _by(self, n: int, law: CoreLaw, u: Array, at: "_At") -> Complex:
+        """Of the velocity before the channels."""
+        k, omega = self._unknowns.owner(n), self.problem.points.omega
+        found = np.zeros(len(omega), complex)
+        h = self._unknowns.step(n, u)
+        up, down = stepped(u, n, h), stepped(u, n, -h)
+        if k in self._changes.effects and at.plate.by is not None:
+            place = len(self.nuisances) + self._moving_it.index(n)
+            by = at.plate.by.heave[place]
+            found = found + at.per_x * (by + at.pitch * at.plate.by.turned[place] if self._pitching else by)
+        if k in self._pitching:
+            effect = self.effects[k]
+            above, below = (
+                effect.pitch(omega, self._unknowns.of(k, up)),
+                effect.pitch(omega, self._unknowns.of(k, down)),
+            )
+            if above is not None and below is not None:
+                found = found + (above - below) / (2 * h) * (at.per_x * at.plate.turned + at.lever)
+        if k in self._changes.effects and self._modulus.strained:
+            nearby = self._changes.of(k, up, self.plate), self._changes.of(k, down, self.plate), 2 * h
+            dG = (self._modulus.along(law, u, nearby, h) - at.plate.G) / h
+            found = found + at.per_x * at.plate.slope * dG
+        if k in self._modulus.effects:
+            dG = (self._modulus.at(law, up) - self._modulus.at(law, down)) / (2 * h)
+            found = found + at.per_x * at.plate.slope * dG
+        return found
+
+    def _by_stated(self, at: "_At") -> Complex:
+        """Of the velocity before the channels to each stated number."""
+        assert at.plate.by is not None
+        stated = slice(0, len(self.nuisances))
+        by = at.plate.by.heave[stated]
+        return np.asarray(at.per_x * (by + at.pitch * at.plate.by.turned[stated] if self._pitching else by))
+
+
+@dataclass(frozen=True)
+class _At:
+    v: Complex
+    raw: Complex
+    """Before the channels."""
+    per_x: Complex
+    pitch: Complex
+    lever: Complex
+    plate: "_OfPlate"
+
+
+@dataclass(frozen=True)
+class _OfPlate:
+    """Shape (points,) each."""
+
+    G: Complex
+    x: Complex
+    """Displacement per acceleration of the base, or per force."""
+    slope: Complex
+    """dx/dG; of the unchanged plate until derivatives are asked for."""
+    turned: Complex
+    """Displacement per pitch acceleration."""
+    solved: tuple[Asked, Motions] | None
+    """What the nodes were asked, and how they move; None where nothing moves them."""
+    by: "_ByChange | None"
+    """None: not asked for so far."""
+
+
+@dataclass(frozen=True)
+class _ByChange:
+    """Displacement per acceleration at every point, to the stated numbers and then to effects' unknowns."""
+
+    heave: Complex
+    """Shape (numbers, points)."""
+    turned: Complex
+    """The same of a turning base; of no number where the base does not turn."""

@@ -1,0 +1,318 @@
+"""One effect beside a fit so far: rough fits from what a first look promises, then a fit to the end."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
+
+import numpy as np
+
+from fitting.arrays import Array
+from fitting.bent_law import BentLaw
+from fitting.diagnosis.inference.evidence import Evidence
+from fitting.diagnosis.inference.refit import ROUGH, refit
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.inference.usual_law import finished, within_search
+from fitting.diagnosis.inference.wide_valley import in_wide_valley, of_effects, with_stated
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.search.looks import Start, has_place, look
+from fitting.diagnosis.several.responses import response_of
+from fitting.diagnosis.thresholds import SEARCH
+from fitting.effects.base import Effect
+from fitting.laws import CoreLaw
+
+_NEAR_BY = 3.0
+"""Times: starts of an unknown over decades that are no further apart lead to the same place. A choice."""
+
+
+@dataclass
+class Known:
+    """What a candidate has found so far; None where nobody has asked."""
+
+    starts: Sequence[Start] | None = None
+    near: list[Refitted] | None = None
+    elsewhere: list[Refitted] | None = None
+    plain: list[Refitted] | None = None
+    far: list[Refitted] | None = None
+
+
+class CandidateFit:
+    """Fits of the data with one more effect, as far as anyone asked for them."""
+
+    def __init__(
+        self,
+        problem: DiagnosisProblem,
+        evidence: Evidence,
+        before: Refitted,
+        effect: Effect,
+        starts: Sequence[Start] | None = None,
+        goal: float = np.inf,
+        *,
+        one: bool = False,
+    ) -> None:
+        """`starts` as `look` gives them, where they are known; `goal` as `refit` takes it.
+
+        `one`: of all starts only what leads furthest is asked for.
+        """
+        self.problem, self.evidence, self.before = problem, evidence, before
+        self.effect, self._goal, self._one = effect, goal, one
+        self._known = Known(starts)
+
+    @property
+    def known(self) -> Known:
+        """What has been asked for so far."""
+        return replace(self._known)
+
+    def learn(self, known: Known) -> None:
+        """What the same candidate has found elsewhere."""
+        found = {field.name: getattr(known, field.name) for field in fields(known)}
+        self._known = replace(self._known, **{k: v for k, v in found.items() if v is not None})
+
+    @property
+    def starts(self) -> Sequence[Start]:
+        """As `look` gives them."""
+        if self._known.starts is None:
+            self._known.starts = look(self.problem, self.evidence, self.before, self.effect)
+        return self._known.starts
+
+    def __getstate__(self) -> dict[str, object]:
+        # Another process makes its own response: with its plates it is far larger than all that is known.
+        return {name: value for name, value in vars(self).items() if name != "_response"}
+
+    @cached_property
+    def _response(self) -> SweepResponse:
+        return response_of(self.problem, [*self.before.effects, self.effect], self.problem.coarse)
+
+    def _rough(
+        self,
+        law: CoreLaw,
+        u: Array,
+        *,
+        brief: bool = False,
+        rival: float = np.inf,
+    ) -> Refitted:
+        start = np.concatenate([self.before.u, u])
+        return refit(
+            self._response,
+            self.evidence,
+            law,
+            start,
+            tolerance=ROUGH,
+            brief=brief,
+            goal=self._goal,
+            rival=rival,
+        )
+
+    @cached_property
+    def _law(self) -> CoreLaw:
+        """The law so far, or the usual one nearest to it: at its limits it is no place to begin."""
+        return within_search(self.before.law, self.problem.points.omega)
+
+    @property
+    def near(self) -> list[Refitted]:
+        """Rough fits from the law so far and the starts that promise most; best first."""
+        if self._known.near is None:
+            starts = enumerate(self.starts[: self._first])
+            promising = [
+                s for k, s in starts if not k or self._is_told_nothing(s) or s[0] > self._least_promise
+            ]
+            heard = {self._form(u) for _, u in promising}
+            promising += [s for s in self._one_a_form() if self._form(s[1]) not in heard]
+            near = self._from([*promising, *self._decades_off(promising)])
+            if self.effect.from_afar:
+                near = sorted([*near, *self.quick], key=_chi2)
+            self._known.near = near
+        return self._known.near
+
+    def _decades_off(self, followed: Sequence[Start]) -> list[Start]:
+        """An effect's own first start, where none that is followed is near it.
+
+        Springs that a linear step makes hundreds of times stiffer are nothing any more, and all that a softer
+        root would do goes unheard.
+        """
+        if not is_over_decades(self.effect):
+            return []
+        own = self._first_start
+        decades = [q.logarithmic and not q.fixed for q in self.effect.parameters]
+        near = [np.abs(np.log(u[decades] / own[decades])).max() < np.log(_NEAR_BY) for _, u in followed]
+        return [] if any(near) else [(0.0, own)]
+
+    def _one_a_form(self) -> list[Start]:
+        """The best start of each form; of an effect with a place, the best of all.
+
+        What moved stated numbers do already, a linear step cannot promise: every form has its say.
+        """
+        best: dict[tuple[float, ...], Start] = {}
+        for start in self.starts[:1] if has_place(self.effect) else self.starts:
+            best.setdefault(self._form(start[1]), start)
+        return list(best.values())
+
+    def _form(self, u: Array) -> tuple[float, ...]:
+        """Which of an effect's forms a start is of: its values that are not fitted."""
+        return tuple(float(x) for x, q in zip(u, self.effect.parameters, strict=True) if q.fixed)
+
+    @property
+    def promise(self) -> float:
+        """Chi-square that the best start may gain."""
+        return self.starts[0][0] if self.starts else 0.0
+
+    @property
+    def is_open(self) -> bool:
+        """Whether a linear step cannot tell what an effect may gain; of many places the best one counts."""
+        starts = self.starts[:1] if has_place(self.effect) else self.starts
+        return any(promise == 0 for promise, _ in starts)
+
+    def briefly(self) -> list[Refitted]:
+        """A few steps from the best start of each form: where the effect cannot be what is looked for."""
+        return [self._rough(self._law, u, brief=True) for _, u in self._one_a_form()]
+
+    @property
+    def elsewhere(self) -> list[Refitted]:
+        """The same from some more starts of an effect whose place is to be found: valleys are many."""
+        if self._known.elsewhere is None:
+            self._known.elsewhere = self._from(self.further_starts)
+        return self._known.elsewhere
+
+    @property
+    def further_starts(self) -> Sequence[Start]:
+        """What `elsewhere` begins from."""
+        return self.starts[self._first : self._first + self._more]
+
+    @property
+    def last_starts(self) -> Sequence[Start]:
+        """Those that are left."""
+        followed = self._first + self._more
+        return self.starts[followed : followed + SEARCH.most_places]
+
+    def _is_told_nothing(self, start: Start) -> bool:
+        return start[0] == 0 and not has_place(self.effect)
+
+    @property
+    def _least_promise(self) -> float:
+        """Chi-square that a further start must promise to be followed."""
+        return max(SEARCH.least_promise, SEARCH.promise * self.starts[0][0])
+
+    @property
+    def _first(self) -> int:
+        return SEARCH.followed_places if has_place(self.effect) else SEARCH.followed
+
+    @property
+    def _more(self) -> int:
+        return SEARCH.more_places if has_place(self.effect) else 0
+
+    def _from(self, starts: Sequence[Start]) -> list[Refitted]:
+        if not self._one:
+            return sorted((self.followed(start) for start in starts), key=_chi2)
+        found = list[Refitted]()
+        for start in starts:
+            found.append(self.followed(start, min((f.chi2 for f in found), default=np.inf)))
+        return sorted(found, key=_chi2)
+
+    def followed(self, start: Start, rival: float = np.inf) -> Refitted:
+        """A rough fit from one start, a few steps of it where little is promised and no more gained.
+
+        `rival` as `refit` takes it.
+        """
+        promise, u = start
+        if 0 < promise < SEARCH.least_promise:
+            brief = self._rough(self._law, u, brief=True)
+            if brief.converged or abs(self.before.chi2 - brief.chi2) < SEARCH.least_gain:
+                return brief
+        return self._rough(self._law, u, rival=rival)
+
+    def set_out(self, start: Start) -> Refitted:
+        """A few steps from one start."""
+        return self._rough(self.before.law, start[1], brief=True)
+
+    def gone_on(self, begun: Refitted, rival: float = np.inf) -> Refitted:
+        """What has set out followed roughly; `rival` as `refit` takes it."""
+        if begun.converged:
+            return begun
+        return refit(self._response, self.evidence, begun.law, begun.u, tolerance=ROUGH, rival=rival)
+
+    @property
+    def plain(self) -> list[Refitted]:
+        """Rough fits in wide valleys from the first start, from the law so far and the stated one."""
+        if self._known.plain is None:
+            self._known.plain = self._wide(self._first_start)
+        return self._known.plain
+
+    @cached_property
+    def quick(self) -> list[Refitted]:
+        """One rough fit, begun in a wide valley from the better of the first and the most promising start.
+
+        Of an effect with a place, from the best of the most promising ones.
+        """
+        if has_place(self.effect):
+            wide = min(self._wide_places(self._promising_places or [self._first_start]), key=_chi2)
+        else:
+            starts = [self._first_start, *self._promising_elsewhere]
+            wide = min((self._in_wide_valley(self._law, u) for u in starts), key=_chi2)
+        u = with_stated(self.problem, wide)
+        return [refit(self._response, self.evidence, wide.law, u, tolerance=ROUGH)]
+
+    @property
+    def far(self) -> list[Refitted]:
+        """Those of `plain`, and from the starts that promise most.
+
+        A linear step from a wrong law may lead astray: of places it says only which few to try.
+        """
+        if self._known.far is None:
+            if has_place(self.effect):
+                places = [u for u in self._promising_places if not np.array_equal(u, self._first_start)]
+                begun = self._wide_places(places)
+            else:
+                begun = [f for u in self._promising_elsewhere for f in self._wide(u)]
+            self._known.far = sorted([*self.plain, *begun], key=_chi2)
+        return self._known.far
+
+    @property
+    def _promising_places(self) -> list[Array]:
+        return [u for _, u in self.starts[: SEARCH.followed_places]]
+
+    def _wide_places(self, starts: Sequence[Array]) -> list[Refitted]:
+        """In wide valleys, what has come furthest from some starts after a few steps; (parameters,) each."""
+        brief = (self._in_wide_valley(law, u, brief=True) for law in self._laws for u in starts)
+        going = sorted(brief, key=_chi2)[: SEARCH.followed]
+        return [in_wide_valley(self.problem, f.effects, self.evidence, f.law, of_effects(f)) for f in going]
+
+    @property
+    def _first_start(self) -> Array:
+        return self.effect.starts(self.problem.plate, self.problem.points)[0]
+
+    @property
+    def _promising_elsewhere(self) -> list[Array]:
+        """The start that promises most, where it is not the first one: of that, a step may change nothing."""
+        return [u for _, u in self.starts[:1] if not np.array_equal(u, self._first_start)]
+
+    def _wide(self, u: Array) -> list[Refitted]:
+        return sorted((self._in_wide_valley(law, u) for law in self._laws), key=_chi2)
+
+    @property
+    def _laws(self) -> tuple[CoreLaw, CoreLaw]:
+        """What fits in wide valleys begin from: the law so far, and the stated one."""
+        return self._law, bent_as(self.before.law, self.problem.stated_law)
+
+    def _in_wide_valley(self, law: CoreLaw, u: Array, *, brief: bool = False) -> Refitted:
+        # Without the effect the stated numbers may have been moved to do its work.
+        begun = np.concatenate([of_effects(self.before), u])
+        effects = [*self.before.effects, self.effect]
+        return in_wide_valley(self.problem, effects, self.evidence, law, begun, brief=brief)
+
+    def finished(self, rough: Refitted, goal: float = np.inf) -> Refitted:
+        """A rough fit followed to the end, or to where a chi-square of `goal` is out of reach."""
+        return finished(self.problem, self.evidence, rough, goal)
+
+
+def bent_as(law: CoreLaw, other: CoreLaw) -> CoreLaw:
+    """Another law, as free to bend as one is."""
+    return BentLaw.over(other, np.array(law.knots_hz), law.freedom) if isinstance(law, BentLaw) else other
+
+
+def _chi2(fitted: Refitted) -> float:
+    return fitted.chi2
+
+
+def is_over_decades(effect: Effect) -> bool:
+    """Whether an unknown without a place may be of any size within decades."""
+    return not has_place(effect) and any(q.logarithmic and not q.fixed for q in effect.parameters)

@@ -1,0 +1,291 @@
+"""Two effects together, where one does not suffice."""
+
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+import numpy as np
+
+from fitting.diagnosis.executor import Call
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.search.candidate_fits import Form
+from fitting.diagnosis.search.catalogue_search import ScoredFit, Search, best_of_each
+from fitting.diagnosis.search.looks import Start, has_place
+from fitting.diagnosis.thresholds import SEARCH
+from fitting.effects.base import Effect
+from fitting.progress import Report, unheard
+
+A = TypeVar("A")
+Seen = tuple[ScoredFit, Form, list[Start]]
+"""A single effect, the form of a second one, and that one's starts beside it, best first."""
+
+_LOOKED_AT = 6
+"""Forms that are looked at in one go: few enough that all processes end at about the same time. A choice."""
+
+
+class Pairs:
+    """Of one search."""
+
+    def __init__(self, search: Search) -> None:
+        self._search = search
+
+    def best(self, singles: Sequence[ScoredFit], report: Report, *, wide: bool) -> list[ScoredFit]:
+        """Second effects beside the leading single ones, and each of the best two alone; best first.
+
+        Where one suffices (not `wide`), beside those near it.
+        """
+        search = self._search
+        found = self._first(singles, report, wide=wide)
+        report(0.9)
+        if not found:
+            return []
+        pair = min(found, key=_cost)
+        alone = search.alone(pair)
+        # One of the two was only to be found: what may be beside it is asked there.
+        led = any(search.suffices(t) and t.cost < pair.cost for t in alone)
+        if pair.cost < singles[0].cost and not led:
+            found += self._improved(found)
+            last = min(found, key=_cost)
+            alone += search.alone(last) if last is not pair else []
+        return best_of_each([*found, *alone])
+
+    def _first(self, singles: Sequence[ScoredFit], report: Report, *, wide: bool) -> list[ScoredFit]:
+        """Beside the leading single effects, those that promise most; where none will do, every one."""
+        search, work, each = self._search, self._search.work, self._search.executor.each
+        seen = self._beside_all if wide else self._beside_the_near
+        chosen = seen(singles, lambda x: report(0.4 * x))
+        full = [(t.fitted, form, starts, np.inf) for t, form, starts in chosen]
+        begun = each(work.near, full, lambda x: report(0.4 + 0.2 * x))
+        rough = _longest_first([f for f in begun if f is not None])
+        best = search.judged(min(rough, key=_chi2)) if rough and wide else None
+        if best:
+            rough = [f for f in rough if f.chi2 < SEARCH.left_behind * best.fitted.chi2]
+        goals = [self._goal(best, f.effects) if best else np.inf for f in rough]
+        fits = each(work.ended, list(zip(rough, goals, strict=True)), lambda x: report(0.6 + 0.2 * x))
+        found = sorted((search.judged(f) for f in fits), key=_cost)
+        if wide and found and not self._will_do([*singles[:1], *found]):
+            # The best may only have begun from the wrong place, or not have looked promising.
+            plain = [t for t in singles if _plainly(t)]
+            found += self._every_second(plain, found, self._most_left([*plain, *found]))
+        return found
+
+    def _beside_all(self, singles: Sequence[ScoredFit], report: Report) -> list[Seen]:
+        """What promises most beside the leading ones."""
+        asked = [(t, self._others(t.names)) for t in singles[: SEARCH.leaders]]
+        return self._chosen(self._seen(asked, report))
+
+    def _beside_the_near(self, singles: Sequence[ScoredFit], report: Report) -> list[Seen]:
+        """Beside the best what promises more than it costs, beside those near it what may come as far."""
+        search = self._search
+        scale = search.temper(singles[0])
+        best, *near = search.leading(singles, scale)[: SEARCH.close_leaders]
+        first = self._seen(
+            [(best, self._others(best.names))], lambda x: report(0.5 * x), search.moving(singles, best)
+        )
+        owed = {t: t.cost - best.cost + SEARCH.least_expected / 2 * scale for t in near}
+        owed[best] = SEARCH.least_expected * scale
+        promised = {form: _promise(starts) for _, form, starts in first}
+        asked = []
+        for t in near:
+            most = {
+                form: _most_beside(t.fitted, best.fitted, promised.get(form, np.inf))
+                for form in self._others(t.names)
+            }
+            asked.append((t, [form for form, gain in most.items() if gain > owed[t]]))
+        seen = [*first, *self._seen(asked, lambda x: report(0.5 + 0.5 * x))]
+        return self._chosen([one for one in seen if _promise(one[2]) > owed[one[0]]])
+
+    def _seen(
+        self,
+        asked: Sequence[tuple[ScoredFit, Sequence[Form]]],
+        report: Report,
+        moving: Sequence[Refitted] = (),
+    ) -> list[Seen]:
+        """What is seen of every form beside its fit."""
+        looks = self._looks(self._search.work.look, [(t.fitted, forms) for t, forms in asked], report, moving)
+        each = [(t, form) for t, forms in asked for form in forms]
+        return [(t, form, starts) for (t, form), starts in zip(each, looks, strict=True)]
+
+    def _chosen(self, seen: Sequence[Seen]) -> list[Seen]:
+        """What promises to come furthest, each pair once."""
+        chosen: dict[frozenset[str], Seen] = {}
+        beside: dict[ScoredFit, int] = {}
+        for one in sorted(seen, key=lambda one: one[0].fitted.chi2 - _promise(one[2])):
+            scored, (name, _), _ = one
+            # Each leader has its say: a linear step from a poor one promises too much.
+            if len(chosen) < SEARCH.pairs and beside.get(scored, 0) < SEARCH.pairs_a_leader:
+                beside[scored] = beside.get(scored, 0) + 1
+                chosen.setdefault(frozenset((*scored.names, name)), one)
+        return list(chosen.values())
+
+    def _looks(
+        self,
+        do: Callable[[tuple[Refitted, Sequence[Form]]], list[A]],
+        asked: Sequence[tuple[Refitted, Sequence[Form]]],
+        report: Report = unheard,
+        moving: Sequence[Refitted] = (),
+    ) -> list[A]:
+        """What is seen of every form beside its fit, in order; some at a time, as that fit is one.
+
+        What is still `moving` is followed to its very end meanwhile.
+        """
+        some = [
+            (before, forms[k : k + _LOOKED_AT])
+            for before, forms in asked
+            for k in range(0, len(forms), _LOOKED_AT)
+        ]
+        calls: list[Call] = [(self._search.work.at_rest, fitted) for fitted in moving]
+        calls += [(do, one) for one in some]
+        found = list(self._search.executor.together(calls, report))
+        self._search.rested(moving, found[: len(moving)])
+        return [one for looks in found[len(moving) :] for one in looks]
+
+    def _most_left(self, known: Sequence[ScoredFit]) -> float:
+        """Chi-square that a pair may leave in its wide valley: twice what the best so far leave, or noise."""
+        work = self._search.work
+        best = sorted((t for t in known if len(_plainly(t)) == len(t.names)), key=_cost)[: SEARCH.measured]
+        left = self._search.executor.each(work.left_in_wide_valley, [t.fitted for t in best])
+        return SEARCH.leaves * max(work.noise_in_wide_valleys, min(left, default=np.inf))
+
+    def _will_do(self, scored_fits: Sequence[ScoredFit]) -> bool:
+        """Whether any, the law being of the stated kind, leaves little and fails no check."""
+        plain = (t for t in scored_fits if len(_plainly(t)) == len(t.names))
+        return any(
+            t.fitted.chi2_per_dof < SEARCH.will_do * self._search.allowed(t) and not t.fails for t in plain
+        )
+
+    def _goal(self, best: ScoredFit, effects: Sequence[Effect]) -> float:
+        """Chi-square that a pair must come down to: near to the best, or to where nothing may refuse it."""
+        return max(self._search.work.goal(best.fitted), self._search.unrefused(effects))
+
+    def _others(self, names: Sequence[str]) -> list[Form]:
+        """Every form of the effects that may stand beside some."""
+        return [
+            (e.name, number)
+            for e in self._search.effects
+            if e.name not in names and not e.replaces_law
+            for number, candidate in enumerate(self._search.work.candidates[e.name])
+            if candidate.effect.beside_others
+        ]
+
+    def _every_second(
+        self, leaders: Sequence[ScoredFit], pairs: Sequence[ScoredFit], most: float
+    ) -> list[ScoredFit]:
+        """Every effect beside the leading ones; the best pairs to the end.
+
+        All begin where a leading one alone has come to in its wide valley. Those that do well go on there;
+        what leaves no more than `most` there goes on as the readings are, then to the end.
+        """
+        search, work, each = self._search, self._search.work, self._search.executor.each
+        order = [
+            *(t.names[0] for t in leaders[: SEARCH.every_second]),
+            *search.order_of_plain()[: SEARCH.every_second],
+        ]
+        # Two of a kind and another one are three causes, which are never named (decision 57).
+        single = {e.name: e.extends if e.twice and e.extends else e.name for e in search.effects}
+        first = sorted({single[name] for name in order if name in single} & single.keys())
+        others = [self._others([name]) for name in first]
+        before = [work.candidates[name][0].plain[0] for name in first]
+        starts = self._looks(work.look_wide, list(zip(before, others, strict=True)))
+        beside = [(fitted, form) for fitted, forms in zip(before, others, strict=True) for form in forms]
+        tasks = [(fitted, form, us) for (fitted, form), us in zip(beside, starts, strict=True)]
+        able = [fits for fits in each(work.begun_wide, tasks) if fits[0].chi2 < SEARCH.comes_down * most]
+        begun = sorted(able, key=lambda fits: fits[0].chi2)
+        wide = each(work.wide, [f for fits in _with_a_say(begun) for f in fits])
+        brief = sorted(each(work.briefly, [f for f in wide if f.chi2 < most]), key=_chi2)
+        rough = sorted(each(work.roughly, brief[: SEARCH.rough]), key=_chi2)
+        best = min([*leaders, *pairs], key=_cost)
+        left = _longest_first(rough[: SEARCH.pairs_a_leader])
+        ended = each(work.ended, [(f, self._goal(best, f.effects)) for f in left])
+        return [search.judged(f) for f in ended]
+
+    def _improved(self, pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
+        """What is found by keeping one effect of the best pairs, each once, and exchanging the other one.
+
+        A wrong one may have led to the right other one, and stands where the right one would begin.
+        """
+        found, kept, simplified = list[ScoredFit](), set[str](), set[frozenset[str]]()
+        for _ in range(SEARCH.exchanges):
+            pair = self._next([*pairs, *found], kept)
+            # Where even the best will not do, neither will those that are as bad: two have been kept for it.
+            if pair is None or (pair.fails and len(kept) >= len(pair.names)):
+                break
+            one = next(e for e in pair.fitted.effects if e.name not in kept)
+            kept.add(one.name)
+            new = self._exchanged(pair, one)
+            if frozenset(pair.names) not in simplified:
+                simplified.add(frozenset(pair.names))
+                new += self._search.simpler([pair])
+            # One that a winding valley leads to would be dismissed on its way.
+            found += self._search.at_rest(new, min([pair, *new], key=_cost))
+        return found
+
+    def _next(self, pairs: Sequence[ScoredFit], kept: set[str]) -> ScoredFit | None:
+        """The best pair that has an effect which was not kept so far, if it is near the best of all."""
+        plain = [t for t in sorted(pairs, key=_cost) if len(_plainly(t)) == 2]
+        if not plain:
+            return None
+        best = next((t for t in plain if not t.fails), plain[0])
+        within = best.cost + SEARCH.nearer * self._search.temper(best)
+        near = [best, *(t for t in plain if t.cost < within)]
+        return next((t for t in near if not kept >= set(t.names)), None)
+
+    def _exchanged(self, pair: ScoredFit, kept: Effect) -> list[ScoredFit]:
+        """Another effect, another place of the same, or another law beside the one of a pair that is kept."""
+        work = self._search.work
+        before = work.alone((pair.fitted, kept))
+        gone = {*pair.names} - {kept.name}
+        forms = [f for f in self._others([kept.name]) if f[0] not in gone or work.has_places(f[0])]
+        looks = [one for one in zip(forms, self._looks(work.look, [(before, forms)]), strict=True) if one[1]]
+        promising = sorted(looks, key=lambda one: -one[1][0][0])[: SEARCH.exchanged]
+        promising.sort(key=lambda one: not work.has_places(one[0][0]))
+        goal = work.goal(pair.fitted)
+        laws = [(before, e.name, goal) for e in self._search.effects if e.replaces_law]
+        # Those that take longest come first: hands then end at the same time.
+        calls: list[Call] = [(work.other_laws_beside, one) for one in laws]
+        calls += [(work.second, (before, form, starts, goal)) for form, starts in promising]
+        found = list(self._search.executor.together(calls))
+        fits = [f for f in found[len(laws) :] if f is not None]
+        return [self._search.judged(f) for f in [*fits, *(f for bent in found[: len(laws)] for f in bent)]]
+
+
+def _with_a_say(begun: Sequence[list[Refitted]]) -> list[list[Refitted]]:
+    """Of fits of pairs, the best pair first: the best few of each leader, and the best of the others."""
+    beside: dict[str, int] = {}
+    chosen, left = list[list[Refitted]](), list[list[Refitted]]()
+    for fits in begun:
+        name = fits[0].effects[0].name
+        beside[name] = beside.get(name, 0) + 1
+        (chosen if beside[name] <= SEARCH.pairs_a_leader else left).append(fits)
+    return chosen + left[: max(0, SEARCH.wide - len(chosen))]
+
+
+def _promise(starts: Sequence[Start]) -> float:
+    """The chi-square that the best of some starts may gain."""
+    return starts[0][0] if starts else 0.0
+
+
+def _most_beside(fitted: Refitted, best: Refitted, promised: float) -> float:
+    """The chi-square that a form may gain beside a fit, of what it promises beside the best one.
+
+    What it may gain is the square of a part of what is left, and no part differs by more than the whole does.
+    """
+    apart = fitted.residuals[: fitted.data] - best.residuals[: best.data]
+    return float((np.sqrt(max(promised, 0.0)) + np.linalg.norm(apart)) ** 2)
+
+
+def _longest_first(rough: Sequence[Refitted]) -> list[Refitted]:
+    """Rough fits in the order in which they are best followed: hands then end at the same time."""
+    return sorted(rough, key=lambda f: (f.converged, -sum(has_place(e) for e in f.effects)))
+
+
+def _cost(scored: ScoredFit) -> float:
+    return scored.cost
+
+
+def _chi2(fitted: Refitted) -> float:
+    return fitted.chi2
+
+
+def _plainly(scored: ScoredFit) -> list[str]:
+    """Its effects beside the law."""
+    return [e.name for e in scored.fitted.effects if not e.replaces_law]

@@ -1,0 +1,88 @@
+"""Explanations that may stand in for a cause that is in no catalogue (docs/decisions/0029)."""
+
+import numpy as np
+
+from fitting.arrays import Array
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.effects.base import Effect, EffectParameter
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+
+_CAUSES = 2
+"""Most that an explanation may suppose at once."""
+_SIZED = 2.0
+"""Standard errors from nothing at which an effect beside another has a size. A choice."""
+_AT = 1e-6
+"""Share of a limit: nearer to it, a fit would go on."""
+
+
+def stands_in(problem: DiagnosisProblem, fitted: Refitted) -> str:
+    """Why an explanation may stand in for something that is not known: a clause; empty where it cannot."""
+    effects = fitted.effects
+    if supposes_too_much(fitted):
+        return "so many things at once come near to anything"
+    if len(effects) > 1 and any(e.of_a_segment for e in effects):
+        return "what one segment alone shows, beside another effect, may be of anything"
+    for effect in effects:
+        if not effect.shows(problem.points, problem.resonances, fitted.of(effect)):
+            return f"no measured points show a {effect.name} by themselves"
+    name = too_large(fitted, problem.plate)
+    return f"{name} would be larger than is plausible" if name else ""
+
+
+def supposes_too_much(fitted: Refitted) -> bool:
+    """Whether it is more things at once than can be told from a cause that is in no catalogue."""
+    return sum(e.causes for e in fitted.effects) > _CAUSES
+
+
+def unsized(fitted: Refitted) -> bool:
+    """Whether one of several effects has no size that the data tell from nothing.
+
+    Alone it would not be there: beside another it may be what that one's formula lacks.
+    """
+    if len(fitted.effects) < _CAUSES:
+        return False
+    inner = np.full(len(fitted.u), np.nan)
+    inner[fitted.free] = np.sqrt(np.maximum(np.diag(fitted.covariance)[len(fitted.law.names) :], 0))
+    start = fitted.stated
+    for effect in fitted.effects:
+        own = slice(start, start + len(effect.parameters))
+        sized = [
+            _is_sized(q, float(value), float(error))
+            for q, value, error in zip(effect.parameters, fitted.u[own], inner[own], strict=True)
+            if q.neutral is not None and not q.fixed
+        ]
+        if sized and not any(sized):
+            return True
+        start = own.stop
+    return False
+
+
+def _is_sized(q: EffectParameter, value: float, error: float) -> bool:
+    """`error` of its logarithm where it has one. One at a limit has none, and is there."""
+    assert q.neutral is not None
+    if not np.isfinite(error):
+        return value != q.neutral
+    return error < 1 / _SIZED if q.logarithmic else abs(value - q.neutral) > _SIZED * error
+
+
+def too_large(fitted: Refitted, plate: EnrichedReducedPlate) -> str:
+    """Which of its effects asks for more than is plausible; empty where none does."""
+    return next((e.name for e in fitted.effects if asks_for_more(e, fitted.of(e), plate)), "")
+
+
+def asks_for_more(effect: Effect, u: Array, plate: EnrichedReducedPlate) -> bool:
+    """Whether a size ends at its plausible limit, away from where the effect is absent, or is beyond it.
+
+    `u` of shape (parameters,).
+    """
+    if effect.is_beyond(u):
+        return True
+    for q, value, low, high in zip(effect.parameters, u, *effect.limits(plate), strict=True):
+        if q.neutral is None or q.fixed or q.complete:
+            continue
+        absent = np.clip(q.neutral, low, high)
+        ends = [end for end in (low, high) if np.isfinite(end) and end != absent]
+        if any(abs(value - end) <= _AT * abs(end) for end in ends):
+            return True
+    return False

@@ -1,0 +1,47 @@
+"""What is to be borne in mind beside a verdict."""
+
+from fitting.diagnosis.checks.stretches import words_of_stretches
+from fitting.diagnosis.inference.freer_law import freedom_of
+from fitting.diagnosis.search.catalogue_search import Search
+from fitting.diagnosis.verdict.judgement import Judgement, against_by_checks
+from fitting.identification.result import BIASED
+
+NO_DRIFT = (
+    "the points carry no time: that the specimen warmed or cooled during the sweep was not considered, "
+    "expected a column time_s"
+)
+"""Of sweeps too long for an even pace to be supposed."""
+
+
+def warnings_of(search: Search, judgement: Judgement) -> tuple[str, ...]:
+    """Of a rare material, an implausible size, missing times, and what someone accepted against the data.
+
+    And of what is held out, where that is no segments.
+    """
+    said, problem = list[str](), search.problem
+    accepted = judgement.accepted
+    if accepted is not None and accepted.names:
+        times = freedom_of(accepted.fitted.law) / freedom_of(search.stated)
+        if times > 1:
+            said.append(
+                f"beside {' and '.join(accepted.names)} the law may bend {times:g} times as far from its "
+                "formula as materials usually do, as the data ask: the core follows another law, or more is "
+                "amiss"
+            )
+        if accepted.too_large:
+            said.append(
+                f"{accepted.too_large} ends at the limit of what is plausible: there is more of it, or it is "
+                f"something else, and {BIASED}"
+            )
+        said += [e.caution for e in accepted.fitted.effects if e.caution]
+    names = {n for group in judgement.equivalent.values() for n in group}
+    if not problem.points.timed:
+        if "temperature_drift" in names:
+            said.append("the points carry no time: the drift assumes an even sweep upwards in frequency")
+        elif not judgement.by_hand and search.objects_to("temperature_drift"):
+            said.append(NO_DRIFT)
+    by_hand = judgement.group[0][0] if judgement.by_hand else None
+    if by_hand is not None and (why := against_by_checks(by_hand)):
+        what = f"{' and '.join(by_hand.names)}, your word," if by_hand.names else "no effect"
+        said.append(f"{what} {why}: something else is missing, and {BIASED}")
+    return (*said, *words_of_stretches(problem.sweep, search.work.parts))

@@ -1,0 +1,142 @@
+"""Evidence by resampling: what the same search makes of data without any effect, and with some left out.
+
+A search over many causes finds something in noise, too. How much, only the search itself can tell.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fitting.arrays import Array, Mask
+from fitting.diagnosis.executor import Executor
+from fitting.diagnosis.inference.begin import begin
+from fitting.diagnosis.inference.evidence import BareModes
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
+from fitting.diagnosis.search.singles import Singles
+from fitting.diagnosis.several.responses import response_of
+from fitting.diagnosis.verdict.judgement import judge
+from fitting.effects.base import Effect
+from fitting.identification.result import differences_percent
+from fitting.identification.validation import MOST_POINTS_ONE_BY_ONE, rms
+from fitting.laws import CoreLaw
+from fitting.noise import Noise, noise_of
+from fitting.progress import Report, unheard
+from fitting.reduced import ReducedPlate
+from fitting.sweep import Sweep
+
+SMALL = MOST_POINTS_ONE_BY_ONE
+"""Points up to which resampling is always done."""
+REPEATS = 19
+"""Sweeps without any effect for a p-value: a step of five percent."""
+
+
+@dataclass(frozen=True)
+class Again:
+    """A search that can be done once more with other data of the same plate."""
+
+    problem: DiagnosisProblem
+    remade: Callable[[Sweep], DiagnosisProblem]
+    """The problem of some of the points."""
+    reduced: ReducedPlate | None
+    effects: Sequence[Effect]
+    bare: BareModes | None
+    start: CoreLaw
+    none: Refitted
+    """The fit without effects: what sweeps without any are drawn from."""
+    noise: Noise
+
+    def searched(self, problem: DiagnosisProblem) -> tuple[Search, list[ScoredFit]]:
+        """Every effect alone, as the search of the data themselves begins."""
+        begun = begin(problem, self.reduced, noise_of(problem.sweep), self.bare, self.start)
+        search = Search(begun.problem, begun.evidence, begun.none, self.effects, Executor())
+        return search, Singles(search, unheard).best()
+
+    def gain_without_effect(self, seed: int) -> float:
+        """What the best explanation gains on a sweep drawn from the fit without effects."""
+        rng = np.random.default_rng([_SEED, seed])
+        search, scored_fits = self.searched(replace(self.problem, sweep=self._drawn(rng)))
+        return gain(search.none, scored_fits)
+
+    def _drawn(self, rng: np.random.Generator) -> Sweep:
+        sweep, v = self.problem.sweep, self.none.velocity_m_s
+        if self.noise.is_known:
+            sigma = self.noise.std_m_s
+        else:
+            dof = max(1, self.none.data - self.none.parameter_count)
+            sigma = np.abs(v) * rms(differences_percent(sweep, v) / 100) * np.sqrt(len(sweep) / dof)
+        n = len(v)
+        if sweep.has_phase:
+            drawn = v + sigma * (rng.standard_normal(n) + 1j * rng.standard_normal(n))
+        else:
+            drawn = np.abs(np.abs(v) + sigma * rng.standard_normal(n))
+        return replace(sweep, velocity_m_s=drawn, base_m_s2=None)
+
+    def left_out(self, held: Mask) -> Array:
+        """100 (|predicted| - |measured|)/|measured| of points held out, the search repeated without them.
+
+        Shape (held out,), of `held` (points,).
+        """
+        problem = self.remade(self.problem.sweep.take(~held))
+        search, scored_fits = self.searched(problem)
+        judged = judge(
+            *search.tempered(scored_fits),
+            hidden=frozenset(),
+            held_out=lambda scored: float("nan"),
+        )
+        best = (judged.accepted or search.none).fitted
+        whole = self.problem.condensed(best.law).around(best.law)
+        v = response_of(whole, best.effects).velocity(best.law, best.u)
+        return differences_percent(self.problem.sweep, v)[held]
+
+
+def gain(none: ScoredFit, scored_fits: Sequence[ScoredFit]) -> float:
+    """How much better the best explanation is than none, in -2 ln of prior times marginal likelihood."""
+    return max((none.cost - t.cost for t in scored_fits), default=-np.inf)
+
+
+@dataclass(frozen=True)
+class Resampled:
+    """What resampling said; None for what was not asked for, or cannot be."""
+
+    p_value: float | None = None
+    """Chance that a sweep without any effect gains as much."""
+    nested_rms_percent: float | None = None
+    """Error on points left out one by one, or segments, the selection repeated each time."""
+
+
+def resampled_of(
+    again: Again, found: float, repeats: int | None, executor: Executor, report: Report
+) -> Resampled:
+    """Both; `found` is the gain of the data. Nothing where points are many and nobody asks."""
+    repeats = repeats_of(len(again.problem.sweep), repeats)
+    if not repeats:
+        return Resampled()
+    tasks = list(range(repeats))
+    gains = list(executor.each(again.gain_without_effect, tasks, lambda x: report(0.5 * x)))
+    p = (1 + sum(g >= found for g in gains)) / (1 + repeats)
+    return Resampled(p, nested_rms_percent(again, executor, lambda x: report(0.5 + 0.5 * x)))
+
+
+def repeats_of(points: int, wanted: int | None) -> int:
+    """On how many sweeps without any effect the search is repeated; None wants it where points are few."""
+    return (REPEATS if points <= SMALL else 0) if wanted is None else wanted
+
+
+def nested_rms_percent(again: Again, executor: Executor, report: Report) -> float | None:
+    """Error on points left out one by one, or segments; None where nothing can be learnt without them."""
+    sweep = again.problem.sweep
+    if len(sweep) <= SMALL:
+        folds = [np.arange(len(sweep)) == k for k in range(len(sweep))]
+    else:
+        folds = [sweep.segment == number for number in np.unique(sweep.segment)]
+    numbers = (len(sweep) - 1) * (2 if sweep.has_phase else 1)
+    if len(folds) < 2 or numbers <= len(again.start.names):
+        return None
+    return rms(np.concatenate(list(executor.each(again.left_out, folds, report))))
+
+
+_SEED = 20
+"""The same draws whenever a diagnosis is repeated."""

@@ -1,0 +1,181 @@
+"""A fit before or after, with everything that is said of it."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from fitting.arrays import Array
+from fitting.diagnosis.checks.structure import structure
+from fitting.diagnosis.inference.evidence import Evidence
+from fitting.diagnosis.inference.posterior import posterior
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
+from fitting.diagnosis.several.responses import response_of
+from fitting.diagnosis.verdict.kin import Kin, Unlisted
+from fitting.diagnosis.verdict.result import FoundEffect, ParameterEstimate, Stage
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.identification.adjusted import Adjusted
+from fitting.identification.known_curve import KnownCurve, known_curve, known_of_mixture
+from fitting.identification.result import LawBand, differences_percent, law_band, sweep_range
+from fitting.identification.uncertainty import Uncertainty, limits_reached
+from fitting.identification.validation import Validation
+
+FEW = 9
+"""Frequencies at which a candidate's law is listed, and the reference ones."""
+
+
+def stage_of(
+    problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted, validation: Validation, scale: float
+) -> Stage:
+    """`validation` is what the fit says of data it has not seen; `scale` multiplies its covariance."""
+    law = fitted.law
+    as_fitted = posterior(response_of(problem, fitted.effects), evidence, fitted)
+    C = scale * as_fitted
+    uncertainty = _of_law(fitted, C)
+    reached = uncertainty.at_bound
+    plain = law.plain
+    errors = uncertainty.of_first(len(plain.names)).standard_errors * plain.values
+    whitened = fitted.residuals[: fitted.data]
+    chi2 = fitted.chi2_per_dof if evidence.scale_known else float("nan")
+    return Stage(
+        law=plain,
+        standard_errors={
+            name: float("nan") if name in reached else float(e)
+            for name, e in zip(plain.names, errors, strict=True)
+        },
+        band=replace(
+            law_band(problem.sweep, law, uncertainty), known=_known(problem, fitted, as_fitted, scale)
+        ),
+        predicted_m_s=fitted.velocity_m_s,
+        difference_percent=differences_percent(problem.sweep, fitted.velocity_m_s),
+        whitened=whitened,
+        chi2_per_dof=chi2,
+        validation=validation,
+        structure=structure(
+            problem.sweep, evidence, whitened, chi2, problem.specimen.kind, problem.points.struck
+        ),
+        adjusted=adjusted_of(problem, fitted, C),
+    )
+
+
+def _of_law(fitted: Refitted, covariance: Array) -> Uncertainty:
+    law = fitted.law
+    reached = limits_reached(law)
+    n = len(law.names)
+    # What sits at an upper limit has no first-order error of its own; near zero it has (`open_widths`).
+    at_limit = np.array([reached.get(name) == "upper" for name in law.names])
+    by_law = covariance[:n, :n] * ~np.logical_or.outer(at_limit, at_limit)
+    return Uncertainty(by_law, reached, fitted.chi2_per_dof)
+
+
+def _known(problem: DiagnosisProblem, fitted: Refitted, covariance: Array, scale: float) -> KnownCurve | None:
+    """`covariance` as fitted, `scale` times of which is what is known."""
+    names = [one.name for one in adjusted_of(problem, fitted, covariance)]
+    known = known_curve(fitted.law, covariance, names, *sweep_range(problem.sweep))
+    return known.wider(scale) if known is not None else None
+
+
+def adjusted_of(problem: DiagnosisProblem, fitted: Refitted, covariance: Array) -> tuple[Adjusted, ...]:
+    """The stated numbers as a fit has them. `covariance` of shape (columns, columns)."""
+    n = len(fitted.law.names)
+    errors = np.sqrt(np.maximum(np.diag(covariance)[n : n + fitted.stated], 0))
+    return problem.adjusted(fitted.z, errors)
+
+
+def few_of_law(problem: DiagnosisProblem, fitted: Refitted, scale: float) -> LawBand:
+    """The law of a fit at a few frequencies."""
+    uncertainty = _of_law(fitted, scale * fitted.covariance)
+    return law_band(problem.sweep, fitted.law, uncertainty, points=FEW)
+
+
+def mixed_band(
+    problem: DiagnosisProblem, search: Search, group: Sequence[tuple[ScoredFit, float]], *, few: bool = False
+) -> LawBand:
+    """The law over all explanations of a group: mean and standard deviation of their mixture.
+
+    At a `few` frequencies only, where a candidate's law is listed.
+
+    Each brings its own posterior; where they disagree, so does the band.
+    """
+    bands, shares = [], []
+    posteriors: dict[ScoredFit, Array] = {}
+    for scored, kin, share in each_of(group):
+        fitted, scale = scored.fitted, search.temper(scored)
+        if scored not in posteriors:
+            response = response_of(problem, fitted.effects)
+            posteriors[scored] = posterior(response, search.evidence, fitted)
+        C, law = posteriors[scored], fitted.law
+        if kin is not None:
+            C, law = C + kin.wider / scale, kin.law(fitted)
+        at = replace(fitted, law=law)
+        points = {"points": FEW} if few else {}
+        band = law_band(problem.sweep, law, _of_law(at, scale * C), **points)
+        bands.append(replace(band, known=_known(problem, at, C, scale)))
+        shares.append(share)
+    return mixture_of(bands, np.array(shares))
+
+
+def each_of(group: Sequence[tuple[ScoredFit, float]]) -> Iterator[tuple[ScoredFit, Kin | None, float]]:
+    """Its explanations and their kin, each with its share."""
+    for scored, share in group:
+        if isinstance(scored, Unlisted):
+            yield from ((one, kin, share * part) for one, kin, part in scored.of)
+        else:
+            yield scored, None, share
+
+
+def mixture_of(bands: Sequence[LawBand], shares: Array) -> LawBand:
+    """Mean and standard deviation of laws over the same frequencies; `shares` of shape (laws,)."""
+
+    def mixture(value: str, error: str) -> tuple[Array, Array]:
+        means = np.array([getattr(b, value) for b in bands])
+        errors = np.array([getattr(b, error) for b in bands])
+        mean = shares @ means
+        return mean, np.sqrt(shares @ (errors**2 + (means - mean) ** 2))
+
+    G, G_error = mixture("storage_modulus_pa", "storage_modulus_standard_error_pa")
+    eta, eta_error = mixture("loss_factor", "loss_factor_standard_error")
+    known = [b.known for b in bands if b.known is not None]
+    whole = None
+    if len(known) == len(bands):
+        whole = known_of_mixture([b.values_at(known[0].frequency_hz) for b in bands], known, shares)
+    return LawBand(bands[0].frequency_hz, G, eta, G_error, eta_error, whole)
+
+
+def found_effects(
+    fitted: Refitted, plate: EnrichedReducedPlate, scale: float = 1.0
+) -> tuple[FoundEffect, ...]:
+    """The effects of a fit with their sizes and standard errors; `scale` multiplies the covariance."""
+    covariance = scale * fitted.covariance
+    n = len(fitted.law.names)
+    inner = np.full(len(fitted.u), np.nan)
+    inner[fitted.free] = np.sqrt(np.maximum(np.diag(covariance)[n:], 0))
+    found, start = [], fitted.stated
+    for effect in fitted.effects:
+        lower, upper = effect.limits(plate)
+        parameters = {}
+        for k, q in enumerate(effect.parameters):
+            value, error = float(fitted.u[start + k]), float(inner[start + k])
+            if q.logarithmic:
+                error *= value
+            reach = 1e-6 * (upper[k] - lower[k]) if np.isfinite(upper[k]) else 0.0
+            at_limit = not q.fixed and (value - lower[k] <= reach or upper[k] - value <= reach)
+            if at_limit or error > upper[k] - lower[k]:
+                error = float("nan")
+            parameters[q.key] = ParameterEstimate(value, error, q.unit)
+        if effect.replaces_law:
+            law = fitted.law.plain
+            errors = np.sqrt(np.diag(covariance)[: len(law.names)]) * law.values
+            for name, value, error in zip(law.names, law.values, errors, strict=True):
+                parameters[name] = ParameterEstimate(float(value), float(error), _unit(name))
+        found.append(FoundEffect(effect.name, parameters))
+        start += len(effect.parameters)
+    return tuple(found)
+
+
+def _unit(name: str) -> str:
+    if name.endswith("_pa"):
+        return "Pa"
+    return "rad/s" if name.endswith("_rad_s") else "s" if name.endswith("_s") else "1"

@@ -1,0 +1,36 @@
+"""Readings that are worth something else: another noise beside the same error of the model."""
+
+import numpy as np
+import pytest
+
+from fitting.diagnosis.inference.evidence import Evidence
+from fitting.diagnosis.inference.whitening import SHARE
+from fitting.noise import Noise
+from fitting.sweep import Sweep
+
+F = np.linspace(20.0, 30.0, 8)
+V = (1.0 + 0.5j) * np.linspace(1.0, 2.0, 8)
+ONE = np.ones(8, dtype=np.intp)
+SWEEP = Sweep(F, V, np.full(8, 9.81), ONE, ONE)
+MODEL_ERROR = np.array([0.01 * V, 0.002j * V])
+
+
+def evidence(noise_m_s):
+    return Evidence.of(SWEEP, Noise(noise_m_s, "local scatter"), MODEL_ERROR, V, None)
+
+
+@pytest.mark.parametrize("times", [0.1, 1.0, 3.0])
+def test_with_another_noise_readings_are_worth_what_they_are_with_that_from_the_start(times):
+    noise = 0.01 * np.linspace(1.0, 3.0, 8)
+    other = times * noise[::-1]
+    found, expected = evidence(noise).with_noise(other), evidence(other)
+    np.testing.assert_allclose(found.sigma_m_s, expected.sigma_m_s)
+    np.testing.assert_allclose(found.B, expected.B)
+    assert found.noise_m_s is other
+    v = V * (1 + 0.01 * np.cos(F))
+    np.testing.assert_allclose(found.residuals(v), expected.residuals(v))
+
+
+def test_the_models_white_error_stays_where_noise_vanishes():
+    found = evidence(np.full(8, 0.01)).with_noise(np.zeros(8))
+    np.testing.assert_allclose(found.sigma_m_s, SHARE * np.abs(V))

@@ -1,0 +1,144 @@
+"""Strains of the core, as softening goes by them, beside those of a plate solved at every point."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from fitting.damping import viscous_damping
+from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.problem.plate_answer import StrainedCore
+from fitting.diagnosis.response.plate_changes import PlateChanges
+from fitting.diagnosis.response.point_modulus import PointModulus
+from fitting.diagnosis.response.strains import Reference, Strains
+from fitting.diagnosis.response.unknowns import Unknowns
+from fitting.domain import domain_of
+from fitting.effects import CATALOGUE
+from fitting.effects.added_mass import PointMass
+from fitting.effects.amplitude_softening import CoreStrain
+from fitting.effects.change import Change
+from fitting.effects.enriching import enriched
+from fitting.effects.full_plate import FullPlate
+from fitting.laws.constant import ConstantModulus
+from fitting.plate import Plate
+from fitting.rational import rational_sweep
+from fitting.reduced import reduce_plate
+from fitting.sweep import Sweep
+
+F_HZ = np.linspace(14.0, 26.0, 90)
+OMEGA = 2 * np.pi * F_HZ
+LAW = ConstantModulus(0.3e6, 0.2)
+"""Of a core that damps little: the first resonance is some 1.5 Hz wide."""
+MASS, STEP = np.array([5e-3, 0.25, 0.16]), np.array([5e-6, 0.0, 0.0])
+
+
+@pytest.fixture(scope="module")
+def clamped(zn1):
+    """A plate of few elements, exact as stated, and its sweep over the first resonance."""
+    specimen = replace(zn1, elements=(8, 6), exact=True)
+    plate = Plate(specimen)
+    damping = viscous_damping(plate)
+    reduced = reduce_plate(plate, damping, domain_of(specimen, F_HZ))
+    widened = enriched(FullPlate(plate, damping), plate.carried @ reduced.V, [PointMass(), CoreStrain()])
+    ones = np.ones(len(F_HZ))
+    sweep = Sweep(F_HZ, ones + 0j, ones, np.ones(len(F_HZ), int), np.ones(len(F_HZ), int))
+    problem = DiagnosisProblem.of(sweep, specimen, widened, lambda omega: rational_sweep(reduced, omega))
+    return SimpleNamespace(problem=problem.around(LAW), plate=widened)
+
+
+def with_mass(plate, mass):
+    return CATALOGUE["added_mass"].change(plate, mass)
+
+
+def exact(plate, softened, change, gained=0.0):
+    G = LAW.modulus(OMEGA)
+    return StrainedCore(
+        plate, OMEGA, G * (1 - softened) + 1j * gained * np.sqrt(G.real * G.imag), change
+    ).strain
+
+
+@pytest.mark.parametrize("softened", [-0.2, 0.0, 0.1, 0.2, 0.4])
+@pytest.mark.parametrize("mass", [None, MASS], ids=["as it is", "with a mass"])
+def test_strain_over_a_sharp_resonance_is_that_of_a_plate_solved_at_every_point(clamped, softened, mass):
+    change = Change() if mass is None else with_mass(clamped.plate, mass)
+    reference = Reference()
+    strains = Strains(clamped.problem, clamped.plate, reference)
+    found = strains.under(LAW, b"", lambda: change)(np.full(len(F_HZ), softened))
+    expected = exact(clamped.plate, softened, change)
+    assert expected.max() > 5 * expected.min()
+    np.testing.assert_allclose(found * reference.strain, expected, rtol=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("softened", "gained"), [(0.0, 0.0), (0.1, 0.1), (0.4, 0.2), (0.3, 0.4), (0.1, -0.1)]
+)
+@pytest.mark.parametrize("mass", [None, MASS], ids=["as it is", "with a mass"])
+def test_strain_of_a_core_that_gains_loss_is_less_near_resonance(clamped, softened, gained, mass):
+    change = Change() if mass is None else with_mass(clamped.plate, mass)
+    reference = Reference()
+    strain = Strains(clamped.problem, clamped.plate, reference).under(LAW, b"", lambda: change)
+    found = strain(np.full(len(F_HZ), softened), np.full(len(F_HZ), gained)) * reference.strain
+    expected = exact(clamped.plate, softened, change, gained)
+    np.testing.assert_allclose(found, expected, rtol=2e-2)
+    without = strain(np.full(len(F_HZ), softened)).max() * reference.strain
+    if gained:
+        assert abs(found.max() - expected.max()) < 0.05 * abs(without - expected.max())
+
+
+@pytest.mark.parametrize("softened", [-300.0, 300.0])
+def test_a_step_far_beyond_what_a_core_does_has_a_number(clamped, softened):
+    strain = Strains(clamped.problem, clamped.plate, Reference()).under(LAW, b"", Change)
+    assert np.isfinite(strain(np.full(len(F_HZ), softened))).all()
+
+
+def test_strain_a_step_further_over_a_sharp_resonance_is_what_the_changed_plate_has(clamped):
+    up, down = (with_mass(clamped.plate, MASS + s * STEP) for s in (1, -1))
+    strains = Strains(clamped.problem, clamped.plate, Reference())
+    softened = np.full(len(F_HZ), 0.1)
+    here = (LAW, b"", lambda: with_mass(clamped.plate, MASS))
+    along = strains.along(*here, (up, down, 2 * STEP[0]), STEP[0])(softened)
+    found = np.log(along / strains.under(*here)(softened))
+    expected = np.log(exact(clamped.plate, 0.1, up) / exact(clamped.plate, 0.1, down)) / 2
+    assert np.abs(found - expected).max() < 0.01 * np.abs(expected).max()
+
+
+def parts(clamped, *names):
+    effects = [CATALOGUE[name] for name in names]
+    unknowns = Unknowns(0, effects)
+    changes = PlateChanges(clamped.problem, unknowns, clamped.plate)
+    spans = [span for effect in effects for span in effect.spans]
+    return changes, PointModulus(clamped.problem, unknowns, changes, spans, Reference())
+
+
+def test_only_effects_that_change_a_plate_do_and_only_those_that_shift_a_modulus(clamped):
+    changes, modulus = parts(clamped, "added_mass", "amplitude_softening", "gain_error")
+    assert (changes.effects, modulus.effects, modulus.strained) == ([0], [1], True)
+    u = np.array([*MASS, 0.0, 1.0])
+    expected = with_mass(clamped.plate, MASS)
+    np.testing.assert_array_equal(changes.every(u).M, expected.M)
+    assert changes.key(u) == changes.key(u + np.array([0, 0, 0, 0.1, 0.1]))
+    assert changes.key(u) != changes.key(u + np.array([1e-3, 0, 0, 0, 0]))
+    assert changes.stated(u) == []
+    at_rest = parts(SimpleNamespace(problem=struck(clamped.problem), plate=clamped.plate), "added_mass")[0]
+    assert np.all(at_rest.every(MASS).load == 0)
+    assert np.any(expected.load != 0)
+
+
+def struck(problem):
+    return replace(problem, points=replace(problem.points, drive="force"))
+
+
+def test_a_softened_modulus_is_below_the_law_s_where_strain_is_largest_and_moves_with_the_law(clamped):
+    _, modulus = parts(clamped, "amplitude_softening")
+    k = np.array([0.1])
+    assert modulus.of_law(LAW) is modulus.of_law(LAW)
+    np.testing.assert_array_equal(modulus.at(LAW, 0 * k), LAW.modulus(OMEGA))
+    share = (modulus.at(LAW, k) / LAW.modulus(OMEGA)).real
+    strain = exact(clamped.plate, 0.0, Change())
+    # Told for 1 g, and driven at 1 m/s^2.
+    assert share.min() == pytest.approx(1 - 0.1 / 9.81, abs=5e-4)
+    assert abs(F_HZ[share.argmin()] - F_HZ[strain.argmax()]) < 0.5
+    # Softening goes by strain, the same under laws a step apart: a modulus moves as its law does.
+    by_law = modulus.by_law(LAW, k)
+    np.testing.assert_allclose(by_law[0], modulus.at(LAW, k), rtol=1e-3)

@@ -1,0 +1,57 @@
+"""What several members have in common beyond their stated numbers."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from shear_pair_cases import LAW, pair, sweep
+
+from fitting.diagnosis.problem.small_problem import SmallProblem
+from fitting.diagnosis.several.of_files import Place
+from fitting.diagnosis.several.several_problem import SeveralProblem
+
+MASSES_KG = (0.3, 0.6)
+
+
+def members(misfits):
+    each = zip(MASSES_KG, misfits, strict=True)
+    return [replace(SmallProblem.of_small(sweep(pair(m), points=20), pair(m)), misfit=x) for m, x in each]
+
+
+def of(misfits, files=(1, 2)):
+    return SeveralProblem.of_members(members(misfits), [None, None], [Place(k) for k in files])
+
+
+def common_rows(problem):
+    """Rows of the model's error that reach both members. Shape (any, points)."""
+    v = problem.sweep.response_m_s
+    rows = problem.model_error(LAW, v)
+    first = problem.starts_at[0].stop
+    both = np.any(rows[:, :first] != 0, axis=1) & np.any(rows[:, first:] != 0, axis=1)
+    return rows[both] / v
+
+
+def test_files_with_a_misfit_share_a_gain_and_a_phase_of_its_size():
+    problem = of((0.01, 0.02))
+    size = np.sqrt((0.01**2 + 0.02**2) / 2)
+    assert problem.alike == pytest.approx(size)
+    gain, phase, *_ = common_rows(problem)
+    np.testing.assert_allclose(gain, size)
+    np.testing.assert_allclose(phase, 1j * size)
+
+
+def test_accelerometers_that_read_every_mass_have_a_gain_and_a_delay_in_common():
+    problem = of((0.0, 0.0))
+    gain, delay = common_rows(problem)
+    sizes = {n.kind: n.sigma for n in problem.members[0].nuisances.each}
+    np.testing.assert_allclose(gain, sizes["gain"])
+    np.testing.assert_allclose(delay, -1j * problem.sweep.omega * sizes["delay"])
+    # The angle is one stated number of all files.
+    assert [n.name for n in problem.nuisances.each].count("phase") == 1
+
+
+@pytest.mark.parametrize(("misfits", "files"), [((0.0, 0.0), (1, 2)), ((0.01, 0.02), (1, 1))])
+def test_no_misfit_is_shared_where_noise_explains_the_files_or_there_is_one(misfits, files):
+    problem = of(misfits, files)
+    assert problem.alike == 0.0
+    assert len(common_rows(problem)) == (2 if len(set(files)) > 1 else 0)

@@ -1,0 +1,79 @@
+"""Words of a diagnosis that say no more than is known."""
+
+import numpy as np
+import pytest
+from shear_pair_cases import pair, sweep
+
+from fitting.diagnosis.problem.small_problem import SmallProblem
+from fitting.diagnosis.several.of_files import Place
+from fitting.diagnosis.several.several_problem import SeveralProblem
+from fitting.diagnosis.verdict.judgement import Judgement
+from fitting.diagnosis.verdict.kin import UNLISTED
+from fitting.diagnosis.verdict.text import (
+    beside_kin,
+    how_likely,
+    moved_words,
+    next_measurement,
+    where_nothing_explains,
+)
+
+
+@pytest.mark.parametrize(("none", "words"), [(0.52, "If anything,"), (0.3, "Most likely")])
+def test_what_is_named_beside_a_likelier_none_is_not_called_most_likely(none, words):
+    names = ("gain_error",)
+    said = Judgement("ambiguous", None, {}, probability={(): none, names: 0.35})
+    assert how_likely(said, names) == words
+
+
+@pytest.mark.parametrize(
+    ("share", "words"),
+    [(0.08, "has 8 %: the readings show too little of it"), (0.3, "has 30 %: what is left of the readings")],
+)
+def test_why_something_in_no_catalogue_may_be_there_depends_on_what_the_readings_say_of_it(share, words):
+    names = {"gain_error": ("gain_error", UNLISTED)}
+    said = Judgement("ambiguous", None, names, probability={("gain_error",): 1 - share, (UNLISTED,): share})
+    (line,) = beside_kin(said)
+    assert words in line
+    assert beside_kin(Judgement("effect", None, {"gain_error": ("gain_error",)})) == []
+
+
+@pytest.mark.parametrize(
+    ("kind", "levels", "asked"),
+    [
+        ("plate", 1, ("A second spot and a second level", "the place or the drive")),
+        ("beam", 2, ("A second spot and its lowest level by itself", "the place or the drive")),
+        ("shear-pair", 2, ("Another mass and its lowest level by itself", "the rig or to the strain")),
+    ],
+)
+def test_where_nothing_explains_what_is_asked_for_is_what_the_specimen_has(kind, levels, asked):
+    unknown = where_nothing_explains(kind, levels)
+    said = next_measurement(Judgement("unknown", None, {}), {}, with_hammer=False, unknown=unknown)
+    assert all(words in said for words in asked)
+    assert next_measurement(Judgement("none", None, {}), {}, with_hammer=False, unknown=unknown) == ""
+
+
+def moved(*places):
+    """What is said where the last of members at these places moves by 6 %, the others hardly."""
+    member = SmallProblem.of_small(sweep(pair(0.3), points=20), pair(0.3))
+    problem = SeveralProblem.of_members([member] * len(places), [None] * len(places), places)
+    plain = problem.sweep.response_m_s
+    factor = np.full(len(plain), 1.0 + 2e-5)
+    factor[problem.starts_at[-1]] = 1.06
+    return moved_words(problem, plain, factor * plain)
+
+
+def test_of_several_files_and_spots_the_most_moved_is_said_with_its_place():
+    assert moved(Place(1), Place(2)).startswith("The law kept, it changes the response by up to 6 % near ")
+    assert moved(Place(1), Place(2)).endswith(" Hz in file 2.")
+    assert moved(Place(1, 0), Place(1, 1)).endswith(" Hz at pickup 1.")
+    assert moved(Place(1, 0), Place(2, 1)).endswith(" Hz in file 2 at pickup 1.")
+    assert moved(Place(1)).endswith(" Hz.")
+
+
+def test_the_frequency_that_is_said_is_where_the_response_changes_most():
+    member = SmallProblem.of_small(sweep(pair(0.3), points=20), pair(0.3))
+    plain = member.sweep.response_m_s
+    factor = np.ones(len(plain), complex)
+    factor[13] = 1.5
+    said = moved_words(member, plain, factor * plain)
+    assert f"50 % near {member.sweep.frequency_hz[13]:.0f} Hz" in said
