@@ -4,6 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from engine_cases import engine_rig
+from plot_numbers import plot_numbers
 from PySide6.QtCore import Qt
 from quick_engine import QUICK_ENGINE
 from session_cases import SyntheticSession, configuration
@@ -346,6 +347,16 @@ def test_only_the_lowest_plot_of_the_column_names_its_axis_in_every_mode(qtbot, 
         qtbot.wait(1)
         named = [p.getAxis("bottom").labelText for p in (plots.magnitude, plots.phase, plots.coherence)]
         assert named == ["", "", "Frequency / Hz"]
+
+
+@pytest.mark.parametrize("high", [210, 400])
+def test_the_coherence_has_its_numbers_however_low_it_is(qtbot, appearance, high):
+    plots = FrfPlots()
+    qtbot.addWidget(plots)
+    plots.resize(700, high)
+    plots.show()
+    qtbot.waitExposed(plots)
+    assert {"0", "1"} <= {f"{float(said):g}" for said in plot_numbers(plots.coherence)}
 
 
 def test_what_a_laser_read_is_drawn_as_an_accelerometer_would_have_it(hits):
