@@ -58,6 +58,7 @@ class FrfPlots(QWidget):
         self.magnitude.picked.connect(self._picked)
         self._band_hz, self._reach_hz = (0.0, 1000.0), 1000.0
         self._zoomed: set[str] = set()
+        self._beside: set[str] = set()
         self._singles: dict[str, Spectra] = {}
         self._expected_hz: tuple[float, ...] = ()
         self._arrange()
@@ -93,7 +94,10 @@ class FrfPlots(QWidget):
         self._show_lines(_HIT, _first(seen.alone.frfs) if seen is not None else None, "third")
 
     def show_beside(self, frfs: Mapping[str, Frf]) -> None:
-        """Those of other files, by the names they are listed under."""
+        """Those of other files, by the names they are listed under; instead of those there were."""
+        gone, self._beside = self._beside - frfs.keys(), set(frfs)
+        for plot in (self.magnitude, self.phase):
+            plot.keep(n for n in plot.names if n not in gone)
         for k, (name, frf) in enumerate(frfs.items()):
             if len(frf.frequency_hz) < 2:
                 continue
