@@ -327,10 +327,10 @@ class AppController(QObject):
             where += "; Diagnosis takes it with its specimen"
         if found.modes:
             where += "; a law of them: Several files"
+        if (found.frfs or found.hits) and self.feed is None:
+            where += "; drawn on Hammer once a session with hits is open"
         if found.hits:
-            where += f"; records in time are not drawn, their damping ratios: viscorig damping {path.name}"
-        if found.frfs and self.feed is None:
-            where += "; drawn on Hammer once a session is open"
+            where += f"; damping ratios of records in time: viscorig damping {path.name}"
         self.said.emit(f"{path.name}: {what} {where}")
 
 

@@ -15,6 +15,10 @@ from gui.pairing import PairedFile, arguments_of
 from gui.short_name import short_name
 from gui.state import SessionState
 from instrument.facts.diagnosis import DiagnosisResult
+from instrument.results.diagnosis_words import with_verdict
+
+AMBIGUOUS = "ambiguous"
+"""Of a law beside which others explain the data as well."""
 
 
 @dataclass(frozen=True)
@@ -66,6 +70,21 @@ class ShownDiagnosis:
     """Where it comes from, for people."""
     asked: DiagnosisAsked | None = None
     """None for the recorded one."""
+
+    @property
+    def by_hand(self) -> bool:
+        """Whether a person decided anything."""
+        return self.asked is not None and self.asked.by_hand
+
+    def is_of(self, session: Path | None) -> bool:
+        """Whether it is of the session that is open, as it stands: data with equal plans look alike."""
+        return self.asked is None or (self.asked.of_session and self.asked.data == session)
+
+    def in_legend(self, title: str) -> str:
+        """With what is to be known of its law: also that others explain the data as well as the one named."""
+        said = with_verdict(f"{title}{', by hand' if self.by_hand else ''}", self.found)
+        accepted = self.asked is not None and self.asked.accept is not None
+        return f"{said} ({AMBIGUOUS})" if self.found.verdict == "ambiguous" and not accepted else said
 
 
 class Rediagnosis(QObject):

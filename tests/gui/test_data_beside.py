@@ -66,11 +66,12 @@ FILES_THAT_ARE_NOT_DRAWN = {
     "a record in time": (
         "time_s,force_n,velocity_m_s\n"
         + "".join(f"{k / 1024},{k == 20:d},{0.001 * (k > 20)}\n" for k in range(2048)),
-        "1 hit read; records in time are not drawn, their damping ratios: viscorig damping given.csv",
+        "1 hit read; drawn on Hammer once a session with hits is open; damping ratios of records in time: "
+        "viscorig damping given.csv",
     ),
     "an FRF over a force": (
         "frequency_hz,mobility_re,mobility_im\n" + "".join(f"{f},0.01,0.002\n" for f in range(10, 90)),
-        "1 FRF read; drawn on Hammer once a session is open",
+        "1 FRF read; drawn on Hammer once a session with hits is open",
     ),
 }
 

@@ -1,9 +1,10 @@
 from pathlib import Path
 
 import pytest
+from diagnosis_cases import diagnosis
 
 from gui.pairing import PairedFile
-from gui.rediagnosis import DiagnosisAsked, effects_of
+from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis, effects_of
 
 DATA = Path("s.h5")
 
@@ -28,3 +29,15 @@ def test_it_is_asked_as_on_the_command_line(asked, said):
 
 def test_a_pair_is_two_effects():
     assert effects_of(["a + b", "b", "none"]) == ("a", "b")
+
+
+def test_it_is_of_the_session_only_where_its_data_are_that_session_alone():
+    found = diagnosis()
+    assert ShownDiagnosis(found, "recorded").is_of(DATA)
+    assert ShownDiagnosis(found, "", DiagnosisAsked(DATA)).is_of(DATA)
+    for asked in (
+        DiagnosisAsked(Path("other.h5")),
+        DiagnosisAsked(DATA, Path("p.toml")),
+        DiagnosisAsked(DATA, further=(PairedFile(Path("other.h5"), None),)),
+    ):
+        assert not ShownDiagnosis(found, "", asked).is_of(DATA)

@@ -1,6 +1,7 @@
 """Computes what hits give, off the main thread; only what was asked for last is told."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import QObject, Signal
@@ -8,7 +9,9 @@ from PySide6.QtCore import QObject, Signal
 from fitting.specimen import Specimen
 from gui.background_task import BackgroundTask, Progress
 from gui.pages.hammer.findings import Averaged, Hits, Sight, modes_of
+from gui.pages.hammer.records_beside import frfs_of_records
 from instrument.hammer_test.expected import expected_modes_hz
+from instrument.impact.record import Hit
 from instrument.session.configuration import Configuration
 from instrument.session.setup import hammer_settings
 
@@ -86,14 +89,20 @@ class Bench(QObject):
         A `Modes`.
     expected
         Of the bare plate: frequencies in Hz.
+    laid
+        FRFs of other files' records, by what they are drawn as.
     failed
         One line.
+    not_laid
+        One line: of other files' records.
     """
 
     averaged = Signal(object)
     modes_found = Signal(object)
     expected = Signal(object)
+    laid = Signal(object)
     failed = Signal(str)
+    not_laid = Signal(str)
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -105,6 +114,9 @@ class Bench(QObject):
         self._expecting.done.connect(self.expected)
         for latest in (self._averaging, self._finding, self._expecting):
             latest.failed.connect(self.failed)
+        self._laying = Latest(self)
+        self._laying.done.connect(self.laid)
+        self._laying.failed.connect(self.not_laid)
 
     @property
     def busy(self) -> bool:
@@ -122,8 +134,12 @@ class Bench(QObject):
         """The modes of the bare plate as its specimen file has them."""
         self._expecting.want(lambda progress: _expected(configuration, below_hz))
 
+    def lay_beside(self, files: Mapping[Path, Sequence[Hit]]) -> None:
+        """The FRFs of other files' records; nothing of those asked for before."""
+        self._laying.want(lambda progress: frfs_of_records(files, lambda: progress(0.0)))
+
     def forget(self) -> None:
-        """Nothing is wanted any more."""
+        """Nothing of the session's hits is wanted any more."""
         for latest in (self._averaging, self._finding, self._expecting):
             latest.forget()
 

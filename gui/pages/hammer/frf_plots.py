@@ -28,6 +28,8 @@ _LEAST_LINES = 3.2
 """Of a plot without its axis below; the last one has it."""
 _AXIS_LETTERS = 3.6
 """Width of the axis beside the plots, in heights of a letter."""
+_LEAST_SHARE_BEYOND = 0.08
+"""Of the coherence's range, on either side of it."""
 _BESIDE: tuple[Role, ...] = ("second", "fourth")
 _AVERAGE, _HIT, _MODES = "average", "selected hit", "modes"
 
@@ -56,6 +58,7 @@ class FrfPlots(QWidget):
         self.magnitude.picked.connect(self._picked)
         self._band_hz, self._reach_hz = (0.0, 1000.0), 1000.0
         self._zoomed: set[str] = set()
+        self._beside: set[str] = set()
         self._singles: dict[str, Spectra] = {}
         self._expected_hz: tuple[float, ...] = ()
         self._arrange()
@@ -91,7 +94,10 @@ class FrfPlots(QWidget):
         self._show_lines(_HIT, _first(seen.alone.frfs) if seen is not None else None, "third")
 
     def show_beside(self, frfs: Mapping[str, Frf]) -> None:
-        """Those of other files, by the names they are listed under."""
+        """Those of other files, by the names they are listed under; instead of those there were."""
+        gone, self._beside = self._beside - frfs.keys(), set(frfs)
+        for plot in (self.magnitude, self.phase):
+            plot.keep(n for n in plot.names if n not in gone)
         for k, (name, frf) in enumerate(frfs.items()):
             if len(frf.frequency_hz) < 2:
                 continue
@@ -141,6 +147,7 @@ class FrfPlots(QWidget):
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange and hasattr(self, "magnitude"):
             self._align()
+            self._leave_room_for_ends()
 
     def _mark_expected(self) -> None:
         """Named once: on the first of all, or where it is looked at closely."""
@@ -198,7 +205,7 @@ class FrfPlots(QWidget):
         self.magnitude.getViewBox().setAutoVisible(y=True)
         self.phase.setYRange(-90, 270, padding=0.05)
         self.phase.getAxis("left").setTickSpacing(180, 90)
-        self.coherence.setYRange(0, 1, padding=0.08)
+        self.coherence.getViewBox().sigResized.connect(self._leave_room_for_ends)
         self.coherence.getAxis("left").setTickSpacing(1, 0.5)
         rows = QSplitter(Qt.Orientation.Vertical)
         for plot in (self.magnitude, self.phase, self.coherence):
@@ -218,6 +225,12 @@ class FrfPlots(QWidget):
         """One axis above the other, whatever their numbers are."""
         for plot in (self.magnitude, self.phase, self.coherence):
             plot.getAxis("left").setWidth(_AXIS_LETTERS * self.fontMetrics().height())
+
+    def _leave_room_for_ends(self) -> None:
+        """However low the coherence is drawn, half a number has room beyond 0 and 1: or none is said."""
+        number, high = self.fontMetrics().height(), self.coherence.getViewBox().height()
+        share = number / 2 / max(high - number, number)
+        self.coherence.setYRange(0, 1, padding=max(_LEAST_SHARE_BEYOND, share))
 
     def _picked(self, name: str, number: int) -> None:
         if name == _MODES:

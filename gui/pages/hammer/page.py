@@ -5,6 +5,7 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QSplitter, QStackedLayout, QVBoxLayout, QWidget
 
 from fitting.arrays import Array
+from fitting.modal.frf import Frf
 from gui.controller import AppController
 from gui.page import Page
 from gui.pages.hammer.bench import Bench
@@ -54,6 +55,8 @@ class HammerPage(Page):
         self._hits: Hits = ()
         """As they count on this page; what the bench was given last."""
         self._failure = ""
+        self._records: dict[str, Frf] = {}
+        """What other files' records in time give, by what it is drawn as."""
         self._treated = False
         """Whether the hits are those of the treated plate."""
         self._frf_later = QTimer(self)
@@ -220,7 +223,8 @@ class HammerPage(Page):
         if self._averaged is None:
             return
         files = self.controller.beside.items()
-        self.frf.show_beside({f"{path.name}: {name}": frf for path, f in files for name, frf, _ in f.frfs})
+        frfs = {f"{path.name}: {name}": frf for path, f in files for name, frf, _ in f.frfs}
+        self.frf.show_beside(frfs | self._records)
 
     def _zoom(self) -> None:
         """About the mode selected; the whole band where none is, or none is computed yet."""
@@ -228,7 +232,17 @@ class HammerPage(Page):
         k = number_of(modes, frequency_hz) if modes is not None and frequency_hz is not None else None
         self.frf.zoom(modes.around[k] if modes is not None and k is not None else None)
 
+    def _beside_changed(self) -> None:
+        self._records = {}
+        records = {path: found.hits for path, found in self.controller.beside.items() if found.hits}
+        self.bench.lay_beside(records)
+        self._show_beside()
+
     # From the bench
+
+    def _is_laid(self, frfs: dict[str, Frf]) -> None:
+        self._records = frfs
+        self._show_beside()
 
     def _is_averaged(self, averaged: Averaged) -> None:
         self._averaged = averaged
@@ -296,7 +310,9 @@ class HammerPage(Page):
     # What stands where
 
     def _connect(self) -> None:
-        self.controller.beside_changed.connect(self._show_beside)
+        self.controller.beside_changed.connect(self._beside_changed)
+        self.bench.laid.connect(self._is_laid)
+        self.bench.not_laid.connect(self.controller.refused)
         self.bench.averaged.connect(self._is_averaged)
         self.bench.modes_found.connect(self._has_modes)
         self.bench.expected.connect(self._is_expected)

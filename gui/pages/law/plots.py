@@ -12,6 +12,7 @@ from fitting.chances import Z_95
 from gui.pages.law.corner import emptiest_corner
 from gui.pages.law.curve import LawCurve
 from gui.plots import Axis, Plot
+from gui.plots.legend_lines import break_names
 from gui.theme import Role
 
 _BANDS = {"± 1 standard error": 1.0, "95 % (± 1.96 standard errors)": Z_95}
@@ -82,8 +83,8 @@ class LawPlots(QWidget):
     def _place_legend(self) -> None:
         legend, room = self.loss.getPlotItem().legend, self.loss.getViewBox().width()
         across, up = emptiest_corner(self._losses(float(self.bands.currentData())))
-        legend.updateSize()
-        # Where there is too little room, ends of names are cut and not the signs before them.
+        break_names(legend, room - 2 * abs(across), self.loss.fontMetrics())
+        # Where one word has too little room, its end is cut and not the sign before it.
         legend.setOffset((abs(across) if legend.width() + abs(across) > room else across, up))
 
     def _losses(self, factor: float) -> list[tuple[Array, Array]]:

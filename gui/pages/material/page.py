@@ -23,7 +23,7 @@ from gui.together import Fitted
 from instrument.facts.diagnosis import StageFitted
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.session_result import SessionResult
-from instrument.results.diagnosis_words import DOUBTED, UNKNOWN, UNRELIABLE, with_verdict
+from instrument.results.diagnosis_words import DOUBTED, UNKNOWN, UNRELIABLE
 from instrument.results.session_result import (
     BEFORE_DIAGNOSIS,
     Conditions,
@@ -38,7 +38,6 @@ _NOTHING = (
     "Here will be the core's law: storage modulus G'(f) and loss factor η(f) with their bands, from the "
     "first segment on. Open a session (Ctrl+O), run an experiment, or add laws to compare on the right."
 )
-AMBIGUOUS = "ambiguous"
 _NO_FIT = "No fit yet: the first follows the first segment."
 _NEVER = "This session holds no fit."
 
@@ -276,26 +275,12 @@ def notes_of(result: Fitted | None, shown: ShownDiagnosis | None) -> list[str]:
 
 def diagnosed_lines(shown: ShownDiagnosis) -> list[LawLine]:
     """The law that stands, and before it that without the effects accepted."""
-    by_hand = ", by hand" if shown.asked is not None and shown.asked.by_hand else ""
     if stage_before(shown.found) is None:
-        return [LawLine(_in_legend(f"result{by_hand}", shown), _curve(shown.found.after), "model")]
+        return [LawLine(shown.in_legend("result"), _curve(shown.found.after), "model")]
     return [
         LawLine(BEFORE_DIAGNOSIS, _curve(shown.found.before), "model", dashed=True, width=1.5),
-        LawLine(
-            _in_legend(f"result: with {law_words(shown.found)}{by_hand}", shown),
-            _curve(shown.found.after),
-            "data",
-        ),
+        LawLine(shown.in_legend(f"result: with {law_words(shown.found)}"), _curve(shown.found.after), "data"),
     ]
-
-
-def _in_legend(title: str, shown: ShownDiagnosis) -> str:
-    """With what is to be known of the law: also that others explain the data as well as the one named."""
-    said, accepted = (
-        with_verdict(title, shown.found),
-        shown.asked is not None and shown.asked.accept is not None,
-    )
-    return f"{said} ({AMBIGUOUS})" if shown.found.verdict == "ambiguous" and not accepted else said
 
 
 def _conditions(state: SessionState | None, shown: ShownDiagnosis) -> Conditions:

@@ -1,18 +1,16 @@
 """The fitted model as it is drawn through the points. No Qt."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
 
-from fitting.arrays import Array, Complex, Mask
-from gui.pages.sweep.points import Index, PointsMeasured
+from fitting.arrays import Array, Complex
+from gui.pages.sweep.points import PointsMeasured
 from instrument.check.piece import Region
-from instrument.facts.identification import PointFitted
 from instrument.facts.prediction import PredictionResult
 from instrument.session.contents import SegmentRun
-from instrument.stream.derived import PointMeasured
 
 STANDARD_ERRORS = 2.0
 """Half width of the band."""
@@ -87,35 +85,3 @@ def joined(stretches: list[Array]) -> Array:
     """One array with a gap between one stretch and the next. Shape (n,), as of each stretch."""
     gap = np.array([np.nan])
     return np.concatenate([part for s in stretches for part in (s, gap)][:-1]) if stretches else np.zeros(0)
-
-
-def predictions(
-    points: PointsMeasured, rows: Sequence[PointFitted], last_step: int, left_out: Mask | None = None
-) -> tuple[Index, Array]:
-    """What a fit's own rows say: number of each point it took, and its amplitude predicted in m/s.
-
-    `left_out` are points that it has set aside, shape (points,). Empty where the rows do not belong to these
-    points. Shape (taken,) each.
-    """
-    taken = [k for k in _as_fitted(points, last_step) if left_out is None or not left_out[k]]
-    fits = len(rows) == len(taken) and all(
-        _is_of(row, points.timed[k].point) for k, row in zip(taken, rows, strict=True)
-    )
-    if not fits:
-        return np.zeros(0, dtype=np.intp), np.zeros(0)
-    return np.array(taken, dtype=np.intp), np.array([row.predicted_m_s for row in rows], dtype=float)
-
-
-def _is_of(row: PointFitted, point: PointMeasured) -> bool:
-    return row.frequency_hz == point.frequency_hz and (row.pickup is None or row.pickup == point.pickup)
-
-
-def _as_fitted(points: PointsMeasured, last_step: int) -> list[int]:
-    """Numbers up to a step in the order of a fit: by mounting and mass as they came, then by spot."""
-    came: dict[tuple[int, float, tuple[float, float] | None], int] = {}
-    taken = []
-    for k, t in enumerate(points.timed):
-        p = t.point
-        if p.step <= last_step:
-            taken.append((came.setdefault((p.mounting, p.mass_kg, p.mass_at_mm), len(came)), p.pickup, k))
-    return [k for _, _, k in sorted(taken)]

@@ -4,20 +4,25 @@ from dataclasses import replace
 
 import numpy as np
 
+from fitting.arrays import Array
 from gui.pages.sweep.curve import STANDARD_ERRORS, CurveStretch, joined
 from gui.pages.sweep.panes import CHOSEN, Pointed, beside_look
+from gui.pages.sweep.predicted import Predicted
 from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis
+from gui.theme import Role
 
 FREQUENCY = Axis("Frequency", "Hz")
 FORESEEN = "foreseen, law to start from"
+EXPLAINED_ROLE: Role = "second"
+"""Of what a diagnosis says with its effects."""
 
 
 def draw_amplitude(plot: Pointed, seen: PaneContents) -> None:
     """Over frequency, with the model's band."""
     way = seen.way
     plot.show_axes(replace(FREQUENCY, log=way.log_frequency), Axis(way.label, way.unit, way.log_amplitude))
-    names = _foreseen_amplitude(plot, seen) + _model_amplitude(plot, seen)
+    names = _foreseen_amplitude(plot, seen) + _model_amplitude(plot, seen) + _explained_amplitude(plot, seen)
     for group in seen.points.groups(seen.wanted):
         plot.show_points(group, seen.points.frequency_hz[group.index], np.abs(seen.shown[group.index]))
         names.append(group.name)
@@ -49,6 +54,7 @@ def draw_phase(plot: Pointed, seen: PaneContents) -> None:
             phase, half = s.phase_deg(seen.points), STANDARD_ERRORS * s.phase_std_deg
             plot.band(f"band {number}", s.frequency_hz, phase - half, phase + half)
             names.append(f"band {number}")
+    names += _explained_phase(plot, seen)
     p = seen.points
     for group in p.groups(seen.wanted):
         plot.show_points(group, p.frequency_hz[group.index], p.phase_deg[group.index])
@@ -67,6 +73,10 @@ def draw_phase(plot: Pointed, seen: PaneContents) -> None:
         float(p.phase_deg[at]) if at is not None else None,
     )
     plot.frame(seen.band_hz)
+
+
+def _explained_name(seen: PaneContents) -> str:
+    return f"{seen.explained.name}, at points"
 
 
 def _model_name(seen: PaneContents) -> str:
@@ -135,16 +145,54 @@ def _curve_amplitude(plot: Pointed, seen: PaneContents) -> list[str]:
 
 def _predicted_amplitude(plot: Pointed, seen: PaneContents, place: str) -> list[str]:
     """Of one place, until there is a curve: what the fit itself says, at the points it took."""
-    p, predicted = seen.points, seen.predicted
-    mine = (seen.wanted & ~p.sentinel & p.read_at(place))[predicted.index]
-    if not mine.any():
+    name = f"model at the points, {seen.fit_name}{f', {place}' if place else ''}"
+    return _at_points(plot, name, seen, seen.predicted, _amplitude(seen, seen.predicted), place=place)
+
+
+def _explained_amplitude(plot: Pointed, seen: PaneContents) -> list[str]:
+    """What the diagnosis says with its effects, at every point it took."""
+    return _at_points(
+        plot, _explained_name(seen), seen, seen.explained, _amplitude(seen, seen.explained), EXPLAINED_ROLE
+    )
+
+
+def _explained_phase(plot: Pointed, seen: PaneContents) -> list[str]:
+    phase = seen.points.phase_deg[seen.explained.index] + seen.explained.turn_deg
+    return _at_points(plot, _explained_name(seen), seen, seen.explained, phase, EXPLAINED_ROLE)
+
+
+def _amplitude(seen: PaneContents, predicted: Predicted) -> Array:
+    """In the unit of the way chosen. Shape (taken,)."""
+    level = seen.points.level_m_s2[predicted.index]
+    return predicted.amplitude_m_s / level * seen.way.factor(level)
+
+
+def _at_points(
+    plot: Pointed,
+    name: str,
+    seen: PaneContents,
+    predicted: Predicted,
+    values: Array,
+    role: Role = "model",
+    *,
+    place: str | None = None,
+) -> list[str]:
+    """A line through the points of each segment, pass, level and place; of all places where none is said.
+
+    `values` are of the points taken, shape (taken,). What is drawn, by name: nothing where none is wanted.
+    """
+    p = seen.points
+    mine = seen.wanted & ~p.sentinel
+    if place is not None:
+        mine &= p.read_at(place)
+    taken = mine[predicted.index] & np.isfinite(values)
+    if not taken.any():
         return []
-    k, size = predicted.index[mine], predicted.amplitude_m_s[mine] / p.level_m_s2[predicted.index[mine]]
-    f, y = p.frequency_hz[k], size * seen.way.factor(p.level_m_s2[k])
-    line = np.stack([p.segment[k], np.round(p.level_m_s2[k], 6)])
+    k, y = predicted.index[taken], values[taken]
+    f = p.frequency_hz[k]
+    line = np.stack([p.segment[k], p.number_of_pass[k]])
     order = np.lexsort((f, line[1], line[0]))
     f, y, line = f[order], y[order], line[:, order]
     gaps = np.flatnonzero(np.diff(line).any(axis=0)) + 1
-    name = f"model at the points, {seen.fit_name}{f', {place}' if place else ''}"
-    plot.line(name, joined(np.split(f, gaps)), joined(np.split(y, gaps)))
+    plot.line(name, joined(np.split(f, gaps)), joined(np.split(y, gaps)), role)
     return [name]

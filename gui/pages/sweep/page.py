@@ -5,26 +5,26 @@ from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QHideEvent, QKeySequence, QShortcut, QShowEvent
 from PySide6.QtWidgets import QCheckBox, QSplitter, QStackedLayout, QTabWidget, QVBoxLayout, QWidget
 
-from fitting.aside import Reasons
 from fitting.digits import two_digits
 from fitting.gravity import PUBLISHED_G_M_S2
 from gui.controller import AppController
 from gui.page import Page
 from gui.pages.sweep.chooser import Chooser
-from gui.pages.sweep.curve import predictions
 from gui.pages.sweep.drift import DriftPane
 from gui.pages.sweep.model import ForeseenCurve, ModelCurve
 from gui.pages.sweep.nyquist import NyquistPane
 from gui.pages.sweep.overlay import besides
 from gui.pages.sweep.pane_scheduler import PaneScheduler
 from gui.pages.sweep.points import PointsMeasured
+from gui.pages.sweep.predicted import Predicted
 from gui.pages.sweep.quality import QualityPane
 from gui.pages.sweep.record import RecordPane
 from gui.pages.sweep.response import ResponsePane
 from gui.pages.sweep.samples import SamplesPane
-from gui.pages.sweep.seen import PaneContents, Predicted
+from gui.pages.sweep.seen import PaneContents
 from gui.pages.sweep.segments import standings
 from gui.pages.sweep.step import StepPane
+from gui.rediagnosis import ShownDiagnosis
 from gui.state import SessionState
 from gui.widgets import hint
 from instrument.check.piece import Region
@@ -154,19 +154,23 @@ class SweepPage(Page):
     def _look_again(self, state: SessionState, regions: tuple[Region, ...]) -> None:
         """Points, fits or regions are others."""
         points = self.seen.points.up_to(state.contents.points, state.limits)
-        fit, sweep = state.contents.fit, state.plan.sweep
+        fit, sweep, own = state.contents.fit, state.plan.sweep, state.contents.diagnosis
+        shown = self._shown(state)
         result = fit.result if fit is not None else None
-        by_fit = why_aside([t.point for t in points.timed], result.points_set_aside if result else ())
-        points = points.setting_aside(self._why_aside(state, points, by_fit))
-        predicted = Predicted()
-        if fit is not None and result is not None:
-            predicted = Predicted(*predictions(points, result.points, fit.last_step, by_fit != ""))
+        measured = [t.point for t in points.timed]
+        by_fit = why_aside(measured, result.points_set_aside if result is not None else ())
+        # The diagnosis looks for more.
+        by_diagnosis = why_aside(measured, shown.found.points_set_aside if shown is not None else ())
+        points = points.setting_aside(np.where(by_fit == "", by_diagnosis, by_fit))
         self.seen = self.seen.but(
             points=points,
             regions=regions,
             reads=state.configuration.rig.vibrometer.reads,
             chosen=points.of_step(self._looked_at) if self._looked_at is not None else None,
-            predicted=predicted,
+            predicted=Predicted.by_fit(points, fit, by_fit != ""),
+            explained=Predicted.with_effects(
+                points, shown, own.last_step if own is not None else None, by_diagnosis != ""
+            ),
             fit=fit.number if fit is not None else 0,
             doubt=self._doubt(state),
             curve=self.model.curve,
@@ -174,13 +178,6 @@ class SweepPage(Page):
             planned_m_s2=sweep.level_g * PUBLISHED_G_M_S2 if sweep is not None else PUBLISHED_G_M_S2,
         )
         self._mark_all()
-
-    def _why_aside(self, state: SessionState, points: PointsMeasured, by_fit: Reasons) -> Reasons:
-        """By the fit, and by the diagnosis shown, which looks for more. Shape (points,)."""
-        shown = self.controller.rediagnosis.shown(state)
-        by_diagnosis = shown.found.points_set_aside if shown is not None else ()
-        found = why_aside([t.point for t in points.timed], by_diagnosis)
-        return np.where(by_fit == "", found, by_fit)
 
     def _follow(self, state: SessionState) -> None:
         began = state.run.segment
@@ -190,6 +187,13 @@ class SweepPage(Page):
         self._running = running
         if running is not None and self.follow.isChecked() and not state.run.over:
             self.chooser.choose(running[1])
+
+    def _rediagnosed(self) -> None:
+        """Another diagnosis is shown, recorded or made here, or none any more."""
+        self._version = -1
+        self._seen.pop("diagnosis", None)
+        if self.isVisible() and self._state is self.controller.state:
+            self._draw()
 
     def _beside_changed(self) -> None:
         self.seen = self.seen.but(beside=besides(self.controller.beside))
@@ -268,9 +272,14 @@ class SweepPage(Page):
             return f"{said}; no curve: {self.model.failure}"
         return f"{said} ..." if self.model.busy else said
 
+    def _shown(self, state: SessionState) -> ShownDiagnosis | None:
+        """The diagnosis shown, where it is of this session."""
+        shown = self.controller.rediagnosis.shown(state)
+        return shown if shown is not None and shown.is_of(self.controller.session) else None
+
     def _doubt(self, state: SessionState) -> str:
         """Of the law that is drawn: nothing explains its fit, or it lacks what the diagnosis found."""
-        shown, own = self.controller.rediagnosis.shown(state), state.contents.diagnosis
+        shown, own = self._shown(state), state.contents.diagnosis
         if shown is not None and shown.found.verdict == "unknown":
             return UNKNOWN
         found = own.result if own is not None else None
@@ -284,6 +293,7 @@ class SweepPage(Page):
 
     def _connect(self) -> None:
         self.controller.beside_changed.connect(self._beside_changed)
+        self.controller.rediagnosis.changed.connect(self._rediagnosed)
         self.chooser.chosen.connect(self._segment_chosen)
         self.response.way_changed.connect(self._way_changed)
         self.response.others_unwanted.connect(self.controller.data_beside.take_away)

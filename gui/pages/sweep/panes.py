@@ -127,7 +127,8 @@ class Key(QLabel):
 
 
 def _unbroken(words: str) -> str:
-    return words.replace(" ", "&nbsp;")
+    """A hyphen too: a dashed line's sign has some."""
+    return words.replace(" ", "&nbsp;").replace("-", "\u2011")
 
 
 def keyed(key: Key, plot: Plot) -> QWidget:

@@ -202,7 +202,7 @@ class PointsMeasured:
             Group(
                 self._good_name(one),
                 *_LOOKS[k % len(_LOOKS)],
-                np.flatnonzero(good & (self._number_of_pass == k)),
+                np.flatnonzero(good & (self.number_of_pass == k)),
             )
             for k, one in enumerate(self.passes)
         ]
@@ -231,7 +231,7 @@ class PointsMeasured:
         return list(zip(*columns, self.place, strict=True))
 
     @cached_property
-    def _number_of_pass(self) -> Index:
+    def number_of_pass(self) -> Index:
         """Of each point: which of `passes`; -1 of a sentinel of none. Shape (points,)."""
         numbers = {one: k for k, one in enumerate(self.passes)}
         return np.array([numbers.get(one, -1) for one in self._pass], dtype=np.intp)

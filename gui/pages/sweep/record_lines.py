@@ -34,7 +34,7 @@ def record_lines(seen: PaneContents, number: int, settings: SweepSettings) -> li
         *(RecordLine("Remark", remark) for remark in timed.point.remarks),
         *([RecordLine("Set aside, not fitted", words_of(why))] if why else []),
         *_response(seen, number),
-        *_prediction(seen, number),
+        *_predictions(seen, number),
         *others,
     ]
 
@@ -55,17 +55,20 @@ def _response(seen: PaneContents, number: int) -> list[RecordLine]:
     ]
 
 
-def _prediction(seen: PaneContents, number: int) -> list[RecordLine]:
-    predicted = seen.predicted.of(number)
-    if predicted is None:
-        return []
-    p = seen.points
+def _predictions(seen: PaneContents, number: int) -> list[RecordLine]:
+    """By the fit, and with the effects that the diagnosis accepts."""
+    p, explained = seen.points, seen.explained
     measured = float(abs(p.over_base_s[number]) * p.level_m_s2[number])
-    off = 100 * (predicted - measured) / measured
+    said = (
+        (f"Fit {seen.fit} predicts", "", seen.predicted.of(number)),
+        ("Diagnosis predicts", f"The law {explained.name}. ", explained.of(number)),
+    )
     return [
         RecordLine(
-            f"Fit {seen.fit} predicts",
-            f"{1e3 * predicted:.5g} mm/s, {off:+.2f} %",
-            "Amplitude at the level commanded, and its difference to the measured one",
+            name,
+            f"{1e3 * predicted:.5g} mm/s, {100 * (predicted - measured) / measured:+.2f} %",
+            f"{what}Amplitude at the level commanded, and its difference to the measured one",
         )
+        for name, what, predicted in said
+        if predicted is not None
     ]

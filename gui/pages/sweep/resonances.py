@@ -5,7 +5,7 @@ from functools import partial
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QGridLayout, QPushButton, QVBoxLayout, QWidget
 
-from gui.pages.sweep.drawing import FORESEEN, FREQUENCY, draw_amplitude
+from gui.pages.sweep.drawing import EXPLAINED_ROLE, FORESEEN, FREQUENCY, draw_amplitude
 from gui.pages.sweep.panes import SIGNS, Key, Pointed, beside_key
 from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis
@@ -54,6 +54,8 @@ class ResonancePanes(QWidget):
         ]
         if seen.curve is not None or seen.predicted.index.size:
             entries.append((seen.fit_name, "model", "\u2500"))
+        if seen.explained.index.size:
+            entries.append((seen.explained.name, EXPLAINED_ROLE, "\u2500"))
         if seen.foreseen is not None:
             entries.append((FORESEEN, "faint", "- -"))
         entries += beside_key(one.name for one in seen.beside)

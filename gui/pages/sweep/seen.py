@@ -9,7 +9,8 @@ from fitting.arrays import Array, Complex, Mask
 from fitting.gravity import PUBLISHED_G_M_S2
 from gui.pages.sweep.curve import Curve, CurveStretch
 from gui.pages.sweep.overlay import OverlaidSweep
-from gui.pages.sweep.points import Index, PointsMeasured
+from gui.pages.sweep.points import PointsMeasured
+from gui.pages.sweep.predicted import Predicted
 from instrument.check.piece import Region
 from instrument.files.acceleration import acceleration_unit
 
@@ -42,19 +43,6 @@ class Way:
 
 
 @dataclass(frozen=True)
-class Predicted:
-    """What a fit says of the points it took: their numbers, and the amplitudes in m/s."""
-
-    index: Index = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
-    amplitude_m_s: Array = field(default_factory=lambda: np.zeros(0))
-
-    def of(self, point: int) -> float | None:
-        """Of one point, if the fit took it."""
-        place = np.flatnonzero(self.index == point)
-        return float(self.amplitude_m_s[place[0]]) if place.size else None
-
-
-@dataclass(frozen=True)
 class PaneContents:
     """Everything a pane needs; a pane never looks elsewhere."""
 
@@ -65,6 +53,9 @@ class PaneContents:
     """Of the segments known of, begun or not."""
     curve: Curve | None = None
     predicted: Predicted = field(default_factory=Predicted)
+    """By the fit."""
+    explained: Predicted = field(default_factory=Predicted)
+    """By the diagnosis shown, with the effects that it accepts."""
     foreseen: Curve | None = None
     """Of the specimen as it is stated, known before anything is measured."""
     fit: int = 0

@@ -48,13 +48,20 @@ class FittedFile:
 
 
 def fitted_files(
-    fit: Fitted, diagnosed: DiagnosisResult | None = None, stage: StageName = "before"
+    fit: Fitted,
+    diagnosed: DiagnosisResult | None = None,
+    stage: StageName = "before",
+    *,
+    names: Sequence[str] = (),
 ) -> list[FittedFile]:
-    """Each file of a fit; with a diagnosis the fit of one of its stages, at the points it has."""
+    """Each file of a fit; with a diagnosis the fit of one of its stages, at the points it has.
+
+    `names` are those of the files, for a result that says none: one of a single file.
+    """
     if isinstance(fit, ModalResult):
         return _of_modes(fit)
     left = _by_place(diagnosed.points) if diagnosed is not None else None
-    names = fit.files or ("",)
+    names = fit.files or names or ("",)
     numbers = sorted({_number(p) for p in fit.points})
     return [_of_points(fit, n, names[n - 1], left, stage) for n in numbers]
 

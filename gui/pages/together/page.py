@@ -143,7 +143,8 @@ class TogetherPage(Page):
         diagnosed = shown.found if shown is not None else None
         stage: StageName = "after" if self.stage.currentData() == "after" else "before"
         judged = diagnosed is not None and has_stages(found)
-        fitted = fitted_files(found, diagnosed if judged else None, stage)
+        names = [one.data.name for one in self.together.files]
+        fitted = fitted_files(found, diagnosed if judged else None, stage, names=names)
         self.fit.show_files(fitted, of_modes=isinstance(found, ModalResult))
         adjusted = found.adjusted
         if diagnosed is not None:

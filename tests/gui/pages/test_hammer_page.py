@@ -4,6 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from engine_cases import engine_rig
+from plot_numbers import plot_numbers
 from PySide6.QtCore import Qt
 from quick_engine import QUICK_ENGINE
 from session_cases import SyntheticSession, configuration
@@ -14,6 +15,7 @@ from gui.pages.hammer.choice import WhatIf, standing_of
 from gui.pages.hammer.findings import Sight, accelerated, modes_of
 from gui.pages.hammer.frf_plots import FrfPlots
 from gui.pages.hammer.mode_words import mode_rows
+from gui.pages.hammer.records_beside import frfs_of_records
 from gui.pages.hammer.traces import accelerance
 from gui.pages.hammer.words import hit_rows
 from instrument.engine import Engine, Order
@@ -230,6 +232,34 @@ def test_an_frf_of_another_file_is_drawn_as_accelerance(page, opened):
     np.testing.assert_allclose(np.angle(accelerance(mobility).H, deg=True), 90.0)
 
 
+def test_records_of_another_file_are_drawn_as_the_average_of_its_good_hits_until_taken_away(
+    qtbot, page, opened, hits
+):
+    opened.controller.beside[Path("other.csv")] = Found(hits=[h.record for h in hits])
+    opened.controller.beside_changed.emit()
+    name = "other.csv: 2 of 3 hits"
+    qtbot.waitUntil(lambda: name in page.frf.magnitude.names and name in page.frf.phase.names)
+    # The session's own hits, so its own average.
+    for plot in (page.frf.magnitude, page.frf.phase):
+        np.testing.assert_array_equal(plot.curves[name], plot.curves["average"])
+    opened.controller.data_beside.take_away()
+    assert name not in page.frf.magnitude.names
+    assert name not in page.frf.phase.names
+
+
+def test_records_of_another_length_are_an_average_of_their_own_and_bad_hits_none(hits):
+    one, double, other = (h.record for h in hits)
+    short = replace(
+        other,
+        force_n=other.force_n[:-9],
+        responses=tuple(replace(r, samples=r.samples[:-9]) for r in other.responses),
+    )
+    found = frfs_of_records({Path("a.csv"): [one, short], Path("b.csv"): [double]}, lambda: None)
+    assert list(found) == ["a.csv: 1 of 1 hits, set 1", "a.csv: 1 of 1 hits, set 2"]
+    lines = [len(frf.frequency_hz) for frf in found.values()]
+    assert lines == [len(h.force_n) // 2 + 1 for h in (one, short)]
+
+
 def test_before_the_first_blow_nothing_is_drawn(qtbot, page, opened):
     opened.controller.recorded.jump(0.0)
     qtbot.waitUntil(lambda: page.hits.table.row_count == 0, timeout=PATIENCE_MS)
@@ -346,6 +376,16 @@ def test_only_the_lowest_plot_of_the_column_names_its_axis_in_every_mode(qtbot, 
         qtbot.wait(1)
         named = [p.getAxis("bottom").labelText for p in (plots.magnitude, plots.phase, plots.coherence)]
         assert named == ["", "", "Frequency / Hz"]
+
+
+@pytest.mark.parametrize("high", [210, 400])
+def test_the_coherence_has_its_numbers_however_low_it_is(qtbot, appearance, high):
+    plots = FrfPlots()
+    qtbot.addWidget(plots)
+    plots.resize(700, high)
+    plots.show()
+    qtbot.waitExposed(plots)
+    assert {"0", "1"} <= {f"{float(said):g}" for said in plot_numbers(plots.coherence)}
 
 
 def test_what_a_laser_read_is_drawn_as_an_accelerometer_would_have_it(hits):

@@ -25,8 +25,8 @@ HAMMER = Hammer(
 class Bench(QObject):
     """Computes nothing: notes what it was given."""
 
-    averaged, modes_found, expected = Signal(object), Signal(object), Signal(object)
-    failed = Signal(str)
+    averaged, modes_found, expected, laid = (Signal(object) for _ in range(4))
+    failed, not_laid = Signal(str), Signal(str)
     busy = False
 
     def __init__(self, parent):

@@ -16,8 +16,8 @@ from gui.pages.diagnosis.residual_plots import ResidualPlots
 from gui.pages.diagnosis.stages import compared
 from gui.pages.law.curve import LawCurve
 from gui.pages.law.plots import LawLine, LawPlots
-from gui.pages.material.page import AMBIGUOUS, diagnosed_lines, notes_of
-from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
+from gui.pages.material.page import diagnosed_lines, notes_of
+from gui.rediagnosis import AMBIGUOUS, DiagnosisAsked, ShownDiagnosis
 
 
 def test_the_shaded_band_is_as_wide_as_chosen(made):

@@ -35,3 +35,21 @@ def test_a_falling_loss_factor_is_not_hidden_by_the_names_of_the_lines(qtbot):
     for loss, corner in ((RISING, (-8, -8)), (FALLING, (-8, 8))):
         plots.show_lines([LawLine("result", LawCurve(F, F, nothing, loss, nothing), "data")])
         assert tuple(plots.loss.getPlotItem().legend.opts["offset"]) == corner
+
+
+def test_a_long_name_is_seen_whole_in_a_narrow_plot_and_in_one_line_in_a_wide_one(qtbot, appearance):
+    plots = LawPlots()
+    qtbot.addWidget(plots)
+    plots.resize(640, 400)
+    plots.show()
+    qtbot.waitExposed(plots)
+    name, nothing = "result: with clamp_compliance (ambiguous)", np.full(60, 0.01)
+    plots.show_lines([LawLine(name, LawCurve(F, F, nothing, RISING, nothing), "data")])
+    legend, box = plots.loss.getPlotItem().legend, plots.loss.getViewBox()
+    ((_, label),) = legend.items
+    for wide, broken in ((640, True), (1400, False), (640, True)):
+        plots.resize(wide, 400)
+        qtbot.wait(10)
+        assert ("<br>" in label.text) == broken
+        assert label.text.replace("<br>", " ") == name
+        assert box.rect().contains(legend.mapRectToItem(box, legend.boundingRect()))

@@ -9,7 +9,7 @@ from session_cases import SyntheticSession, configuration
 from sessions import point
 
 from fitting.aside import LOST, reasons
-from gui.pages.sweep.curve import CurveStretch, grid, joined, predictions, regions_of
+from gui.pages.sweep.curve import CurveStretch, grid, joined, regions_of
 from gui.pages.sweep.drifted import drifted
 from gui.pages.sweep.following import Following, latest_cycles, words
 from gui.pages.sweep.overlay import besides
@@ -18,7 +18,6 @@ from gui.pages.sweep.record_lines import record_lines
 from gui.pages.sweep.seen import PaneContents, Way
 from gui.pages.sweep.segments import standings
 from gui.state import SessionState
-from instrument.facts.identification import PointFitted
 from instrument.interchange.found import Found
 from instrument.results.set_aside import NAME
 from instrument.session.contents import SegmentRun, TimedPoint
@@ -159,24 +158,6 @@ def test_the_model_has_as_many_turns_as_the_points():
     np.testing.assert_allclose(stretch.phase_deg(moved), stretch.phase_deg(points) - 360)
 
 
-def test_a_fits_predictions_are_taken_only_where_they_belong_to_the_points():
-    points = of(point(1, 20.0), point(2, 21.0), point(3, 22.0))
-    rest = {"segment": 1, "measured_m_s": 0.1, "difference_percent": 0.0}
-    rows = [PointFitted(frequency_hz=f, predicted_m_s=v, **rest) for f, v in ((20.0, 0.1), (21.0, 0.2))]
-    index, predicted = predictions(points, rows, 2)
-    assert (index.tolist(), predicted.tolist()) == ([0, 1], [0.1, 0.2])
-    assert not predictions(points, rows, 3)[0].size
-    assert not predictions(of(point(1, 20.5), point(2, 21.0)), rows, 2)[0].size
-
-
-def test_what_a_fit_set_aside_has_no_prediction_and_the_others_keep_theirs():
-    points = of(point(1, 20.0), point(2, 21.0), point(3, 22.0))
-    rest = {"segment": 1, "measured_m_s": 0.1, "difference_percent": 0.0}
-    rows = [PointFitted(frequency_hz=f, predicted_m_s=v, **rest) for f, v in ((20.0, 0.1), (22.0, 0.2))]
-    index, predicted = predictions(points, rows, 3, np.array([False, True, False]))
-    assert (index.tolist(), predicted.tolist()) == ([0, 2], [0.1, 0.2])
-
-
 def test_what_is_set_aside_is_a_group_of_its_own_turns_no_phase_and_says_why():
     turned = [np.exp(1j * np.radians(p)) for p in (170, -170, 0, -150, -130)]
     each = [
@@ -193,16 +174,6 @@ def test_what_is_set_aside_is_a_group_of_its_own_turns_no_phase_and_says_why():
     said = {line.name: line.value for line in record_lines(PaneContents(points), 2, SETTINGS)}
     assert "signal lost" in said["Set aside, not fitted"]
     assert "Set aside, not fitted" not in {x.name for x in record_lines(PaneContents(points), 1, SETTINGS)}
-
-
-def test_a_fits_rows_are_its_files_and_theirs_are_its_points_by_spot():
-    """Its own spot was measured again after another one: the rows have both of its passes first."""
-    there = {"pickup": 1, "spot_mm": (150.0, 24.0)}
-    points = of(point(1, 20.0), point(2, 20.0, **there), point(3, 20.0), point(4, 20.0, mounting=1))
-    rest = {"segment": 1, "frequency_hz": 20.0, "measured_m_s": 0.1, "difference_percent": 0.0}
-    rows = [PointFitted(predicted_m_s=v, pickup=k, **rest) for v, k in ((1, 0), (3, 0), (2, 1), (4, 0))]
-    index, predicted = predictions(points, rows, 4)
-    assert dict(zip(index.tolist(), predicted.tolist(), strict=True)) == {0: 1, 1: 2, 2: 3, 3: 4}
 
 
 def test_what_was_read_elsewhere_is_a_group_of_its_own_and_turns_no_phase():

@@ -8,6 +8,7 @@ from PySide6.QtCore import Qt
 from sweep_views import LEFT, click_point, click_segment, shown, value
 
 from gui.pages.sweep.drawing import FORESEEN
+from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from gui.theme import DARK, LIGHT
 from instrument.stepped_sine.sine_fit import sine_fit
 
@@ -340,6 +341,30 @@ def test_a_fit_that_lacks_what_the_diagnosis_found_is_said_to_be_before_it(qtbot
     assert "% before the diagnosis" in page.response.model.text()
     # Beside its line too: the points lie elsewhere.
     assert page.seen.fit_name.endswith(", before the diagnosis")
+
+
+def test_what_a_diagnosis_says_with_its_effects_is_drawn_while_it_is_shown_of_this_session(kept, looked_at):
+    page, rediagnosis = looked_at, kept.controller.rediagnosis
+    name, before = "with added_mass, at points", diagnosis().points[0]
+    rows = [
+        before.but(frequency_hz=t.point.frequency_hz, segment=t.point.segment) for t in page.seen.points.timed
+    ]
+    found = diagnosis().but(points=rows, points_set_aside=())
+    assert name not in page.response.amplitude.names
+    rediagnosis.show(ShownDiagnosis(found, "", DiagnosisAsked(kept.controller.session)))
+    page.turns.at_once()
+    f, _ = shown(page.response.amplitude, name)
+    assert np.isfinite(f).sum() == 27
+    page.response.apart.setChecked(True)
+    assert "with&nbsp;added_mass" in page.response.resonances.key.text()
+    page.response.apart.setChecked(False)
+    rediagnosis.show(ShownDiagnosis(found, "", DiagnosisAsked(kept.controller.session.with_name("other.h5"))))
+    page.turns.at_once()
+    assert name not in page.response.amplitude.names
+    rediagnosis.show(ShownDiagnosis(found, "", DiagnosisAsked(kept.controller.session)))
+    rediagnosis.forget()
+    page.turns.at_once()
+    assert name not in page.response.amplitude.names
 
 
 def test_a_fit_that_nothing_explains_says_so_wherever_it_is_drawn(qtbot, window, tmp_path):

@@ -63,6 +63,13 @@ def test_a_key_names_what_is_drawn(made):
     assert "\u25a0" in key.text()
 
 
+def test_no_line_of_a_key_begins_between_a_sign_and_its_name(made):
+    key = made(Key())
+    key.show_key([("foreseen", "faint", "- -")])
+    assert key.text().partition("</span>")[0].endswith(">\u2011&nbsp;\u2011")
+    assert key.text().endswith("</span>&nbsp;foreseen")
+
+
 def test_panes_are_drawn_in_turn_those_behind_the_last_first(made, qtbot):
     page = made(Key())
     panes, drawn = [made(Key()) for _ in range(3)], []

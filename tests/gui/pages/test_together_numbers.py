@@ -65,6 +65,13 @@ def test_each_file_has_its_points_in_order_and_the_fit_s_line():
     assert not one.far.any()
 
 
+def test_a_file_alone_has_its_name_though_its_result_says_none():
+    alone = identification(points=[point(20.0, 1) | {"file": None}])
+    assert alone.files is None
+    (one,) = fitted_files(alone, names=("plate.csv",))
+    assert one.title == "1 plate.csv"
+
+
 def test_segments_of_a_file_are_not_joined():
     fit = identification(points=[point(20.0, 1), point(90.0, 1, segment=2)], files=FILES)
     (one,) = fitted_files(fit)

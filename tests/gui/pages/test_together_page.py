@@ -148,6 +148,17 @@ def test_one_file_alone_is_identified_too(qtbot, page, masses):
     assert set(page.fit.plot.names) == {"1 light.csv", "1 light.csv, fitted"}
 
 
+def test_a_plate_s_file_alone_has_its_name_in_the_legend(qtbot, page, masses, results):
+    page.together.add(masses[:1])
+    qtbot.waitUntil(lambda: "..." not in page.chosen.table.texts(3))
+    found = results["identified"]
+    # A plate's result says no names where there is but one.
+    own = [p.but(file=None) for p in found.points if p.file == 1]
+    page.together.identified = found.but(files=None, points=own)
+    page.together.changed.emit()
+    assert set(page.fit.plot.names) == {"1 light.csv", "1 light.csv, fitted"}
+
+
 def test_a_file_that_is_written_anew_has_no_results_any_more(qtbot, chosen, results):
     together, said = chosen.together, []
     together.failed.connect(said.append)
