@@ -5,7 +5,7 @@ theta_x = dw/dy and theta_y = -dw/dx. In-plane displacements are bilinear, the d
 the twelve-term polynomial of Adini, Clough and Melosh. The core follows its faces: the
 interfaces are continuous, so its displacement and shear strain follow from the seven. Thin layers of glue
 beside the core carry its shear and nothing else; how far they slip, along x and y, is two degrees of freedom
-more, behind the seven.
+more, behind the seven. Faces that the core shears slip as glue does (`fitting.face_shear`).
 
 Source: the paper's Eq. (15) to (18), with the thickness restored in Eq. (16) and
 1/(1 - mu) in Eq. (17b).
@@ -16,15 +16,15 @@ from math import perm
 
 import numpy as np
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Complex
 from fitting.layers import Core, Face
 
 U_C, V_C, U_B, V_B, W, THETA_X, THETA_Y, G_X, G_Y = range(9)
-"""Places of a node's degrees of freedom: both faces in their plane, w, its slopes, slip of glue."""
+"""Places of a node's degrees of freedom: both faces in their plane, w, its slopes, slip beside the core."""
 DOFS = 7
 """Of a node."""
 WITH_GLUE = 9
-"""Of a node where glue slips."""
+"""Of a node where glue or sheared faces slip."""
 GLUE_TURNS = 1 / 3
 """Of the glue's mass: mean square of what moves with one side from 0 to the slip of the other."""
 CORNERS = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
@@ -230,6 +230,20 @@ def glue_stiffness(shape: Shape, over: Rectangles | None = None) -> Array:
         for dof in (G_X, G_Y):
             row = shape.inplane(dof, x, y)
             K += np.outer(row, row) * dA
+    return K
+
+
+def turned_sections(shape: Shape, face: Face, turn: complex, over: Rectangles | None = None) -> Complex:
+    """What bending a face takes where its sections turn by `turn` (1/m) of the slip, less where they do not.
+
+    Of faces whose own axes are turned their coupling is left out. Shape (36, 36).
+    """
+    D = face_plane_stress(face)
+    D[2, :2] = D[:2, 2] = 0.0
+    K = _square(shape).astype(complex)
+    for x, y, dA in gauss_points(shape, over):
+        B, turns = shape.bending(x, y), turn * shape.membrane(G_X, G_Y, x, y)
+        K += face.thickness_m**3 / 12 * ((B + turns).T @ D @ (B + turns) - B.T @ D @ B) * dA
     return K
 
 

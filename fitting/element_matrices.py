@@ -6,7 +6,8 @@ import numpy as np
 
 from fitting import element
 from fitting.arrays import Array, Complex
-from fitting.element import U_B, U_C, V_B, V_C, WITH_GLUE
+from fitting.element import U_B, U_C, V_B, V_C
+from fitting.face_shear import slip_of
 from fitting.mesh import Cell, Mesh
 from fitting.specimen import Specimen
 
@@ -20,7 +21,7 @@ class ElementMatrices:
     K_constraining: Array
     K_1: Array
     K_glue: Complex | float = 0.0
-    """Complex where it loses energy."""
+    """Of what slips beside the core; complex where it loses energy."""
     K_pulled: Array | float = 0.0
     """Of clamps on opposite edges that pull it along."""
 
@@ -47,7 +48,11 @@ def element_matrices(specimen: Specimen, mesh: Mesh, cell: Cell | None = None) -
     M = M + sides * element.core_mass(shape, s.core, s.substrate, s.constraining, over)
     K_c = sides * element.face_stiffness(shape, s.constraining, U_C, V_C, over)
     K_v = sides * element.core_stiffness(shape, s.core, s.substrate, s.constraining, over)
-    K_glue: Complex | float = 0.0
-    if mesh.dofs == WITH_GLUE:
-        K_glue = np.asarray(sides * s.core.glue_stiffness_pa_m * element.glue_stiffness(shape, over), complex)
+    K_glue = np.zeros(K_b.shape, complex)
+    if (slip := slip_of(s)) is not None:
+        K_glue += slip.stiffness_pa_m * element.glue_stiffness(shape, over)
+        faces = (s.substrate, 1, slip.turn_b), (s.constraining, sides, slip.turn_c)
+        for face, times, turn in faces if s.faces_shear else ():
+            lossy = times * (1 + 1j * face.loss_factor)
+            K_glue += lossy * element.turned_sections(shape, face, turn, over)
     return ElementMatrices(M, K_b, K_c, K_v, K_glue, K_pulled)

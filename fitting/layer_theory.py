@@ -3,26 +3,26 @@
     u_b = k U_b sin kx,  u_c = k U_c sin kx,  w = W cos kx
 
 The same strains and the same inertia as `fitting.element`, x along k: three degrees of freedom, exact on a
-simply supported plate. Taking k out of the in-plane motions leaves the stiffness as k^4 times a matrix of
+simply supported plate; a fourth where the core shears its faces (`fitting.face_shear`), the slip k S sin kx.
+Taking k out of the in-plane motions leaves the stiffness as k^4 times a matrix of
 order one. Source: the paper's Eq. (15) to (18).
 """
-
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.exact_layers import lowest
-from fitting.layers import Core, Face
+from fitting.face_shear import slip_of
+from fitting.layers import Core, Face, as_isotropic
 from fitting.specimen import Specimen
 
 _STEPS = 30
 """A bound for Newton's method."""
 _TOLERANCE = 1e-6
 """Last step of Newton in ln k, squared by the convergence."""
-_W, _B, _C = np.eye(3)
-"""Deflection and stretch of the two faces, the three unknowns of a wave."""
+_W, _B, _C, _S = np.eye(4)
+"""Deflection, stretch of the two faces, slip that the faces take: the unknowns of a wave."""
 
 
 def layerwise_lambda(specimen: Specimen, k: ArrayLike, G: ArrayLike = 0.0) -> Complex:
@@ -64,14 +64,6 @@ def _lambda_and_slope(specimen: Specimen, k: Array, G: NDArray[np.generic]) -> t
     return value * k**4, slope
 
 
-def as_isotropic(face: Face) -> Face:
-    """An orthotropic face's like, of Young's modulus sqrt(E_1 E_2) and the ratio sqrt(nu_12 nu_21)."""
-    if face.rolled is None:
-        return face
-    ratio = face.rolled.young_y_pa / face.young_pa
-    return replace(face, young_pa=face.young_pa * ratio**0.5, poisson=face.poisson * ratio**0.5, rolled=None)
-
-
 def _rigidity(face: Face) -> complex:
     return _plane(face) * face.thickness_m**3 / 12
 
@@ -83,20 +75,27 @@ def _plane(face: Face) -> complex:
 
 
 def _matrices(specimen: Specimen, G: Complex) -> tuple[Complex, Complex, Array, Array]:
-    """K = K_0 + K_shear/k^2 and M = M_0 + k^2 M_1 over W, U_b, U_c. Shapes (n, 3, 3), then (3, 3)."""
+    """K = K_0 + K_shear/k^2 and M = M_0 + k^2 M_1 over the unknowns. Shapes (n, 4, 4), then (4, 4)."""
     b, c, v = specimen.substrate, specimen.constraining, specimen.core
-    K_0 = np.zeros((len(G), 3, 3), dtype=complex)
+    K_0 = np.zeros((len(G), 4, 4), dtype=complex)
     K_shear = np.zeros_like(K_0)
-    M_0, M_1 = np.zeros((2, 3, 3))
+    M_0, M_1 = np.zeros((2, 4, 4))
     sides = 2 if specimen.both_sides else 1
-    for face, row, times in ((b, _B, 1), (c, _C, sides)):
-        # A bare plate keeps a third degree of freedom that moves by itself.
+    slip = slip_of(specimen) if specimen.faces_shear else None
+    turns = (slip.turn_b, slip.turn_c) if slip is not None else (0.0, 0.0)
+    for face, row, times, turn in ((b, _B, 1, turns[0]), (c, _C, sides, turns[1])):
+        # A bare plate keeps a degree of freedom that moves by itself.
         at = b if face is None else face
         K_0 += times * _plane(at) * at.thickness_m * np.outer(row, row)
         M_1 += times * at.density_kg_m3 * at.thickness_m * np.outer(row, row)
         if face is not None:
-            K_0 += times * _rigidity(face) * np.outer(_W, _W)
+            K_0 += times * _rigidity(face) * np.outer(_W + turn * _S, _W + turn * _S)
             M_0 += times * face.density_kg_m3 * face.thickness_m * np.outer(_W, _W)
+    if slip is not None:
+        K_shear += slip.stiffness_pa_m * np.outer(_S, _S)
+    else:
+        # Nothing slips, and nothing moves it.
+        K_0 += _plane(b) * b.thickness_m * np.outer(_S, _S)
     if v is not None and c is not None:
         # In a plate treated alike on both sides the substrate's middle does not stretch.
         U_b = 0 * _B if specimen.both_sides else _B
@@ -114,12 +113,15 @@ def _add_core(
     H_v, sides = v.thickness_m, 2 if specimen.both_sides else 1
     plane = sides * (2 * G / (1 - v.poisson))[:, None, None]
     N_10 = (_C - U_b - specimen.apart_m * _W) / H_v
-    # Of glue and core in series, as if all of it were the core's.
-    G = G / (1 + G / (H_v * v.glue_stiffness_pa_m)) if v.glue else G
+    if specimen.faces_shear:
+        N_10 = N_10 - _S / H_v
+    elif v.glue:
+        # Of glue and core in series, as if all of it were the core's.
+        G = G / (1 + G / (H_v * v.glue_stiffness_pa_m))
     K_0 += plane * (H_v * np.outer(N_8, N_8) + H_v**3 / 12 * np.outer(_W, _W))
     K_shear += sides * G[:, None, None] * H_v * np.outer(N_10, N_10)
 
 
 def _core_motion(b: Face, c: Face, U_b: Array) -> Array:
-    """N_8: the mean of the core's two interfaces, over W, U_b, U_c."""
+    """N_8: the mean of the core's two interfaces, over the unknowns."""
     return np.asarray((_C + U_b - (c.thickness_m - b.thickness_m) / 2 * _W) / 2)

@@ -1,6 +1,6 @@
 """What a specimen is made of: faces, glue and a core, in SI units. Frozen data only."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import sin
 
 from fitting.arrays import Array
@@ -75,6 +75,14 @@ class Glue:
     shear_pa: float
     density_kg_m3: float
     loss_factor: float = 0.0
+
+
+def as_isotropic(face: Face) -> Face:
+    """An orthotropic face's like, of Young's modulus sqrt(E_1 E_2) and the ratio sqrt(nu_12 nu_21)."""
+    if face.rolled is None:
+        return face
+    ratio = face.rolled.young_y_pa / face.young_pa
+    return replace(face, young_pa=face.young_pa * ratio**0.5, poisson=face.poisson * ratio**0.5, rolled=None)
 
 
 @dataclass(frozen=True)

@@ -70,7 +70,7 @@ class Mesh:
 
 def mesh_of(specimen: Specimen) -> Mesh:
     """Of a plate as stated."""
-    dofs = WITH_GLUE if specimen.has_glue else DOFS
+    dofs = WITH_GLUE if specimen.slips else DOFS
     return Mesh(specimen.length_m, specimen.width_m, *specimen.mesh, dofs)
 
 

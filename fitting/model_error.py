@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.mesh_error import SLIDING_FREQUENCY, SLIDING_LOSS, MeshError, beside_edges, mesh_error
+from fitting.mesh_error import MeshError, beside_edges, mesh_error
 from fitting.specimen import Specimen
 from fitting.theory_error import EDGE_FREQUENCY, EDGE_LOSS, theory_error
 
@@ -62,16 +62,16 @@ def model_error_at(
 ) -> ModelError:
     """Around some frequencies, the core's modulus there given. Shape (points,) each.
 
-    Not `of_mesh`: where what the mesh gets wrong is known otherwise.
+    Not `of_mesh`: where what the mesh gets wrong is taken off as far as a coarser one says it.
     """
     found = theory_error(specimen, frequency_hz, G)
     at = np.broadcast_to(np.asarray(G, dtype=complex), found.wavenumber.shape)
-    mesh, beside = MeshError(*np.zeros((4, len(at)))), np.zeros(len(at))
-    if of_mesh and set(specimen.edges) == {"simply-supported"}:
-        mesh = mesh_error(specimen, found.wavenumber, at)
-    elif of_mesh:
+    mesh, beside = MeshError(*np.zeros((4, len(at)))), (np.zeros(len(at)), np.zeros(len(at)))
+    if set(specimen.edges) != {"simply-supported"}:
         # A mode there is no sum of plain waves, and less off than they are: sliding faces are what counts.
-        beside = beside_edges(specimen, at)
+        beside = beside_edges(specimen, at, taken_off=not of_mesh)
+    elif of_mesh:
+        mesh = mesh_error(specimen, found.wavenumber, at)
     s = specimen
     layers = (s.substrate, s.core, s.constraining)
     thickness = sum(layer.thickness_m for layer in layers if layer is not None)
@@ -81,11 +81,11 @@ def model_error_at(
     return ModelError(
         frequency=_together(
             *(FREQUENCY, found.frequency_error, EDGE_FREQUENCY * edge),
-            *(mesh.frequency, mesh.frequency_by_way, SLIDING_FREQUENCY * beside),
+            *(mesh.frequency, mesh.frequency_by_way, beside[0]),
         ),
         loss=_together(
             *(LOSS, found.loss_factor_error, EDGE_LOSS * edge),
-            *(mesh.loss, mesh.loss_by_way, SLIDING_LOSS * beside),
+            *(mesh.loss, mesh.loss_by_way, beside[1]),
         ),
         modal_loss=found.loss_factor,
         signed=(found.frequency_error + mesh.frequency, found.loss_factor_error + mesh.loss),

@@ -32,6 +32,7 @@ from fitting.parts import (
     PATCHED,
     PATCHED_OFF_AXIS,
     PULLED,
+    SHEARED,
     STIFFNESS,
     W_TREATED,
     Names,
@@ -60,7 +61,7 @@ def element_parts(reference: Specimen, cell: Cell | None = None) -> tuple[Array,
         for rectangle in over or ():
             for to, more in zip((K_0, K_1, M), _treated(shape, names, rectangle), strict=True):
                 to += more
-    elif reference.has_glue:
+    elif reference.slips:
         K_0[names.K_0.index(GLUE)] = M[names.M.index(GLUE)] = glue_stiffness(shape)
     core, constraining = reference.core, reference.constraining
     if core is not None and constraining is not None:
@@ -86,6 +87,9 @@ def _all_over(shape: Shape, names: Names, turned: bool) -> tuple[Array, Array, A
         M[: len(MASS)] += dA * np.array(_inertia(r))
         if turned:
             K_0[few:most] += dA * np.array(_turned(r))
+        if SHEARED[0] in names.K_0:
+            first = names.K_0.index(SHEARED[0])
+            K_0[first : first + len(SHEARED)] += dA * np.array(_sheared(r))
         for a, name in PULLED.items():
             if name in names.K_0:
                 K_0[names.K_0.index(name)] += dA * _square(r[f"w_{a}"])
@@ -94,7 +98,11 @@ def _all_over(shape: Shape, names: Names, turned: bool) -> tuple[Array, Array, A
 
 def _of_treatment(names: Names) -> tuple[list[int], list[int]]:
     """Places of the treatment's parts in K_0 and M."""
-    of_K = [k for k, name in enumerate(names.K_0) if name.startswith(("stretch c", "bend c", GLUE))]
+    of_K = [
+        k
+        for k, name in enumerate(names.K_0)
+        if name.startswith(("stretch c", "bend c", GLUE)) or name in SHEARED
+    ]
     return of_K, [names.M.index(name) for name in (*MASS[2:], *names.M[len(MASS) :])]
 
 
@@ -109,6 +117,8 @@ def _treated(shape: Shape, names: Names, rectangle: Rectangle) -> tuple[Array, A
         inertia = _inertia(r)
         K_0[[at[n] for n in _STRETCH_C]] += dA * np.array(_membrane(r, "c"))
         K_0[[at[n] for n in PATCHED]] += dA * np.array(_bending(r))
+        if SHEARED[0] in at:
+            K_0[[at[n] for n in SHEARED]] += dA * np.array(_sheared(r))
         if turned:
             K_0[[at[n] for n in _STRETCH_C_TURNED]] += dA * np.array(_turned(r)[4:8])
             K_0[[at[n] for n in PATCHED_OFF_AXIS]] += dA * np.array(_bending_turned(r))
@@ -247,7 +257,12 @@ def _rows(shape: Shape, x: float, y: float) -> Rows:
                 shape.inplane(dof, x, y, dy=1),
             )
     if shape.dofs == WITH_GLUE:
-        found |= {"gx": shape.inplane(G_X, x, y), "gy": shape.inplane(G_Y, x, y)}
+        for name, dof in (("gx", G_X), ("gy", G_Y)):
+            found[name] = shape.inplane(dof, x, y)
+            found[f"{name}_x"], found[f"{name}_y"] = (
+                shape.inplane(dof, x, y, dx=1),
+                shape.inplane(dof, x, y, dy=1),
+            )
     return found
 
 
@@ -272,8 +287,24 @@ def _bending_turned(r: Rows) -> list[Array]:
     return [2 * _both(r["w_xx"], r["w_xy"]), 2 * _both(r["w_yy"], r["w_xy"])]
 
 
+def _sheared(r: Rows) -> list[Array]:
+    """`SHEARED`."""
+    turns = [
+        _both(r["w_xx"], r["gx_x"]),
+        _both(r["w_yy"], r["gy_y"]),
+        _both(r["w_yy"], r["gx_x"]),
+        _both(r["w_xx"], r["gy_y"]),
+        2 * _both(r["w_xy"], r["gx_y"]),
+        2 * _both(r["w_xy"], r["gy_x"]),
+    ]
+    return [*turns, *_stretching(*(r[f"g{u}_{d}"] for u in "xy" for d in "xy"))]
+
+
 def _membrane(r: Rows, layer: str) -> list[Array]:
-    u_x, u_y, v_x, v_y = (r[f"{name}{layer}_{d}"] for name in "uv" for d in "xy")
+    return _stretching(*(r[f"{name}{layer}_{d}"] for name in "uv" for d in "xy"))
+
+
+def _stretching(u_x: Array, u_y: Array, v_x: Array, v_y: Array) -> list[Array]:
     return [_square(u_x), _square(v_y), _both(u_x, v_y), _square(u_y), _square(v_x), _both(u_y, v_x)]
 
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.element import DOFS, GLUE_TURNS, THETA_X, THETA_Y, face_plane_stress
+from fitting.face_shear import slip_of
 from fitting.laws.constant import ConstantModulus
 from fitting.layers import Core, Face, Glue, Orthotropy
 from fitting.mesh import is_turned
@@ -43,6 +44,11 @@ PATCHED = tuple(f"bend c {t}" for t in _BENDING)
 PATCHED_OFF_AXIS = tuple(f"bend c {t}" for t in _BENDING_TURNED)
 """Where not all of the plate is treated: `bend` is then the substrate's alone."""
 W_TREATED, GLUE = "w treated", "glue"
+SHEARED = (
+    *(f"turn {t}" for t in ("11", "22", "12 x", "12 y", "66 x", "66 y")),
+    *(f"section {t}" for t in _MEMBRANE),
+)
+"""Of faces that the core shears, behind `GLUE`: curvature with the turn of their sections, and that alone."""
 PULLED = {"x": "pull x", "y": "pull y"}
 """Along clamps on opposite edges."""
 _AXES = ("young_y_pa", "shear_pa", "angle_rad")
@@ -76,8 +82,8 @@ def names_of(specimen: Specimen) -> Names:
     if specimen.patches:
         K_0 += PATCHED + (PATCHED_OFF_AXIS if turned else ())
         M += (W_TREATED,)
-    if specimen.has_glue:
-        K_0 += (GLUE,)
+    if specimen.slips:
+        K_0 += (GLUE, *SHEARED) if specimen.faces_shear else (GLUE,)
         M += (GLUE,)
     K_0 += tuple(PULLED[a] for a in specimen.pulled_along)
     shifts = tuple(shift.name for shift in shifts_of(specimen))
@@ -208,10 +214,13 @@ def _of_faces(specimen: Specimen, reference: Specimen, sides: _Sides) -> list[Co
 
 
 def _of_glue_and_pull(specimen: Specimen, reference: Specimen, sides: _Sides) -> list[Complex | Array]:
-    """`GLUE` where it slips, `PULLED` along clamps on opposite edges."""
+    """`GLUE` where it or the faces slip, then `SHEARED`, `PULLED` along clamps on opposite edges."""
     found: list[Complex | Array] = []
-    if reference.has_glue and specimen.core is not None:
-        found += [np.array([_treated_sides(specimen) * specimen.core.glue_stiffness_pa_m])]
+    if (slip := slip_of(specimen)) is not None:
+        found += [np.array([slip.stiffness_pa_m])]
+        if reference.faces_shear:
+            b, c, twice = specimen.substrate, specimen.constraining, _treated_sides(specimen)
+            found += [_turn(b, slip.turn_b, sides) + twice * _turn(c, slip.turn_c, sides)]
     pulled = zip(specimen.axial_pa, (sides.rx, sides.ry), strict=True)
     found += [np.array([p * specimen.pulled_thickness_m * r**2]) for p, r in pulled if p is not None]
     return found
@@ -252,7 +261,7 @@ def _of_inertia(specimen: Specimen, reference: Specimen, sides: _Sides) -> Array
     )
     if reference.patches:
         M = np.append(M, mass.treated * sides.area)
-    if reference.has_glue:
+    if reference.slips:
         M = np.append(M, GLUE_TURNS * mass.glue * sides.area)
     return M
 
@@ -267,13 +276,13 @@ def layers_of(specimen: Specimen) -> Array:
 
     Zero where a layer is missing or has no such number. Shape (3, 5). What few plates have besides is behind:
     own axes of a face in three columns more, then rows of two layers of glue, of whether both sides are
-    treated and how clamps pull, and of patches. Shape (6 + patches, 8).
+    treated, how clamps pull and whether faces shear, and of patches. Shape (6 + patches, 8).
     """
     s = specimen
     each = (s.substrate, s.constraining, s.core)
     plain = np.array([[getattr(layer, name, 0.0) for name in _LAYER] for layer in each])
     axes = [face.rolled for face in (s.substrate, s.constraining) if face is not None]
-    if not (any(axes) or s.patches or s.both_sides or s.has_glue or s.pulled_along):
+    if not (any(axes) or s.patches or s.both_sides or s.slips or s.pulled_along):
         return plain
     found = np.zeros((_ROWS + len(s.patches), len(_LAYER) + len(_AXES)))
     found[: len(each), : len(_LAYER)] = plain
@@ -285,6 +294,7 @@ def layers_of(specimen: Specimen) -> Array:
     found[_ROWS - 1, 0] = s.both_sides
     found[_ROWS - 1, 1:3] = ["x" in s.pulled_along, "y" in s.pulled_along]
     found[_ROWS - 1, 3:5] = [stress or 0.0 for stress in s.axial_pa]
+    found[_ROWS - 1, 5] = s.faces_shear
     for row, patch in enumerate(s.patches, _ROWS):
         found[row, : len(_PATCH)] = [getattr(patch, name) for name in _PATCH]
     return found
@@ -302,7 +312,8 @@ def specimen_of(size: Array, layers: Array) -> Specimen:
     )
     thickness, _, poisson, density, _ = layers[2, :n].tolist()
     length, width, n_x, n_y = size.tolist()
-    both, by_x, by_y, x_pa, y_pa = layers[_ROWS - 1, :5].tolist() if len(layers) >= _ROWS else [0.0] * 5
+    few = layers[_ROWS - 1, :6].tolist() if len(layers) >= _ROWS else [0.0] * 6
+    both, by_x, by_y, x_pa, y_pa, faces_shear = few
     axial = x_pa if by_x else None, y_pa if by_y else None
     plain = Specimen(length, width, "free", substrate, elements=(int(n_x), int(n_y)), axial_pa=axial)
     if not thickness:
@@ -314,6 +325,7 @@ def specimen_of(size: Array, layers: Array) -> Specimen:
         constraining=constraining,
         core=core,
         both_sides=bool(both),
+        faces_shear=bool(faces_shear),
         patches=tuple(Patch(*row[: len(_PATCH)]) for row in layers[_ROWS:].tolist()),
     )
 
@@ -348,6 +360,19 @@ def _stretch(face: Face | None, rx: float, ry: float) -> NDArray[np.complex128]:
     Q_11, Q_22, Q_12, Q_66 = _plane_stress(face)
     parts = np.array([Q_11 * rx**2, Q_22 * ry**2, Q_12 * rx * ry, Q_66 * ry**2, Q_66 * rx**2, Q_66 * rx * ry])
     return np.asarray((1 + 1j * face.loss_factor) * face.thickness_m * parts)
+
+
+def _turn(face: Face | None, turn: complex, sides: _Sides) -> Complex:
+    """Of `SHEARED`. Shape (12,)."""
+    if face is None:
+        return np.zeros(len(SHEARED), complex)
+    Q_11, Q_22, Q_12, Q_66 = _plane_stress(face)
+    rx, ry = sides.rx, sides.ry
+    curved = [Q_11 * rx**3, Q_22 * ry**3, Q_12 * rx * ry**2, Q_12 * rx**2 * ry, Q_66 * rx * ry**2]
+    curved += [Q_66 * rx**2 * ry]
+    alone = np.array([Q_11 * rx**2, Q_22 * ry**2, Q_12 * rx * ry, Q_66 * ry**2, Q_66 * rx**2, Q_66 * rx * ry])
+    bend = (1 + 1j * face.loss_factor) * face.thickness_m**3 / 12
+    return np.asarray(bend * np.concatenate([-turn * np.array(curved), turn**2 * alone]), complex)
 
 
 def _stretch_turned(face: Face | None, rx: float, ry: float) -> NDArray[np.complex128]:

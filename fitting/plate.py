@@ -16,6 +16,7 @@ from fitting.edge_twist import EdgeTwist
 from fitting.element import G_X, G_Y, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
 from fitting.element_matrices import element_matrices
 from fitting.errors import OutsideModel
+from fitting.face_shear import edge_twist_left
 from fitting.mesh import cells_of, mesh_of, treated_nodes
 from fitting.specimen import Specimen
 
@@ -119,7 +120,7 @@ class Plate:
         faces = self.K_substrate + self.K_constraining
         if loss_b or loss_c:
             faces = faces + 1j * (loss_b * self.K_substrate + loss_c * self.K_constraining)
-        if s.has_glue:
+        if s.slips:
             faces = faces + _sum([self.scatter(np.asarray(e.K_glue), of) for of, e in each])
         if any(s.axial_pa):
             faces = faces + _sum([self.scatter(np.asarray(e.K_pulled), of) for of, e in each])
@@ -156,9 +157,12 @@ class Plate:
             # The rotations are w_y and -w_x.
             own, other = (self._turns(nodes, dof) for dof in (across, THETA_X + THETA_Y - across))
             lost = [EdgeTwist.of(face, along_x=across == THETA_X) for face in faces]
+            side = a if across == THETA_Y else b
+            left = [edge_twist_left(face, side) if s.faces_shear else 1.0 for face in faces]
             for coupling in dict.fromkeys(e.coupling for e in lost):
                 turn = own - coupling * other
-                stiffness = sum(e.stiffness for e in lost if e.coupling == coupling)
+                each = zip(lost, left, strict=True)
+                stiffness = sum(e.stiffness * share for e, share in each if e.coupling == coupling)
                 found = found + stiffness / step * (turn.T @ turn)
         return sp.csr_array(found[self.free][:, self.free])
 

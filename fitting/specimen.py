@@ -147,6 +147,8 @@ class Specimen(Driven):
     """The same treatment on the other side too: in bending the substrate's middle then does not stretch."""
     axial_pa: tuple[float | None, float | None] = (None, None)
     """Stress in its faces along x and along y; zero is filled in where clamps on opposite edges may pull."""
+    faces_shear: bool = False
+    """Whether it is counted that the core shears its faces across their thickness (`fitting.face_shear`)."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "boundary", named(self.boundary))
@@ -257,6 +259,11 @@ class Specimen(Driven):
         return self.core is not None and bool(self.core.glue)
 
     @property
+    def slips(self) -> bool:
+        """Whether glue or its faces take part in the slip."""
+        return self.has_glue or (self.core is not None and self.faces_shear)
+
+    @property
     def edges(self) -> Edges:
         """How each edge is held."""
         return edges_of(self.boundary)
@@ -281,7 +288,8 @@ class Specimen(Driven):
     @property
     def bare(self) -> "Specimen":
         """The same plate before its damping treatment."""
-        return replace(self, constraining=None, core=None, patches=(), both_sides=False, masses=())
+        without = replace(self, constraining=None, core=None, patches=(), both_sides=False, masses=())
+        return replace(without, faces_shear=False)
 
     def with_law(self, law: CoreLaw) -> "Specimen":
         """The same plate with another core law. Raises `ValueError` for a bare one."""

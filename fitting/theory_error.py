@@ -22,8 +22,8 @@ from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
 from fitting.exact_layers import ElasticLayer, exact_lambda
 from fitting.laws import CoreLaw
-from fitting.layer_theory import as_isotropic, layerwise_lambda, wavenumber
-from fitting.layers import Face, Glue
+from fitting.layer_theory import layerwise_lambda, wavenumber
+from fitting.layers import Face, Glue, as_isotropic
 from fitting.specimen import Specimen
 
 FREQUENCY_LIMIT = 5e-3
@@ -204,9 +204,9 @@ def stack(specimen: Specimen, G: ArrayLike = 0.0) -> tuple[ElasticLayer, ...]:
 
 def held_stack(specimen: Specimen, G: ArrayLike = 0.0) -> tuple[ElasticLayer, ...]:
     """The same layers with all assumptions held but that of a linear core."""
-    faces = _faces(specimen)
+    stiff = set() if specimen.faces_shear else _faces(specimen)
     return tuple(
-        replace(x, stretches=False, shears=i not in faces, turns=False)
+        replace(x, stretches=False, shears=i not in stiff, turns=False)
         for i, x in enumerate(stack(specimen, G))
     )
 
@@ -262,12 +262,11 @@ def _worst_assumption(specimen: Specimen, k: Array, G: Complex) -> Assumption:
         return float(_excess(*_errors(exact_lambda(held, k, _QUICK_ORDER), exact))[0])
 
     faces, core = _faces(specimen), _cores(specimen)
-    made = {
-        FACES_STIFF_IN_SHEAR: made_by(
+    made = {NO_ROTARY_INERTIA: made_by(tuple(replace(x, turns=False) for x in layers))}
+    if not specimen.faces_shear:
+        made[FACES_STIFF_IN_SHEAR] = made_by(
             tuple(replace(x, shears=False) if i in faces else x for i, x in enumerate(layers))
-        ),
-        NO_ROTARY_INERTIA: made_by(tuple(replace(x, turns=False) for x in layers)),
-    }
+        )
     if specimen.core is not None:
         made[FACES_TOGETHER] = made_by(
             tuple(replace(x, stretches=False) if i in core else x for i, x in enumerate(layers))

@@ -25,7 +25,7 @@ from instrument.models.remarks import (
     remarks_on_tolerances,
 )
 from instrument.models.set_up import Hammer, set_up
-from instrument.models.theory import theory_over, theory_remark
+from instrument.models.theory import stiffer_than_stated, theory_over, theory_remark
 from instrument.progress import Progress, quiet
 
 
@@ -136,6 +136,7 @@ def diagnose(
         *remarks_on_clamps(specimen),
         *remarks_on_damping(specimen, tested=hammer is not None),
     )
+    further += tuple(filter(None, [stiffer_than_stated(specimen, result.after.law, sweep.frequency_hz)]))
     before = theory_remark(specimen, result.before.law, sweep.frequency_hz)
     if before:
         further += (f"before, without any effect, the law is outside the theory: {before}",)

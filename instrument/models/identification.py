@@ -20,6 +20,7 @@ from instrument.models.methods import DirectMethod, IdentificationMethod, Joint,
 from instrument.models.quick_look import remarks_on_reading
 from instrument.models.remarks import remarks_on_law, remarks_on_noise, remarks_on_strays
 from instrument.models.set_up import Hammer
+from instrument.models.theory import stiffer_than_stated
 from instrument.progress import Progress, quiet
 
 Method = Literal["direct", "paper"]
@@ -92,6 +93,7 @@ def identify(
         way.widen(fit.law)
     further += (*way.remarks_on(fit), *words_of_stretches(sweep, way.parts()))
     theory = way.theory(fit)
+    further += tuple(filter(None, [stiffer_than_stated(specimen, fit.law, f)]))
     began = perf_counter()
     with threadpool_limits(1, "blas"), progress("validating") as report:
         validation = way.validated(fit, report)

@@ -9,7 +9,7 @@ from fitting.complex_modes import complex_modes
 from fitting.laws.constant import ConstantModulus
 from fitting.layer_theory import layerwise_lambda
 from fitting.layers import Core, Face, Glue, Orthotropy
-from fitting.mesh_error import mesh_error
+from fitting.mesh_error import beside_edges, fine_enough, mesh_error
 from fitting.model_error import FREQUENCY, model_error_at
 from fitting.plate import Plate
 from fitting.specimen import Specimen
@@ -119,3 +119,20 @@ def test_edges_of_a_stiff_core_are_counted_as_they_are(G):
     if G > 1e8:
         assert off > FREQUENCY
         assert np.all(said.frequency**2 > plain.frequency**2 + FREQUENCY**2)
+
+
+def test_a_stiff_core_asks_for_smaller_elements(zn1):
+    assert fine_enough(zn1, 1e6) is None
+    assert fine_enough(zn1.bare, 1e6) is None
+    n_x, n_y = zn1.mesh
+    assert fine_enough(zn1, 1e12) == (2 * n_x, 2 * n_y)
+    some = next(m for m in np.geomspace(1e6, 1e12, 61) if fine_enough(zn1, m) is not None)
+    assert fine_enough(zn1, some)[0] <= 1.15 * n_x
+
+
+def test_what_is_left_beside_edges_is_less_where_a_coarser_mesh_tells(zn1):
+    G = np.array([1e6, 1e10], complex)
+    whole, left = beside_edges(zn1, G), beside_edges(zn1, G, taken_off=True)
+    for all_of_it, rest in zip(whole, left, strict=True):
+        assert rest[0] < 0.1 * all_of_it[0]
+        assert rest[1] > 0.5 * all_of_it[1]

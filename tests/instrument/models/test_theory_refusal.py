@@ -19,10 +19,11 @@ from instrument.models.diagnosis import diagnose
 from instrument.models.identification import identify
 from instrument.models.methods import DirectMethod, Task
 from instrument.models.specimen_models import Models
-from instrument.models.theory import check_each_theory, theory_remark
+from instrument.models.theory import check_each_theory, stiffer_than_stated, theory_remark
 from instrument.paper_case import case_file
 from instrument.progress import quiet
 from instrument.results.identification_from import identification_from
+from tests.rig_plate import plate_of_the_rig
 
 F = np.concatenate([np.linspace(a, b, 12) for a, b in ((14, 24), (80, 110), (230, 290))])
 SEGMENT = np.repeat([1, 2, 3], 12)
@@ -164,3 +165,12 @@ def test_a_core_of_a_beam_that_stretches_is_said_with_where_it_begins(tmp_path):
 def test_a_beam_whose_core_stretches_everywhere_is_refused(tmp_path):
     with pytest.raises(OutsideModel, match="beam theory at"):
         notes_of(a_beam(tmp_path, thicker=3.0), 1e4, from_hz=1000.0)
+
+
+def test_a_core_that_turns_out_stiffer_than_stated_is_said_to_shear_its_faces():
+    plate, f = plate_of_the_rig(), np.array([20.0, 280.0])
+    assert stiffer_than_stated(plate, ConstantModulus(1e6, 0.5), f) == ""
+    said = stiffer_than_stated(plate, ConstantModulus(2e8, 0.0), f)
+    assert said.startswith("core of 200 MPa: its faces take ")
+    assert "expected the law found in [core.law]" in said
+    assert stiffer_than_stated(replace(plate, faces_shear=True), ConstantModulus(2e8, 0.0), f) == ""
