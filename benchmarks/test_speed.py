@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
-from fitting.direct import displacement_direct
+from fitting.dynamics.direct import displacement_direct
 from instrument.campaign.bench import GRID_HZ, synthetic_sweep
 from instrument.files.specimen_file import read_specimen
 from instrument.models.diagnosis import diagnose

@@ -3,15 +3,18 @@
 Arrays and small frozen dataclasses in, the same out: no file, no screen, and no clock but one that times the
 posterior. Where to begin:
 
-    specimen.py, sweep.py   what is given: a stated specimen, measured points, in SI units
-    plate.py, reduced.py    the plate's matrices, and the small model that is fitted instead
-    structures/             beams and shear pairs, as matrices of the same equation
-    laws/                   formulas for G*(omega), one file each
-    identification/         a law from a sweep
-    diagnosis/, effects/    what a fit cannot explain, and the causes that are tried
-    tolerances.py, nuisances.py   stated numbers, and what they change as unknowns of a fit
-    mode_tables/, temperature/    modes instead of sweeps; several temperatures
-    planning/               what a measurement would teach
+    specimen.py, sweep.py       what is given: a stated specimen, measured points, in SI units
+    stated/, data/              what a specimen is made of; which readings count, and how noisy they are
+    laws/                       formulas for G*(omega), one file each
+    plate/, dynamics/           the plate's matrices; its modes, damping and response in full
+    reduced/, discrepancy/      the small model that is fitted instead; how wrong the plate's theory is
+    structures/                 beams and shear pairs, as matrices of the same equation
+    nuisances/                  stated numbers as unknowns of a fit
+    identification/             a law from a sweep, or G* without one
+    diagnosis/, effects/        what a fit cannot explain, and the causes that are tried
+    mode_tables/, temperature/  modes instead of sweeps; several temperatures
+    planning/, depth/           what a measurement would teach; intervals beyond the linear errors
+    modal/                      damping read off an FRF
 
-ARCHITECTURE.md has all of it.
+ARCHITECTURE.md has all of it, and which folder uses which.
 """

@@ -7,12 +7,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, Protocol
 
-from fitting.edges import Edges, edges_of, named
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
-from fitting.layers import Core, Face, Glue, Orthotropy
-from fitting.patches import OF_PATCHES, Patch, shift_of
-from fitting.tolerances import OF_OWN_AXES, StatedNumber, StatedValue, number_of
+from fitting.stated.edges import Edges, edges_of, named
+from fitting.stated.layers import Core, Face, Glue, Orthotropy
+from fitting.stated.patches import OF_PATCHES, Patch, shift_of
+from fitting.stated.tolerances import OF_OWN_AXES, StatedNumber, StatedValue, number_of
 
 Reading = Literal["relative", "absolute"]
 Drive = Literal["base", "force"]
@@ -63,7 +63,7 @@ class StatedSpecimen(Protocol):
 
     @property
     def tolerances(self) -> Mapping[str, float]:
-        """As named (`fitting.tolerances`)."""
+        """As named (`fitting.stated.tolerances`)."""
 
     @property
     def exact(self) -> bool:
@@ -118,7 +118,7 @@ class Specimen(Driven):
     length_m: float
     width_m: float
     boundary: str
-    """By name or edge by edge (`fitting.edges`); kept by its name where it has one."""
+    """By name or edge by edge (`fitting.stated.edges`); kept by its name where it has one."""
     substrate: Face
     constraining: Face | None = None
     core: Core | None = None
@@ -135,8 +135,8 @@ class Specimen(Driven):
     reads: Reading = "relative"
     base_acceleration_m_s2: float = PUBLISHED_G_M_S2
     tolerances: Mapping[str, float] = field(default_factory=dict, hash=False)
-    """Standard deviations of stated numbers (`fitting.tolerances`): relative, m or s. Not named: typical
-    ones."""
+    """Standard deviations of stated numbers (`fitting.stated.tolerances`): relative, m or s. Not named:
+    typical ones."""
     exact: bool = False
     """Everything stated is exact: a simulation of this very plate, or a published case."""
     elements: tuple[int, int] | None = None
@@ -148,7 +148,7 @@ class Specimen(Driven):
     axial_pa: tuple[float | None, float | None] = (None, None)
     """Stress in its faces along x and along y; zero is filled in where clamps on opposite edges may pull."""
     faces_shear: bool = False
-    """Whether it is counted that the core shears its faces across their thickness (`fitting.face_shear`)."""
+    """Whether it is counted that the core shears its faces across their thickness (`plate.face_shear`)."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "boundary", named(self.boundary))

@@ -3,12 +3,12 @@
 import numpy as np
 
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core, Face
 from fitting.mode_tables.build import member_of
 from fitting.mode_tables.explaining import Explaining
 from fitting.mode_tables.fit import begin_modal, start_of
 from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.table import ModalTable
+from fitting.stated.layers import Core, Face
 from fitting.structures.beam import Beam
 from fitting.structures.small import system_of
 from fitting.structures.small_modes import small_modes

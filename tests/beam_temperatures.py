@@ -8,8 +8,8 @@ import numpy as np
 from layered_beam import Sandwich
 
 from fitting.laws.fractional_zener import FractionalZener
-from fitting.layers import Core, Face
 from fitting.mode_tables.table import ModalTable
+from fitting.stated.layers import Core, Face
 from fitting.structures.beam import Beam
 from instrument.models.members import AtTemperature
 

@@ -14,14 +14,15 @@ import warm_processes
 from hypothesis import settings
 from plugin_sites import describe
 
-from fitting import model_error, plugins
-from fitting.domain import domain_of
+from fitting import plugins
+from fitting.discrepancy import model_error
+from fitting.discrepancy.mesh_error import MeshError
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
-from fitting.layers import Core, Face
-from fitting.mesh_error import MeshError
-from fitting.plate import Plate
+from fitting.plate.plate import Plate
+from fitting.reduced.domain import domain_of
 from fitting.specimen import Specimen
+from fitting.stated.layers import Core, Face
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.other_processes import VARIABLE as PROCESSES

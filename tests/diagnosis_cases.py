@@ -3,7 +3,7 @@
 import numpy as np
 from conftest import TABLE_4
 
-from fitting.aside import reasons
+from fitting.data.aside import reasons
 from fitting.diagnosis.verdict.result import Candidate, Diagnosis, FoundEffect, ParameterEstimate, Stage
 from fitting.identification.result import law_band
 from fitting.identification.uncertainty import Uncertainty

@@ -3,18 +3,18 @@
 import numpy as np
 import scipy.sparse as sp
 
-from fitting.damping import viscous_damping
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.response.sweep_response import SweepResponse
-from fitting.direct import solve_direct
-from fitting.domain import domain_of
+from fitting.dynamics.damping import viscous_damping
+from fitting.dynamics.direct import solve_direct
 from fitting.effects.added_mass import PointMass
 from fitting.effects.amplitude_softening import CoreStrain
 from fitting.effects.enriching import enriched
 from fitting.effects.full_plate import FullPlate
-from fitting.plate import Plate
-from fitting.rational import rational_sweep
-from fitting.reduced import reduce_plate
+from fitting.plate.plate import Plate
+from fitting.reduced.domain import domain_of
+from fitting.reduced.rational import rational_sweep
+from fitting.reduced.reduced_plate import reduce_plate
 from fitting.sweep import Sweep
 
 F_HZ = np.array([31.0, 58.0, 104.0, 161.0, 247.0])

@@ -10,17 +10,17 @@ from functools import cache
 
 import numpy as np
 
-from fitting.bent_law import LOSS, REACH, STORAGE
-from fitting.damping import viscous_damping
 from fitting.diagnosis.inference.whitening import SHARE
-from fitting.direct import displacement_direct
+from fitting.discrepancy.model_error import DRIFT, GAIN, model_error_at
+from fitting.dynamics.damping import viscous_damping
+from fitting.dynamics.direct import displacement_direct
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
+from fitting.laws.bent_law import LOSS, REACH, STORAGE
 from fitting.laws.fractional_zener import FractionalZener
-from fitting.layers import Core, Face
-from fitting.model_error import DRIFT, GAIN, model_error_at
-from fitting.plate import Plate
-from fitting.plate_numbers import moved, plate_numbers, tolerance
+from fitting.plate.plate import Plate
+from fitting.plate.plate_numbers import moved, plate_numbers, tolerance
 from fitting.specimen import Specimen
+from fitting.stated.layers import Core, Face
 from fitting.sweep import Sweep
 from instrument.campaign.materials import draw_material
 

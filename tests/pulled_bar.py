@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.optimize import brentq
 
-from fitting.layers import Face
+from fitting.stated.layers import Face
 
 LENGTH_M, THICKNESS_M = 0.28, 2e-3
 FACE = Face(THICKNESS_M, 70e9, 0.3, 2700.0)

@@ -10,8 +10,8 @@ import numpy as np
 from conftest import TABLE_4
 from impact_cases import TABLE_3, clean_hit
 
-from fitting.bare_modes import bare_modes
-from fitting.plate import Plate
+from fitting.dynamics.bare_modes import bare_modes
+from fitting.plate.plate import Plate
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.rig_file import RigDocument
 from instrument.files.specimen_file import SpecimenDocument, specimen_of

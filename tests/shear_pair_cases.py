@@ -3,7 +3,7 @@
 import numpy as np
 
 from fitting.laws import LAWS
-from fitting.layers import Core
+from fitting.stated.layers import Core
 from fitting.structures.shear_pair import ShearPair, disc
 from fitting.sweep import Sweep
 

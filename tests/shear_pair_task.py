@@ -2,6 +2,7 @@
 
 from shear_pair_cases import pair, sweep
 
+from fitting.data.noise import noise_of
 from fitting.diagnosis.diagnose import diagnose_task
 from fitting.diagnosis.executor import ALONE
 from fitting.diagnosis.inference.begin import begin
@@ -9,7 +10,6 @@ from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.diagnosis.search.candidate_fits import CandidateFits
 from fitting.diagnosis.search.catalogue_search import Search
 from fitting.effects import CATALOGUE
-from fitting.noise import noise_of
 
 PAIR = pair(0.2533)
 GAIN, MASS, LAW = (CATALOGUE[name].standing_on(PAIR) for name in ("gain_error", "added_mass", "core_law"))

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import shear_pair_cases as cases
 
+from fitting.data.noise import Noise, noise_of
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.problem.small_problem import SmallProblem
-from fitting.noise import Noise, noise_of
 from fitting.temperature.joint import TemperatureProblem, fit_shifted
 from fitting.temperature.shifted_law import ShiftedLaw
 from fitting.temperature.shifts import Shift

@@ -6,14 +6,14 @@ import numpy as np
 import scipy.sparse as sp
 import scipy.sparse.linalg as sla
 
-from fitting.damping import viscous_damping
 from fitting.diagnosis.problem.plate_answer import answer
-from fitting.domain import domain_of
+from fitting.dynamics.damping import viscous_damping
 from fitting.effects import CATALOGUE
 from fitting.effects.enriching import enriched
 from fitting.effects.full_plate import FullPlate
-from fitting.plate import Plate
-from fitting.reduced import reduce_plate
+from fitting.plate.plate import Plate
+from fitting.reduced.domain import domain_of
+from fitting.reduced.reduced_plate import reduce_plate
 from instrument.files.specimen_file import read_specimen
 from instrument.paper_case import case_file
 

@@ -1,7 +1,7 @@
 """A simply supported sandwich of aluminium, struck at a point and read at another; exact."""
 
-from fitting.layers import Core, Face
 from fitting.specimen import Specimen
+from fitting.stated.layers import Core, Face
 
 ALUMINIUM = (70e9, 0.33, 2700.0)
 

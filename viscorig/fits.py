@@ -4,7 +4,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import NamedTuple, TypeVar
 
-from fitting.pointwise import phase_is_kept
+from fitting.identification.pointwise import phase_is_kept
 from fitting.specimen import Specimen as Model
 from fitting.sweep import Sweep as Points
 from instrument.errors import BadInput

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from fitting.chances import Z_95
+from fitting.numerics.chances import Z_95
 from instrument.facts.diagnosis import PointLeft, StageName
 from instrument.facts.rows import PointSetAside
 from instrument.results.drawing import DATA, MARK, MODEL, TWO_STD, label, legend, mark_set_aside

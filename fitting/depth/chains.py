@@ -12,7 +12,7 @@ from fitting.arrays import Array
 
 def r_hat(chains: Array) -> float:
     """Of one quantity. Shape (chains, steps)."""
-    # Loaded where it is needed, as in hum.py: a sixth of the start of every process.
+    # Loaded where it is needed, as in data/hum.py: a sixth of the start of every process.
     from scipy.stats import rankdata
 
     half = chains.shape[1] // 2

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.chances import Z_95
 from fitting.depth.quantities import Quantities
+from fitting.numerics.chances import Z_95
 
 LEVELS = {68: 1.0, 95: Z_95}
 """Percent, and how many standard deviations a normal distribution has there."""

@@ -13,9 +13,9 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.depth.task import DepthTask
-from fitting.moved_plate import moved_plate
-from fitting.rational import RationalSweep, rational_sweep
-from fitting.reduced import ReducedPlate
+from fitting.nuisances.moved_plate import moved_plate
+from fitting.reduced.rational import RationalSweep, rational_sweep
+from fitting.reduced.reduced_plate import ReducedPlate
 
 _BLOCK = 64
 """Sets of unknowns worked out in one call: a choice between calls and memory."""

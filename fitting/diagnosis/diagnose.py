@@ -5,7 +5,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fitting.aside import Reasons, reasons
+from fitting.data.aside import Reasons, reasons
+from fitting.data.noise import Noise, noise_of
 from fitting.diagnosis.checks.overstated_noise import is_overstated, with_noise_of_left
 from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.inference.begin import begin
@@ -26,9 +27,8 @@ from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
-from fitting.noise import Noise, noise_of
 from fitting.progress import Report, unheard
-from fitting.reduced import ReducedPlate
+from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.sweep import Sweep
 
 _BEYOND = 0.005

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 import numpy as np
 import scipy.sparse as sp
 
-from fitting.air import StillAir, still_air
 from fitting.arrays import Array, Complex
+from fitting.dynamics.air import StillAir, still_air
 from fitting.effects.base import PLATE_AND_BEAM, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -42,7 +42,7 @@ class AirAddedMassEffect(Effect):
     name = "air_added_mass"
     enters = "mass"
     structures = PLATE_AND_BEAM
-    source = "potential flow about an unbaffled plate, `fitting.air`"
+    source = "potential flow about an unbaffled plate, `fitting.dynamics.air`"
     parameters = (
         EffectParameter("density", "kg/m^3", 0.0, 3.0, 1.2, spread=1.2),
         EffectParameter("bare_plate_too", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),

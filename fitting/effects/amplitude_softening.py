@@ -14,7 +14,7 @@ from fitting.effects.full_plate import FullPlate
 from fitting.effects.given import ModulusAt, Points, Strain
 from fitting.effects.kraus import HALF, Kraus, strained
 from fitting.effects.span import Span
-from fitting.element import core_shear_stiffness
+from fitting.plate.element import core_shear_stiffness
 
 _LEVELS = 1.2
 """Of the largest force over the least: over less, strain is a function of frequency, as the law is."""

@@ -12,7 +12,7 @@ from fitting.effects.given import Points
 from fitting.effects.number_off import moved
 from fitting.effects.other_plates import changed_to, forces
 from fitting.effects.span import Span
-from fitting.plate_numbers import moved as restated
+from fitting.plate.plate_numbers import moved as restated
 from fitting.specimen import Specimen
 
 _STRESSES_PA = (-3e6, 20e6)

@@ -17,12 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
+from fitting.data.noise import Noise
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import BarePlateModes, ModulusAt, Points
 from fitting.effects.span import Span
 from fitting.laws import CoreLaw
-from fitting.noise import Noise
 from fitting.specimen import StatedSpecimen
 from fitting.sweep import Sweep
 

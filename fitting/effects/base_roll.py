@@ -11,7 +11,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import Points
 from fitting.effects.span import UNIT_RESPONSE, Span
-from fitting.element import THETA_X, V_C, W
+from fitting.plate.element import THETA_X, V_C, W
 
 _MOST_RAD_M = 10.0
 """The edges of a plate 200 mm wide move as its base does: no rig is like that. A bound on the search."""

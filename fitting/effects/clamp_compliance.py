@@ -19,7 +19,7 @@ from fitting.effects.full_plate import FullPlate
 from fitting.effects.given import Points
 from fitting.effects.released_rim import clamped_edges, on_edge, treated_along
 from fitting.effects.released_root import along_root, on_root
-from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
+from fitting.plate.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
 from fitting.specimen import Specimen
 
 _SPANNED = (4e12, 1e13, 3e13, 1e14, 1e15)

@@ -4,10 +4,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from fitting.bent_law import BentLaw
 from fitting.effects.base import EVERY_STRUCTURE, Effect
 from fitting.effects.given import Points
 from fitting.laws import LAWS, CoreLaw
+from fitting.laws.bent_law import BentLaw
 from fitting.laws.vicinity import Vicinity
 
 

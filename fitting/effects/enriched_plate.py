@@ -13,18 +13,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, as_slice
-from fitting.dynamic_stiffness import dynamic_stiffness, stacked
+from fitting.dynamics.dynamic_stiffness import dynamic_stiffness, stacked
 from fitting.effects.change import Change
 from fitting.effects.combined_columns import AllCombined, OwnCombined, own_and_beside
 from fitting.effects.span import Span
-from fitting.element import Shape
-from fitting.mesh import Mesh
-from fitting.parts import (
+from fitting.plate.element import Shape
+from fitting.plate.mesh import Mesh
+from fitting.plate.parts import (
     Coefficients,
     coefficients,
     specimen_of,
 )
-from fitting.reduced import ReducedPlate
+from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
 
 Names = NDArray[np.str_]
@@ -80,11 +80,11 @@ class EnrichedReducedPlate:
     pickup: Array
     """Position of the pickup in m. Shape (2,)."""
     parts: Array
-    """By what is stated (`fitting.parts`). Shape (parts, k, k)."""
+    """By what is stated (`fitting.plate.parts`). Shape (parts, k, k)."""
     load_part: Array
     """Shape (k,); of a small structure, and of a plate not treated all over, (parts, k)."""
     layers: Array
-    """What is stated of them (`fitting.parts.layers_of`), zero for a plate that carries no effects."""
+    """What is stated of them (`fitting.plate.parts.layers_of`), zero for a plate that carries no effects."""
     shares: Array = field(default_factory=lambda: np.empty(0))
     """Singular values of its own columns, which are the first then. Shape (own,); empty if not condensed."""
 

@@ -14,10 +14,10 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.leading import Motions, Stirred
 from fitting.effects.span import Span
-from fitting.element import THETA_X, THETA_Y, W
-from fitting.linear import times
-from fitting.part_matrices import moving_part, on_motions, projected_parts
-from fitting.parts import coefficients, layers_of, loaded, names_of
+from fitting.numerics.linear import times
+from fitting.plate.element import THETA_X, THETA_Y, W
+from fitting.plate.part_matrices import moving_part, on_motions, projected_parts
+from fitting.plate.parts import coefficients, layers_of, loaded, names_of
 from fitting.progress import Report, unheard
 
 SNAPSHOTS = 12
@@ -26,7 +26,7 @@ what they span."""
 _LOWEST_HZ, USUAL_HZ = 12.0, 420.0
 """From where to where these reach: a laboratory plate's first resonances (decision 30)."""
 _SOFTEST_PA, _STIFFEST_PA = 1e5, 1e7
-"""Storage moduli between which they are: the middle of `fitting.domain.MODULI_PA`. A choice."""
+"""Storage moduli between which they are: the middle of `fitting.reduced.domain.MODULI_PA`. A choice."""
 _LOSSY = 1 + 0.6j
 """Over the storage modulus: of a core that damps well. A choice."""
 _R2 = (0.7549, 0.5698)

@@ -10,12 +10,12 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
-from fitting.assembly import Assembly
-from fitting.damping import LowRankDamping
-from fitting.element import THETA_Y, U_C, W
-from fitting.half_plate import HalfPlate, Parity
-from fitting.linear import times
-from fitting.plate import Plate
+from fitting.dynamics.damping import LowRankDamping
+from fitting.dynamics.half_plate import HalfPlate, Parity
+from fitting.numerics.linear import times
+from fitting.plate.assembly import Assembly
+from fitting.plate.element import THETA_Y, U_C, W
+from fitting.plate.plate import Plate
 from fitting.specimen import Specimen
 
 T = TypeVar("T")

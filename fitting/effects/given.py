@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
+from fitting.data.levels import count_of_levels
 from fitting.laws import CoreLaw
-from fitting.layers import Face
-from fitting.levels import count_of_levels
 from fitting.specimen import Drive, Reading
+from fitting.stated.layers import Face
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ class BarePlateModes(Protocol):
 
     @property
     def stiffness(self) -> Complex:
-        """phi^T P_p phi for the parts of K_0 (`fitting.parts.STIFFNESS`). Shape (modes, parts)."""
+        """phi^T P_p phi for the parts of K_0 (`fitting.plate.parts.STIFFNESS`). Shape (modes, parts)."""
 
     @property
     def substrate(self) -> Face:

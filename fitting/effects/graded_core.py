@@ -13,8 +13,8 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.partial_debond import strips
 from fitting.effects.span import Span
-from fitting.element import core_shear
-from fitting.linear import times
+from fitting.numerics.linear import times
+from fitting.plate.element import core_shear
 
 _GRADE = 2.0
 """Of the motions spanned."""

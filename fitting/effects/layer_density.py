@@ -16,7 +16,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import BarePlateModes, Points
 from fitting.effects.number_off import NumberOffEffect
 from fitting.effects.other_plates import changed_to
-from fitting.parts import coefficients
+from fitting.plate.parts import coefficients
 from fitting.specimen import Specimen
 
 SUBSTRATE, CONSTRAINING = 0.0, 1.0

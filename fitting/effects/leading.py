@@ -6,9 +6,9 @@ import numpy as np
 import scipy.linalg as la
 
 from fitting.arrays import Array, Complex
+from fitting.dynamics.half_plate import HalfPlate, Parity
 from fitting.effects.full_plate import FullPlate
-from fitting.half_plate import HalfPlate, Parity
-from fitting.linear import times
+from fitting.numerics.linear import times
 
 _ALIKE = 1e-14
 """Of the largest product, what is nothing but rounding."""

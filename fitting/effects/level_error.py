@@ -4,11 +4,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from fitting.data.level import level_error
+from fitting.data.noise import Noise
 from fitting.effects.base import BASE, EVERY_STRUCTURE, ChannelFinding, Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
-from fitting.level import level_error
-from fitting.noise import Noise
 from fitting.sweep import Sweep
 
 

@@ -4,13 +4,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from fitting.chances import binomial_above
+from fitting.data.hum import SPREAD_HZ, HumSeen, mains_hum
+from fitting.data.noise import Noise, noise_of
+from fitting.data.strays import strays
 from fitting.effects.base import EVERY_STRUCTURE, ChannelFinding, Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
-from fitting.hum import SPREAD_HZ, HumSeen, mains_hum
-from fitting.noise import Noise, noise_of
-from fitting.strays import strays
+from fitting.numerics.chances import binomial_above
 from fitting.sweep import Sweep
 
 _BY_CHANCE = 0.01

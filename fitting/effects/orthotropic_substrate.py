@@ -13,9 +13,9 @@ from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import BarePlateModes, Points
 from fitting.effects.other_plates import mixed
 from fitting.effects.span import Span
-from fitting.element import U_B, V_B, face_stiffness
-from fitting.layers import Face, Orthotropy
-from fitting.parts import STIFFNESS, substrate_coefficients
+from fitting.plate.element import U_B, V_B, face_stiffness
+from fitting.plate.parts import STIFFNESS, substrate_coefficients
+from fitting.stated.layers import Face, Orthotropy
 
 _RATIOS = (0.85, 1.15)
 """E_y over E_x: five times the spread of the prior, so that the basis follows any likely one."""

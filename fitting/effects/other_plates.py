@@ -8,10 +8,10 @@ from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.element import CORNERS, DOFS
-from fitting.element_matrices import element_matrices
-from fitting.mesh import Mesh
-from fitting.parts import coefficients, loaded, names_of, stretched
+from fitting.plate.element import CORNERS, DOFS
+from fitting.plate.element_matrices import element_matrices
+from fitting.plate.mesh import Mesh
+from fitting.plate.parts import coefficients, loaded, names_of, stretched
 from fitting.specimen import Specimen
 
 

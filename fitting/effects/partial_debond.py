@@ -12,10 +12,10 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import Points
 from fitting.effects.span import Span
-from fitting.element import core_shear_stiffness
-from fitting.linear import times
-from fitting.patches import Patch
+from fitting.numerics.linear import times
+from fitting.plate.element import core_shear_stiffness
 from fitting.specimen import StatedSpecimen
+from fitting.stated.patches import Patch
 
 LEFT = 0.01
 """Share of the shear stiffness that a loose strip keeps."""

@@ -15,8 +15,8 @@ import scipy.sparse as sp
 from fitting.arrays import Array, Complex, Indices
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.released_root import ReleasedRoot, along_line
-from fitting.linear import times
-from fitting.mesh import treated_nodes
+from fitting.numerics.linear import times
+from fitting.plate.mesh import treated_nodes
 
 Axis = Literal["x", "y"]
 Released = Mapping[Axis, Sequence[int]]
@@ -40,7 +40,7 @@ class ClampedEdge:
 
 
 def clamped_edges(full: FullPlate) -> list[ClampedEdge]:
-    """In the order of `fitting.edges`."""
+    """In the order of `fitting.stated.edges`."""
     mesh = full.loose.mesh
     node = np.arange(mesh.nodes).reshape(mesh.n_x + 1, mesh.n_y + 1)
     a, b = mesh.sides_m

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, Indices
 from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.linear import times
+from fitting.numerics.linear import times
 
 _PAIRS = 5
 """Of an even and an odd polynomial along the root, for each of a node's degrees of freedom."""

@@ -5,10 +5,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.data.levels import are_of, by_level
 from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
-from fitting.levels import are_of, by_level
 
 _EVERY = 0.0
 """In the place of a level: all of them."""

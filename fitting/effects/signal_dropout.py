@@ -4,11 +4,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from fitting.data.noise import Noise
+from fitting.data.strays import strays
 from fitting.effects.base import EVERY_STRUCTURE, ChannelFinding, Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
-from fitting.noise import Noise
-from fitting.strays import strays
 from fitting.sweep import Sweep
 
 

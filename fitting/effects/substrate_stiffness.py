@@ -14,7 +14,7 @@ from fitting.effects.given import BarePlateModes
 from fitting.effects.number_off import NumberOffEffect
 from fitting.effects.other_plates import changed_to
 from fitting.effects.span import Span
-from fitting.linear import times
+from fitting.numerics.linear import times
 
 _TYPICAL = 0.1
 """Of the stiffness: twice the spread of the prior, so that the basis follows any likely one."""

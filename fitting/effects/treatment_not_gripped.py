@@ -21,7 +21,7 @@ from fitting.effects.number_off import moved
 from fitting.effects.released_rim import clamped_edges, on_edge
 from fitting.effects.released_root import along_root, on_root
 from fitting.effects.span import Span
-from fitting.element import DOFS, U_C, V_C
+from fitting.plate.element import DOFS, U_C, V_C
 from fitting.specimen import StatedSpecimen
 
 _SPANNED = (1e6, 1e8, 4e8, 3e9)

@@ -14,7 +14,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.given import Points
 from fitting.effects.released_root import along_root
-from fitting.element import THETA_Y, U_B, U_C, W
+from fitting.plate.element import THETA_Y, U_B, U_C, W
 
 _MOST = 50.0
 """Springs of one edge over those of the other: where they are softer still, that edge is free."""

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from math import exp
 
 from fitting.arrays import Array
-from fitting.nuisance import Nuisance
+from fitting.nuisances.nuisance import Nuisance
 from fitting.specimen import StatedSpecimen
-from fitting.tolerances import ADDED, NUMBERS, StatedValue
+from fitting.stated.tolerances import ADDED, NUMBERS, StatedValue
 
 
 @dataclass(frozen=True)

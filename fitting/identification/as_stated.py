@@ -8,7 +8,7 @@ stays near 0, and a pull of 1 there is many standard deviations.
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.chances import chi2_above
+from fitting.numerics.chances import chi2_above
 
 INFORMED = 0.05
 """Part of the prior's variance that data have to take away for a direction to count: below, rounding and the

@@ -13,14 +13,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.air import air_lowering
 from fitting.arrays import Array, Complex
-from fitting.bare_modes import CarriedSensor, bare_modes, clamp_softness
+from fitting.dynamics.air import air_lowering
+from fitting.dynamics.bare_modes import CarriedSensor, bare_modes, clamp_softness
 from fitting.errors import TooFewPoints
-from fitting.part_matrices import projected_parts
-from fitting.parts import coefficients, names_of
-from fitting.plate import Plate
-from fitting.plate_numbers import moved, tolerance
+from fitting.plate.part_matrices import projected_parts
+from fitting.plate.parts import coefficients, names_of
+from fitting.plate.plate import Plate
+from fitting.plate.plate_numbers import moved, tolerance
 from fitting.specimen import Specimen
 
 FREQUENCY_SCATTER = 5e-4
@@ -73,7 +73,7 @@ class MatchedModes:
     """For the plate's modes in order: the measured one where there is one, else the specimen's."""
     left_out_hz: tuple[float, ...]
     stiffness: Complex
-    """phi^T P_p phi for the parts of K_0 (`fitting.parts`). Shape (modes, parts)."""
+    """phi^T P_p phi for the parts of K_0 (`fitting.plate.parts`). Shape (modes, parts)."""
     inertia: Array
     """The same for M. Shape (modes, parts)."""
     sensor: Array

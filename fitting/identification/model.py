@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, Mask
 from fitting.laws import CoreLaw
-from fitting.rational import RationalSweep
+from fitting.reduced.rational import RationalSweep
 from fitting.specimen import Reading
 from fitting.sweep import Sweep
 

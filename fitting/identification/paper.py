@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from fitting.arrays import Array, Complex
+from fitting.dynamics.real_mode_response import RealModePlate
 from fitting.errors import TooFewPoints
 from fitting.identification.fit import Fit
 from fitting.identification.model import velocity
 from fitting.laws import CoreLaw
-from fitting.real_mode_response import RealModePlate
 from fitting.specimen import Reading
 from fitting.sweep import Sweep, resonance_points
 

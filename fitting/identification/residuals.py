@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 
 from fitting.arrays import Array, Complex, Indices, Mask
+from fitting.data.noise import Noise
+from fitting.data.readings import Readings
 from fitting.identification.model import SweepModel
 from fitting.laws import CoreLaw
-from fitting.noise import Noise
-from fitting.readings import Readings
 from fitting.sweep import Sweep
 
 

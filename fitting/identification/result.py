@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
-from fitting.bent_law import BentLaw
+from fitting.data.noise import Noise
 from fitting.digits import written_out
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.as_stated import is_unlikely, pulled_together
@@ -17,7 +17,7 @@ from fitting.identification.quoted import REFERENCE_FREQUENCIES_HZ
 from fitting.identification.uncertainty import Uncertainty, uncertainty_of
 from fitting.identification.validation import Validation, rms
 from fitting.laws import CoreLaw
-from fitting.noise import Noise
+from fitting.laws.bent_law import BentLaw
 from fitting.sweep import Sweep
 
 BIASED, ASTRAY = "the law may be biased beyond its band", "the fit does not follow the"

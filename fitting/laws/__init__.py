@@ -17,7 +17,12 @@ def _judge(name: str, found: Any) -> type[CoreLaw]:
 
 LAWS: Registry[type[CoreLaw]] = Registry(
     "viscorig.laws",
-    {law.kind: law for law in CoreLaw.__subclasses__() if law.__module__.startswith(f"{__name__}.")},
+    {
+        law.kind: law
+        for law in CoreLaw.__subclasses__()
+        # A bent law has the kind of the law that it bends.
+        if law.__module__.startswith(f"{__name__}.") and isinstance(law.kind, str)
+    },
     _judge,
 )
 """Every law by its `kind`."""

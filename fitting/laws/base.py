@@ -84,7 +84,7 @@ class CoreLaw:
 
     @property
     def bend_count(self) -> int:
-        """How many of the last parameters only bend the law: they have priors (`fitting.bent_law`)."""
+        """How many of the last parameters only bend the law: they have priors (`fitting.laws.bent_law`)."""
         return 0
 
     def modulus(self, omega: Array) -> Complex:

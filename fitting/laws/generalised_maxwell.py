@@ -8,8 +8,8 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
 from fitting.laws.base import CoreLaw, quantity
+from fitting.laws.prony import series_of
 from fitting.laws.vicinity import Vicinity
-from fitting.prony import series_of
 
 _TERMS = 3
 """With a bend of a few percent, three follow any material over the two decades of a sweep."""

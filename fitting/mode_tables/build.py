@@ -7,24 +7,24 @@ import numpy as np
 import scipy.linalg as la
 
 from fitting.arrays import Array
-from fitting.damping import viscous_damping
+from fitting.discrepancy.model_error import model_error_at
+from fitting.dynamics.damping import viscous_damping
+from fitting.dynamics.real_modes import real_modes
+from fitting.dynamics.unstated_damping import with_unstated_damping
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.element import THETA_X, THETA_Y, W
 from fitting.laws import CoreLaw
 from fitting.mode_tables.member import Member
 from fitting.mode_tables.table import ModalTable
-from fitting.model_error import model_error_at
-from fitting.nuisances import Nuisances, nuisances_of
-from fitting.part_matrices import load_part, on_motions, projected_parts
-from fitting.parts import layers_of
-from fitting.plate import Plate
-from fitting.real_modes import real_modes
+from fitting.nuisances.nuisances import Nuisances, nuisances_of
+from fitting.plate.element import THETA_X, THETA_Y, W
+from fitting.plate.part_matrices import load_part, on_motions, projected_parts
+from fitting.plate.parts import layers_of
+from fitting.plate.plate import Plate
 from fitting.specimen import Specimen
+from fitting.stated.tolerances import PLATE
 from fitting.structures import AnySpecimen
 from fitting.structures.small import nuisances_of as small_nuisances_of
 from fitting.structures.small import widened_system_of
-from fitting.tolerances import PLATE
-from fitting.unstated_damping import with_unstated_damping
 
 MODULI_PA = (2e4, 3e5, 4e6, 5e7, 5e8, 5e9)
 """Whose real modes a plate is spanned by, from gels to glass: up to 1 GPa f to 1e-4 and eta to 1e-3.

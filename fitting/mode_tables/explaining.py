@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.chances import normal_above
 from fitting.diagnosis.checks.predictive import TOLERANCES, form_error, of_stated_numbers
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.marginal import cost
@@ -21,6 +20,7 @@ from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 from fitting.mode_tables.fit import BegunModal
+from fitting.numerics.chances import normal_above
 
 _FOLLOWED, _FOLLOWED_PLACES = 1, 3
 """Starts of an effect that are fitted; of one with a place."""

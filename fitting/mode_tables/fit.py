@@ -10,7 +10,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.bent_law import BentLaw
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.posterior import posterior
 from fitting.diagnosis.inference.refit import ROUGH, refit
@@ -21,6 +20,7 @@ from fitting.errors import OutsideModel, TooFewPoints
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.uncertainty import Uncertainty, limits_reached
 from fitting.laws import CoreLaw
+from fitting.laws.bent_law import BentLaw
 from fitting.mode_tables.build import member_of
 from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.table import ModalTable

@@ -11,7 +11,7 @@ from functools import reduce
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.complex_modes import ComplexMode
+from fitting.dynamics.complex_modes import ComplexMode
 from fitting.effects.base import Effect
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -20,7 +20,7 @@ from fitting.laws import CoreLaw
 from fitting.mode_tables.as_read import Read, Stiffness, as_read
 from fitting.mode_tables.modes import ModalMatrices, modes_of
 from fitting.mode_tables.table import ModalTable
-from fitting.nuisances import Nuisances
+from fitting.nuisances.nuisances import Nuisances
 from fitting.structures import AnySpecimen
 
 _H = 1e-4

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fitting.chances import chi2_exceeded
 from fitting.diagnosis.inference.marginal import cost
 from fitting.diagnosis.inference.refit import refit
 from fitting.diagnosis.inference.refitted import Refitted
@@ -13,6 +12,7 @@ from fitting.diagnosis.thresholds import VERDICT
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.errors import OutsideModel
 from fitting.mode_tables.fit import BegunModal
+from fitting.numerics.chances import chi2_exceeded
 
 _WITHIN = 3.0
 """Times what the errors of the others explain, up to which they go with one law: errors are seldom known."""

@@ -12,7 +12,7 @@ import numpy as np
 import scipy.linalg as la
 
 from fitting.arrays import Array, Complex, Mask
-from fitting.complex_modes import ComplexMode
+from fitting.dynamics.complex_modes import ComplexMode
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw

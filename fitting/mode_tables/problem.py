@@ -8,6 +8,7 @@ import scipy.linalg as la
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
+from fitting.data.readings import Readings
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.diagnosis.response.unknowns import STATED_NUMBER
@@ -20,9 +21,8 @@ from fitting.identification.adjusted import Adjusted, adjusted
 from fitting.laws import CoreLaw
 from fitting.mode_tables.build import with_own_error
 from fitting.mode_tables.member import Member
-from fitting.nuisance import Nuisance
-from fitting.nuisances import Nuisances
-from fitting.readings import Readings
+from fitting.nuisances.nuisance import Nuisance
+from fitting.nuisances.nuisances import Nuisances
 
 OF_EACH_TABLE = ("mass", "length", "width", "damping")
 """Kinds of stated numbers that are another one in every specimen's table, though they are stated alike."""

@@ -6,11 +6,11 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.mesh import Mesh
-from fitting.nuisance import Nuisance
-from fitting.nuisances import Nuisances
-from fitting.plate_numbers import tolerance
-from fitting.reduced import ReducedPlate
+from fitting.nuisances.nuisance import Nuisance
+from fitting.nuisances.nuisances import Nuisances
+from fitting.plate.mesh import Mesh
+from fitting.plate.plate_numbers import tolerance
+from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
 
 Place = tuple[float, float]

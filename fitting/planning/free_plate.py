@@ -6,16 +6,16 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.damping import viscous_damping
-from fitting.domain import Domain
+from fitting.dynamics.damping import viscous_damping
 from fitting.effects.air_added_mass import Air
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.enriching import enriched, reach_over
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.span import Span
 from fitting.laws import CoreLaw
-from fitting.plate import Plate
-from fitting.reduced import ReducedPlate, reduce_plate
+from fitting.plate.plate import Plate
+from fitting.reduced.domain import Domain
+from fitting.reduced.reduced_plate import ReducedPlate, reduce_plate
 from fitting.specimen import Specimen
 
 _ELEMENTS = 96

@@ -30,7 +30,7 @@ from fitting.planning.forms import forms_of
 from fitting.planning.known_mass import KnownMass
 from fitting.planning.rivalry import Forecast
 from fitting.planning.sensitivity import ReadingNoise
-from fitting.reduced import ReducedPlate
+from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
 
 Places = NDArray[np.intp]
@@ -50,7 +50,8 @@ class Further:
     """Whether the model errs as in the first sweep, in proportion to what it reads; else anew. Of each of
     these points where they differ."""
     new: frozenset[str] = frozenset()
-    """Kinds of stated numbers that are others (`fitting.tolerances`): as uncertain as they are stated."""
+    """Kinds of stated numbers that are others (`fitting.stated.tolerances`): as uncertain as they are
+    stated."""
     without: frozenset[str] = frozenset()
     """Effects that are not in it."""
     remounted: bool = False

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.nuisance import Nuisance
+from fitting.nuisances.nuisance import Nuisance
 from fitting.planning.aims import Aims
 from fitting.planning.sensitivity import Sensitivity
 

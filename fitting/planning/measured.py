@@ -6,13 +6,13 @@ import numpy as np
 from scipy.optimize import nnls
 
 from fitting.arrays import Array, Complex, Mask
+from fitting.data.noise import Noise
 from fitting.diagnosis.inference.evidence import BareModes, Evidence
 from fitting.diagnosis.inference.refit import ROUGH, refit
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.several.responses import response_of
 from fitting.laws import CoreLaw
-from fitting.noise import Noise
 from fitting.planning.sensitivity import ReadingNoise
 from fitting.sweep import Sweep
 

@@ -16,14 +16,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.bent_law import BentLaw
 from fitting.diagnosis.inference.evidence import BareModes
 from fitting.diagnosis.inference.whitening import SHARE
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.model_error import model_error
 from fitting.diagnosis.several.responses import response_of
 from fitting.laws import CoreLaw
-from fitting.reduced import ReducedPlate
+from fitting.laws.bent_law import BentLaw
+from fitting.reduced.reduced_plate import ReducedPlate
 
 
 @dataclass(frozen=True)

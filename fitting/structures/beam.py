@@ -15,7 +15,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.model_error import ModelError
+from fitting.discrepancy.model_error import ModelError
+from fitting.stated.tolerances import (
+    OF_TEMPERATURE,
+    STATED,
+    STATED_PER_K,
+    StatedNumber,
+    StatedValue,
+    number_of,
+)
 from fitting.structures.beam_apart import APART_WITHIN, open_by_poisson
 from fitting.structures.beam_coefficients import Number, coefficients
 from fitting.structures.beam_error import (
@@ -28,14 +36,6 @@ from fitting.structures.beam_parts import carrying, parts_of
 from fitting.structures.beam_section import PARTS, BeamSection
 from fitting.structures.small import Parts
 from fitting.structures.stated_beam import StatedBeam
-from fitting.tolerances import (
-    OF_TEMPERATURE,
-    STATED,
-    STATED_PER_K,
-    StatedNumber,
-    StatedValue,
-    number_of,
-)
 
 _BY_PLACE = 4.0
 """What a share of the span off is to a mass, relative: twice the slope of a cantilever's first modes at its

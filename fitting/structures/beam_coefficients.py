@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.layers import Face
+from fitting.stated.layers import Face
 from fitting.structures.small import as_coefficients
 from fitting.structures.stated_beam import StatedBeam
 

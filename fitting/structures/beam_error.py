@@ -9,9 +9,9 @@ exact elasticity of the layers says how much that does, and a share of it is lef
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.model_error import ModelError
+from fitting.discrepancy.model_error import ModelError
+from fitting.discrepancy.theory_error import theory_error, thickness_error
 from fitting.specimen import Specimen
-from fitting.theory_error import theory_error, thickness_error
 
 HELD_WIDTH = 0.33
 """Of nu^2 times the width: what a held width does to the first modes, as a shorter span. Solids have 0.26 to

@@ -20,10 +20,10 @@ from numpy.polynomial import Legendre
 
 from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.layers import Core
 from fitting.specimen import BaseDriven, Reading
+from fitting.stated.layers import Core
+from fitting.stated.tolerances import KG, STATED, StatedValue, number_of
 from fitting.structures.small import Parts, as_coefficients
-from fitting.tolerances import KG, STATED, StatedValue, number_of
 
 ORDER = 6
 """Polynomials over the thickness: the wave is then exact to 1e-9 where kt < 2."""

@@ -15,13 +15,13 @@ from typing import Protocol
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.discrepancy.model_error import ModelError
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate, Names
 from fitting.errors import OutsideModel
-from fitting.model_error import ModelError
-from fitting.nuisance import Nuisance, channels_felt
-from fitting.nuisances import STEP, Nuisances, Spot
-from fitting.placed import Placed
+from fitting.nuisances.nuisance import Nuisance, channels_felt
+from fitting.nuisances.nuisances import STEP, Nuisances, Spot
+from fitting.nuisances.placed import Placed
 from fitting.specimen import StatedSpecimen
 
 _STILL = 1e-9

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.linalg as la
 
 from fitting.arrays import Array, Complex
-from fitting.complex_modes import ComplexMode
+from fitting.dynamics.complex_modes import ComplexMode
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.identification.model import velocity
 from fitting.laws import CoreLaw

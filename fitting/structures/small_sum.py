@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array, Complex, Mask
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.rational import RationalSweep
+from fitting.reduced.rational import RationalSweep
 
 _ROUNDED = 1e-13
 """Of the largest: smaller eigenvalues are rounding."""

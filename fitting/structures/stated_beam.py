@@ -7,8 +7,8 @@ from typing import Literal, Self
 import numpy as np
 
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.layers import Core, Face
 from fitting.specimen import Driven, PlacedMass, Reading, Specimen
+from fitting.stated.layers import Core, Face
 from fitting.structures.beam_error import shortened_m
 
 Ends = Literal["clamped-free", "free-free", "clamped-clamped", "centre-driven"]

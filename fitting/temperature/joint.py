@@ -13,13 +13,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.bent_law import REACH, BentLaw
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refit import refit
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
+from fitting.laws.bent_law import REACH, BentLaw
 from fitting.temperature.members import Joined
 from fitting.temperature.one_law import OneLaw, OwnLaws
 from fitting.temperature.shifted_fit import ShiftedFit

@@ -21,7 +21,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
 from fitting.identification.adjusted import Adjusted
 from fitting.laws import CoreLaw
-from fitting.nuisance import Nuisance
+from fitting.nuisances.nuisance import Nuisance
 
 
 class Begun(Protocol):

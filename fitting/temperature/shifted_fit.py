@@ -6,9 +6,9 @@ from functools import cached_property
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.chances import chi2_above, f_above
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.laws import CoreLaw
+from fitting.numerics.chances import chi2_above, f_above
 from fitting.temperature.one_law import OneLaw, OwnLaws
 from fitting.temperature.shifts import Shift
 

@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
+from fitting.data.noise import Noise
+from fitting.data.readings import Readings
 from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.inference.begin import Begun
 from fitting.diagnosis.inference.evidence import Evidence
@@ -28,11 +30,9 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
 from fitting.identification.adjusted import Adjusted
 from fitting.laws import CoreLaw
-from fitting.noise import Noise
-from fitting.nuisance import Nuisance
+from fitting.nuisances.nuisance import Nuisance
 from fitting.progress import unheard
-from fitting.readings import Readings
-from fitting.reduced import ReducedPlate
+from fitting.reduced.reduced_plate import ReducedPlate
 
 
 @dataclass(frozen=True)

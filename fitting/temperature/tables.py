@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
-from fitting.bent_law import BentLaw
 from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refit import refit
@@ -23,13 +22,14 @@ from fitting.effects.given import Points
 from fitting.errors import OutsideModel
 from fitting.identification.adjusted import Adjusted
 from fitting.laws import CoreLaw
+from fitting.laws.bent_law import BentLaw
 from fitting.laws.constant import ConstantModulus
 from fitting.mode_tables.diagnose import visible
 from fitting.mode_tables.explaining import Explaining
 from fitting.mode_tables.fit import BegunModal, begin_modal, scaled
 from fitting.mode_tables.member import Member
 from fitting.mode_tables.problem import ModalProblem
-from fitting.nuisance import Nuisance
+from fitting.nuisances.nuisance import Nuisance
 
 _SIZES_PA, _LOSS = np.geomspace(1e4, 1e10, 25), 0.3
 """Moduli that a temperature's modes are compared with, to begin near it: from a gel to a glass."""

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import brentq, least_squares
 
 from fitting.arrays import Array
-from fitting.chances import chi2_above
+from fitting.numerics.chances import chi2_above
 from fitting.temperature.shifted_fit import ShiftedFit
 from fitting.temperature.shifts import Shift
 

@@ -6,7 +6,7 @@ from itertools import islice
 import numpy as np
 from matplotlib.figure import Figure
 
-from fitting.chances import Z_95
+from fitting.numerics.chances import Z_95
 from instrument.batch.run import BatchRow
 from instrument.results.drawing import DATA, frequency_in_octaves, label, panels
 

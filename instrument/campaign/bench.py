@@ -16,12 +16,12 @@ from typing import Any
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from fitting.direct import displacement_direct
+from fitting.data.noise import noise_of
+from fitting.dynamics.direct import displacement_direct
+from fitting.dynamics.real_modes import real_modes
 from fitting.identification.direct import fit_direct
 from fitting.identification.model import SweepModel
 from fitting.identification.residuals import Residuals
-from fitting.noise import noise_of
-from fitting.real_modes import real_modes
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.campaign.cases import Truth, measured

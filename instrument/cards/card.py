@@ -7,7 +7,7 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.errors import FittingError
-from fitting.prony import Prony, fit_prony
+from fitting.laws.prony import Prony, fit_prony
 from instrument.material.formula import formula
 from instrument.material.found_law import MaterialLaw
 

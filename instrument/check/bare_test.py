@@ -7,8 +7,8 @@ from functools import lru_cache
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.plate import Plate
-from fitting.real_modes import real_modes
+from fitting.dynamics.real_modes import real_modes
+from fitting.plate.plate import Plate
 from fitting.specimen import Specimen
 from fitting.structures import Beam
 from fitting.structures.small_modes import small_modes

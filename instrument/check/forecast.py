@@ -10,11 +10,11 @@ import numpy as np
 
 from drivers.vibrometer import Range
 from fitting.arrays import Array
-from fitting.damping import LowRankDamping, viscous_damping
+from fitting.dynamics.damping import LowRankDamping, viscous_damping
+from fitting.dynamics.half_plate import HalfPlate
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.half_plate import HalfPlate
 from fitting.identification.model import velocity
-from fitting.plate import Plate
+from fitting.plate.plate import Plate
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen, Beam, ShearPair
 from fitting.structures.small_modes import small_modes, small_velocity

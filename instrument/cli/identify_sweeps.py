@@ -6,7 +6,7 @@ from pathlib import Path
 
 from fitting.depth.posterior import SAMPLES
 from fitting.errors import OutsideModel
-from fitting.pointwise import phase_is_kept
+from fitting.identification.pointwise import phase_is_kept
 from fitting.specimen import Specimen
 from instrument.cli.identify_asked import Asked
 from instrument.cli.output import Output

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from fitting.complex_modes import ModalValue
+from fitting.dynamics.complex_modes import ModalValue
 from fitting.specimen import Specimen
 from fitting.structures import Beam
 from fitting.structures.small_modes import along, small_modes

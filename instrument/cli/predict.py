@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
-from fitting.layers import Core
 from fitting.specimen import Specimen, StatedSpecimen
+from fitting.stated.layers import Core
 from fitting.structures import Beam, ShearPair
 from fitting.structures.small_modes import small_velocity
 from instrument.cli.naming import naming_files

@@ -5,8 +5,8 @@ from typing import Any
 from pydantic import Field, model_validator
 
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.layers import Core
 from fitting.specimen import Drive, PlacedMass, Reading
+from fitting.stated.layers import Core
 from fitting.structures.beam import Beam
 from fitting.structures.stated_beam import Ends
 from instrument.files.layer_tables import Poisson, StatedLayer

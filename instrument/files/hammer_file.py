@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from fitting.arrays import Array
-from fitting.bare_modes import CarriedSensor
+from fitting.dynamics.bare_modes import CarriedSensor
 from fitting.errors import TooFewPoints
 from instrument.errors import BadInput
 from instrument.facts.damping import DampingResult

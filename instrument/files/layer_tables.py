@@ -7,8 +7,8 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from fitting.layers import METAL_AT_C, Face, Glue, Orthotropy
-from fitting.patches import Patch
+from fitting.stated.layers import METAL_AT_C, Face, Glue, Orthotropy
+from fitting.stated.patches import Patch
 from instrument.files.toml import NotNegative, Positive, TomlTable
 
 Poisson = Annotated[float, Field(gt=-1, lt=0.5, allow_inf_nan=False)]

@@ -8,17 +8,17 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import AfterValidator, Field, ValidationError, create_model, model_validator
 
-from fitting.edges import named
+from fitting.discrepancy.mesh_error import fine_enough
 from fitting.errors import OutsideModel
-from fitting.face_shear import counted
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import LAWS, CoreLaw
 from fitting.laws.table import Tabulated
-from fitting.layers import Core
-from fitting.mesh_error import fine_enough
+from fitting.plate.face_shear import counted
 from fitting.specimen import Drive, PlacedMass, Reading, Specimen
+from fitting.stated.edges import named
+from fitting.stated.layers import Core
+from fitting.stated.tolerances import OF_FEW, OF_TEMPERATURE, STATED
 from fitting.structures.shear_pair import TYPICAL as OF_PAIR
-from fitting.tolerances import OF_FEW, OF_TEMPERATURE, STATED
 from instrument.errors import BadInput
 from instrument.files.law_table import with_rows
 from instrument.files.layer_tables import GluePart, PatchPart, Poisson, StatedLayer, refuse_patches
@@ -150,7 +150,7 @@ _NOT_OF = {
 }
 """Stated numbers that a kind of specimen has not."""
 _UNITS = {"percent": 1e-2, "mm": 1e-3, "us": 1e-6, "deg": pi / 180, "mpa": 1e6}
-"""Of the keys' endings, in what `fitting.tolerances` counts in."""
+"""Of the keys' endings, in what `fitting.stated.tolerances` counts in."""
 _MOST_PERCENT = 50.0
 """A number that uncertain is not known: it should be left to the fit, not stated."""
 _MOST_PICKUPS = 20
@@ -314,7 +314,7 @@ def typical_tolerances(kind: str) -> dict[str, float | None]:
 
 
 def tolerances_of(table: TolerancesSection | None, kind: str = "plate") -> dict[str, float]:
-    """As named, in what `fitting.tolerances` counts in; `kind` of specimen. Raises `OutsideModel`."""
+    """As named, in what `fitting.stated.tolerances` counts in; `kind` of specimen. Raises `OutsideModel`."""
     given = table.model_dump(exclude_none=True, exclude={"exact"}) if table is not None else {}
     found = {}
     for key, value in given.items():

@@ -9,8 +9,8 @@ from pydantic import ConfigDict, Field, model_validator
 
 from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.layers import Core
 from fitting.specimen import Reading
+from fitting.stated.layers import Core
 from fitting.structures import AnySpecimen
 from fitting.structures.shear_pair import MOST_BY_EDGES, ShearPair, disc
 from instrument.errors import BadInput

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.bare_modes import CarriedSensor
+from fitting.dynamics.bare_modes import CarriedSensor
 from instrument.errors import BadInput
 from instrument.hammer_test.trigger import Trigger
 from instrument.impact.damping import damping_of_hits

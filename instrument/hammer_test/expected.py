@@ -3,8 +3,8 @@
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.bare_modes import CarriedSensor, bare_modes
-from fitting.plate import Plate
+from fitting.dynamics.bare_modes import CarriedSensor, bare_modes
+from fitting.plate.plate import Plate
 from fitting.specimen import Specimen
 
 _COUNT = 12

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.robust import robust_scatter
+from fitting.numerics.robust import robust_scatter
 from instrument.impact.record import Hit
 
 PULSE_LEVEL = 0.1

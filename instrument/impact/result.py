@@ -4,7 +4,7 @@ from math import nan
 
 import numpy as np
 
-from fitting.bare_modes import CarriedSensor
+from fitting.dynamics.bare_modes import CarriedSensor
 from fitting.modal.frf import DampingEstimate, Refusal
 from instrument.facts.damping import DampingResult, HitUsed, ModeFound, RatioFound, SensorOnPlate
 from instrument.impact.damping import Damping

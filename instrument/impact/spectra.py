@@ -7,7 +7,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.modal.frf import Frf
-from fitting.robust import robust_scatter
+from fitting.numerics.robust import robust_scatter
 from instrument.impact.judge import Judged
 
 Estimator = Literal["h1", "h2", "hv"]

@@ -11,7 +11,7 @@ holds however they go together.
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.chances import normal_above
+from fitting.numerics.chances import normal_above
 
 FEWEST_APART = 4
 """Specimens: of three any one is as far from the others as they are from it."""

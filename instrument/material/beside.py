@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array, Mask
-from fitting.chances import chi2_above
+from fitting.numerics.chances import chi2_above
 from instrument.facts.beside import BesideTable, BesideTemperature
 from instrument.files.dma_file import DmaTable
 from instrument.material.comparing import LEVEL, RESOLUTION, covariance_of

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array, Mask
-from fitting.bent_law import REACH
-from fitting.chances import Z_95, chi2_above
+from fitting.laws.bent_law import REACH
+from fitting.numerics.chances import Z_95, chi2_above
 from instrument.facts.comparison import ComparedAt, ComparedPair
 from instrument.material.alike import alike_in
 from instrument.material.found_law import MaterialLaw

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 from fitting.arrays import Array
-from fitting.chances import Z_95
+from fitting.numerics.chances import Z_95
 
 _UPPER = 0.975
 """Of Student's t: two-sided 95 %."""

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fitting.chances import Z_95
+from fitting.numerics.chances import Z_95
 from instrument.errors import BadInput
 from instrument.files.dma_file import DmaTable
 from instrument.material.found_law import MaterialLaw

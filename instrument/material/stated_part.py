@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from fitting.tolerances import kind_of
+from fitting.stated.tolerances import kind_of
 from instrument.material.knowledge import known_curve_of
 
 _DIGITS = 16

@@ -16,7 +16,7 @@ from scipy.optimize import minimize
 from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
 from fitting.identification.model import velocity
-from fitting.rational import RationalSweep, rational_sweep
+from fitting.reduced.rational import RationalSweep, rational_sweep
 from fitting.specimen import Reading, Specimen
 from fitting.structures import AnySpecimen
 from fitting.structures.small import check_driven, system_of

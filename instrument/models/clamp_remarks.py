@@ -1,7 +1,7 @@
 """What is to be said of how a specimen is held: clamps hold a beam's width, and two of them pull."""
 
 from fitting.digits import two_digits
-from fitting.plate_numbers import tolerance
+from fitting.plate.plate_numbers import tolerance
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen, Beam
 

@@ -5,12 +5,12 @@ from collections.abc import Collection, Sequence
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.data.noise import noise_of
+from fitting.data.strays import strays
 from fitting.digits import two_digits
 from fitting.identification.result import CORE_PA
 from fitting.identification.validation import HeldOutSegment, rms
 from fitting.laws import CoreLaw
-from fitting.noise import noise_of
-from fitting.strays import strays
 from fitting.structures import AnySpecimen, Beam, ShearPair
 from fitting.structures.shear_pair import EDGE
 from instrument.models.clamp_remarks import remarks_on_clamps

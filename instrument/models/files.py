@@ -8,7 +8,7 @@ import numpy as np
 from fitting.diagnosis.inference.evidence import BareModes
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.several.mountings import of_mounting
-from fitting.reduced import ReducedPlate
+from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen, Beam
 from fitting.sweep import Sweep

@@ -10,7 +10,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from fitting.arrays import Mask
-from fitting.aside import DISTURBED, INSENSITIVE, LOST, Reasons, reasons
+from fitting.data.aside import DISTURBED, INSENSITIVE, LOST, Reasons, reasons
+from fitting.data.noise import Noise, noises_of
+from fitting.data.strays import strays
 from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.inference.begin import Begun, begin
 from fitting.diagnosis.inference.evidence import BareModes
@@ -23,10 +25,8 @@ from fitting.digits import two_digits
 from fitting.errors import OutsideModel
 from fitting.identification.result import BIASED
 from fitting.laws import CoreLaw
-from fitting.noise import Noise, noises_of
-from fitting.reduced import ReducedPlate
+from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
-from fitting.strays import strays
 from fitting.structures import Beam, ShearPair
 from fitting.sweep import Sweep
 from instrument.models.files import File, name_of, numbers_of, plates_of

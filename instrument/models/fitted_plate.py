@@ -10,10 +10,10 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.mesh import Mesh
-from fitting.moved_plate import moved_plate
-from fitting.nuisances import Nuisances
-from fitting.reduced import ReducedPlate
+from fitting.nuisances.moved_plate import moved_plate
+from fitting.nuisances.nuisances import Nuisances
+from fitting.plate.mesh import Mesh
+from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
 from instrument.models.specimen_models import Models
 

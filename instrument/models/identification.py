@@ -6,16 +6,16 @@ from typing import Literal
 
 from threadpoolctl import threadpool_limits
 
-from fitting.aside import LOST, Reasons, reasons
+from fitting.data.aside import LOST, Reasons, reasons
+from fitting.data.noise import noise_of
+from fitting.data.strays import strays
 from fitting.diagnosis.checks.stretches import words_of_stretches
+from fitting.discrepancy.theory_error import TheoryError
 from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import BarePlateFit
 from fitting.identification.result import Identification, summarise
-from fitting.noise import noise_of
 from fitting.specimen import Specimen
-from fitting.strays import strays
 from fitting.sweep import Sweep
-from fitting.theory_error import TheoryError
 from instrument.models.methods import DirectMethod, IdentificationMethod, Joint, PaperMethod, Task
 from instrument.models.quick_look import remarks_on_reading
 from instrument.models.remarks import remarks_on_law, remarks_on_noise, remarks_on_strays

@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from fitting.data.noise import noise_of
+from fitting.data.strays import strays
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.several.several_problem import SeveralProblem
 from fitting.effects.base import Effect
@@ -19,10 +21,8 @@ from fitting.mode_tables.member import Member
 from fitting.mode_tables.misread import misread
 from fitting.mode_tables.standing import standing
 from fitting.mode_tables.table import ModalTable
-from fitting.noise import noise_of
 from fitting.progress import Report, unheard
 from fitting.specimen import Specimen
-from fitting.strays import strays
 from fitting.structures import AnySpecimen, Beam
 from fitting.sweep import Sweep
 from fitting.temperature.members import Alone, Joined

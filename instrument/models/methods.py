@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Mask
+from fitting.data.noise import Noise
 from fitting.diagnosis.checks.overstated_noise import with_own_noise
 from fitting.diagnosis.checks.prediction import held_out
 from fitting.diagnosis.checks.stretches import parts_held_out
@@ -14,6 +15,7 @@ from fitting.diagnosis.inference.begin import Begun, begin
 from fitting.diagnosis.inference.freer_law import loosened
 from fitting.diagnosis.joint import fit_of
 from fitting.digits import written_out
+from fitting.discrepancy.theory_error import TheoryError
 from fitting.errors import OutsideModel
 from fitting.identification import paper
 from fitting.identification.bare_plate import BarePlateFit, fit_bare_plate, with_bare_plate
@@ -21,12 +23,10 @@ from fitting.identification.fit import Fit
 from fitting.identification.result import LOST_PERCENT, differences_percent
 from fitting.identification.validation import Validation, rms, validate
 from fitting.laws import CoreLaw
-from fitting.noise import Noise
 from fitting.progress import Report
-from fitting.reduced import ReducedPlate
+from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
-from fitting.theory_error import TheoryError
 from instrument.models.clamp_remarks import remarks_on_clamps
 from instrument.models.remarks import (
     remarks_on_bend,

@@ -9,8 +9,8 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array
-from fitting.damping import viscous_damping
 from fitting.digits import two_digits, written_out
+from fitting.dynamics.damping import viscous_damping
 from fitting.effects import all_spans, span_modules
 from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -28,7 +28,7 @@ from fitting.mode_tables.misread import Misread, misread
 from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.standing import standing
 from fitting.mode_tables.table import FREQUENCY_STD, LOSS_STD, ModalTable
-from fitting.plate import Plate
+from fitting.plate.plate import Plate
 from fitting.progress import Report
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen

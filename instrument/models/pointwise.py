@@ -13,11 +13,11 @@ from fitting.arrays import Array, Complex
 from fitting.diagnosis.problem.model_error import model_error
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.errors import OutsideModel, TooFewPoints
-from fitting.kramers_kronig import KramersKronig, kramers_kronig
-from fitting.moved_plate import moved_plate
-from fitting.pointwise import PointwiseLaw, phase_is_kept, pointwise_law, velocity_of_sweep
-from fitting.pointwise_roots import VelocityOf
-from fitting.rational import RationalSweep, rational_sweep
+from fitting.identification.kramers_kronig import KramersKronig, kramers_kronig
+from fitting.identification.pointwise import PointwiseLaw, phase_is_kept, pointwise_law, velocity_of_sweep
+from fitting.identification.pointwise_roots import VelocityOf
+from fitting.nuisances.moved_plate import moved_plate
+from fitting.reduced.rational import RationalSweep, rational_sweep
 from fitting.sweep import Sweep
 from instrument.models.identification import Identified
 from instrument.models.methods import Joint

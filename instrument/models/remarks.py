@@ -3,16 +3,16 @@
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.bent_law import BentLaw
+from fitting.data.noise import noise_of, scatter_over_stated, shortest_group
+from fitting.data.strays import BEYOND, strays
+from fitting.dynamics.unstated_damping import RATIO, with_unstated_damping
 from fitting.laws import CoreLaw
-from fitting.noise import noise_of, scatter_over_stated, shortest_group
-from fitting.patches import shifts_of
+from fitting.laws.bent_law import BentLaw
 from fitting.specimen import Specimen
-from fitting.strays import BEYOND, strays
+from fitting.stated.patches import shifts_of
+from fitting.stated.tolerances import STATED
 from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
-from fitting.tolerances import STATED
-from fitting.unstated_damping import RATIO, with_unstated_damping
 from instrument.models.tolerance_words import asked, not_named
 
 _NAMED = 6

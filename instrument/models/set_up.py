@@ -7,22 +7,22 @@ from functools import partial
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.bare_modes import CarriedSensor
 from fitting.diagnosis.inference.evidence import BareModes
 from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.dynamics.bare_modes import CarriedSensor
+from fitting.dynamics.unstated_damping import with_unstated_damping
 from fitting.effects import all_spans, span_modules
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.enriching import enriched
 from fitting.effects.full_plate import FullPlate
 from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import CLAMP, MatchedModes, match_modes
-from fitting.mesh import Mesh
-from fitting.plate_numbers import tolerance
-from fitting.rational import RationalSweep, RationalSweeps, rational_sweep, rational_sweeps
-from fitting.reduced import ReducedPlate
+from fitting.plate.mesh import Mesh
+from fitting.plate.plate_numbers import tolerance
+from fitting.reduced.rational import RationalSweep, RationalSweeps, rational_sweep, rational_sweeps
+from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
-from fitting.unstated_damping import with_unstated_damping
 from instrument.models.cache import cached
 from instrument.models.specimen_models import Models
 from instrument.progress import Progress, quiet

@@ -5,11 +5,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.damping import viscous_damping
-from fitting.direct import displacement_direct
+from fitting.dynamics.damping import viscous_damping
+from fitting.dynamics.direct import displacement_direct
 from fitting.errors import OutsideModel
-from fitting.moved_plate import moved_plate
-from fitting.plate import Plate
+from fitting.nuisances.moved_plate import moved_plate
+from fitting.plate.plate import Plate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.models.cache import cached
@@ -61,7 +61,8 @@ def serves(like: Specimen, specimen: Specimen, sweep: Sweep, progress: Progress 
         return _Probed(np.abs(moved.displacement(omega, G) / full - 1))
 
     depends_on = [replace(specimen, tolerances={}), replace(like, tolerances={}), f]
-    modules = tuple(
-        f"fitting.{name}" for name in ("reduced", "nuisance", "nuisances", "parts", "direct", "damping")
-    )
+    modules = (
+        "fitting.reduced.reduced_plate", "fitting.nuisances.nuisance", "fitting.nuisances.nuisances",
+        "fitting.plate.parts", "fitting.dynamics.direct", "fitting.dynamics.damping",
+    )  # fmt: skip
     return bool(np.max(cached("shared", depends_on, _Probed, probe, modules).error) <= SHARED)

@@ -6,17 +6,17 @@ from functools import cached_property
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.damping import LowRankDamping, viscous_damping
-from fitting.direct import displacement_direct
-from fitting.domain import Domain, domain_of
+from fitting.dynamics.damping import LowRankDamping, viscous_damping
+from fitting.dynamics.direct import displacement_direct
+from fitting.dynamics.real_mode_response import RealModePlate, real_mode_plate
 from fitting.effects.enriching import USUAL_HZ, reach_over
 from fitting.errors import OutsideModel
 from fitting.identification.model import velocity
 from fitting.laws import CoreLaw
-from fitting.plate import Plate
-from fitting.rational import RationalSweep, rational_sweep
-from fitting.real_mode_response import RealModePlate, real_mode_plate
-from fitting.reduced import ReducedPlate, reduce_plate
+from fitting.plate.plate import Plate
+from fitting.reduced.domain import Domain, domain_of
+from fitting.reduced.rational import RationalSweep, rational_sweep
+from fitting.reduced.reduced_plate import ReducedPlate, reduce_plate
 from fitting.specimen import Specimen
 from instrument.models.cache import cached
 from instrument.progress import Progress, quiet

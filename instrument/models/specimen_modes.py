@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.bare_modes import bare_modes
-from fitting.complex_modes import ModalValue, ModalValues, complex_modes
 from fitting.digits import two_digits
-from fitting.plate import Plate
+from fitting.dynamics.bare_modes import bare_modes
+from fitting.dynamics.complex_modes import ModalValue, ModalValues, complex_modes
+from fitting.plate.plate import Plate
 from fitting.specimen import Specimen
 from instrument.models.cache import cached
 from instrument.progress import Progress, quiet

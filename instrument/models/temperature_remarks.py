@@ -1,8 +1,8 @@
 """What is to be said of data of several temperatures as they were given."""
 
-from fitting.layers import METAL_PER_K, Face
 from fitting.mode_tables.table import ModalTable
 from fitting.specimen import Specimen
+from fitting.stated.layers import METAL_PER_K, Face
 from fitting.structures import Beam
 from instrument.models.clamp_remarks import remarks_on_clamps
 from instrument.models.file_remarks import remarks_on_edges

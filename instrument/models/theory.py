@@ -6,12 +6,12 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.digits import written_out
+from fitting.discrepancy.theory_error import TheoryError, check_beam_theory, check_theory, refusal
 from fitting.errors import OutsideModel
-from fitting.face_shear import MATTERS, share
 from fitting.laws import CoreLaw
+from fitting.plate.face_shear import MATTERS, share
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen, Beam
-from fitting.theory_error import TheoryError, check_beam_theory, check_theory, refusal
 
 _PLACES = 10
 """Frequencies of a band that are looked at: the error is smooth in frequency."""

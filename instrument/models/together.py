@@ -7,6 +7,7 @@ from time import perf_counter
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from fitting.data.noise import Noise
 from fitting.diagnosis.checks.overstated_noise import with_own_noise
 from fitting.diagnosis.checks.prediction import held_out
 from fitting.diagnosis.checks.stretches import parts_held_out, words_of_stretches
@@ -23,7 +24,6 @@ from fitting.identification.bare_plate import fit_bare_plate
 from fitting.identification.result import summarise
 from fitting.identification.validation import rms
 from fitting.laws import CoreLaw
-from fitting.noise import Noise
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.models.diagnosis import Diagnosed, effects_among

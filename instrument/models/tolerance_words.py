@@ -2,10 +2,10 @@
 
 from math import pi
 
-from fitting.plate_numbers import plate_numbers, tolerance
+from fitting.plate.plate_numbers import plate_numbers, tolerance
 from fitting.specimen import Specimen
+from fitting.stated.tolerances import OF_CHANNELS, OF_TEMPERATURE, PLATE, STATED
 from fitting.structures import AnySpecimen
-from fitting.tolerances import OF_CHANNELS, OF_TEMPERATURE, PLATE, STATED
 from instrument.facts.check import ToleranceUsed
 
 _UNITS = {

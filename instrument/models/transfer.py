@@ -6,6 +6,7 @@ from typing import Protocol
 import numpy as np
 
 from fitting.arrays import Complex, Mask
+from fitting.data.noise import Noise
 from fitting.diagnosis.checks.structure import structure
 from fitting.diagnosis.inference.begin import Begun, begin
 from fitting.diagnosis.inference.evidence import BareModes, Evidence
@@ -20,7 +21,6 @@ from fitting.digits import times
 from fitting.effects import CATALOGUE
 from fitting.identification.result import differences_percent
 from fitting.laws import CoreLaw
-from fitting.noise import Noise
 from fitting.structures.shear_pair import ShearPair
 
 

@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fitting.arrays import Array
-from fitting.chances import Z_95
 from fitting.identification.result import LawBand
+from fitting.numerics.chances import Z_95
 from fitting.specimen import Specimen
 from instrument.files.specimen_file import read_specimen
 from instrument.models.specimen_models import Models

@@ -14,12 +14,12 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array
+from fitting.data.noise import Noise
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.digits import two_digits
 from fitting.errors import FittingError
 from fitting.laws import CoreLaw
-from fitting.noise import Noise
 from fitting.planning.aims import Aims
 from fitting.planning.causes import Causes
 from fitting.planning.choice import NEAR_LIMIT, choose, limit_of

@@ -23,14 +23,14 @@ from fitting.diagnosis.several.sharing import (
 from fitting.effects import CATALOGUE
 from fitting.effects.base import BASE, CLAMP, Effect
 from fitting.laws import CoreLaw
-from fitting.nuisances import Nuisances
+from fitting.nuisances.nuisances import Nuisances
 from fitting.planning.candidates import resonances_hz
 from fitting.planning.elsewhere import struck
 from fitting.planning.exact_problem import exact_problem
 from fitting.planning.free_plate import free_plate, free_specimen
 from fitting.planning.further import Expecting, Further
 from fitting.planning.sensitivity import ReadingNoise
-from fitting.reduced import ReducedPlate
+from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
 from instrument.impact.mobility import GAIN
 from instrument.planning.measurement import HANDS_S, Measurable

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from fitting.arrays import Array, Complex
 
 _STEPS = 20
-"""Of a gap, evenly in the logarithm, besides its resonances. With fewer than `fitting.noise.FEWEST` its noise
-is unknown, and that of the whole sweep with it."""
+"""Of a gap, evenly in the logarithm, besides its resonances. With fewer than `fitting.data.noise.FEWEST` its
+noise is unknown, and that of the whole sweep with it."""
 _WIDE = 1.3
 """Times a frequency, from which the next one measured leaves a gap. A choice."""
 

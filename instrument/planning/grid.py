@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array, Complex, Integers
-from fitting.bent_law import BentLaw
 from fitting.diagnosis.inference.evidence import BareModes
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.model_error import model_error
@@ -15,10 +14,11 @@ from fitting.diagnosis.several.responses import response_of
 from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
+from fitting.laws.bent_law import BentLaw
 from fitting.planning.candidates import Candidates, candidate_frequencies, regions, resonances_hz
 from fitting.planning.exact_problem import exact_problem
 from fitting.planning.signatures import Signature, signatures_of
-from fitting.reduced import ReducedPlate
+from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen, StatedSpecimen
 from fitting.sweep import Sweep
 from instrument.models.set_up import Hammer, set_up

@@ -17,10 +17,10 @@ from fitting.planning.further import Expecting, Further
 from fitting.planning.known_mass import KnownMass
 from fitting.planning.measured import noise_seen
 from fitting.planning.sensitivity import ReadingNoise
-from fitting.reduced import ReducedPlate
+from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
+from fitting.stated.tolerances import STATED
 from fitting.sweep import Sweep
-from fitting.tolerances import STATED
 from instrument.facts.follow_up import FollowUpKind
 from instrument.planning.costs import dwell_seconds, step_seconds
 from instrument.planning.gaps import gaps_of, nearest, steps_between

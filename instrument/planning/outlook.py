@@ -13,7 +13,7 @@ from fitting.errors import OutsideModel
 from fitting.planning.candidates import Candidates, candidate_frequencies, regions, resonances_hz
 from fitting.planning.exact_problem import exact_problem
 from fitting.planning.sensitivity import ReadingNoise, Sensitivity, bent, sensitivity
-from fitting.reduced import ReducedPlate
+from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.models.set_up import Hammer, SetUp, set_up

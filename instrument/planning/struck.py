@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from fitting.bare_modes import bare_modes
 from fitting.diagnosis.inference.evidence import BareModes
 from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.dynamics.bare_modes import bare_modes
 from fitting.identification.bare_plate import match_modes
-from fitting.plate import Plate
+from fitting.plate.plate import Plate
 from fitting.specimen import Specimen
 from instrument.models.set_up import bare_of
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from fitting.chances import Z_95
+from fitting.numerics.chances import Z_95
 from instrument.interchange.identified import SessionFit
 from instrument.report.fitted import ReportedFit
 from instrument.report.measured import Measured

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fitting.aside import Reasons
+from fitting.data.aside import Reasons
 from fitting.digits import two_digits
 from instrument.files.acceleration import acceleration_unit
 from instrument.files.column import ColumnPoint

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from fitting.identification.adjusted import Adjusted
 from fitting.specimen import StatedSpecimen
-from fitting.tolerances import OF_THEORY, kind_of
+from fitting.stated.tolerances import OF_THEORY, kind_of
 from instrument.results.numbers import to_error
 
 COLUMNS = ("stated number", "stated", "tolerance", "found", "standard error", "pull", "tolerance is")

@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from fitting.arrays import Array
-from fitting.chances import Z_95
 from fitting.digits import two_digits
+from fitting.numerics.chances import Z_95
 from fitting.sweep import segments_by_gap
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult, PointLeft, StageName

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from fitting.data.noise import noise_of
 from fitting.diagnosis.verdict.result import Candidate, FoundEffect, Stage
-from fitting.noise import noise_of
 from fitting.sweep import Sweep
 from instrument.facts.diagnosis import (
     CandidateFitted,

@@ -10,14 +10,14 @@ import numpy as np
 from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
 
 from fitting.arrays import Array
-from fitting.bent_law import BentLaw
 from fitting.errors import OutsideModel
 from fitting.identification.adjusted import is_relative, stated_number
 from fitting.laws import CoreLaw
-from fitting.nuisance import Nuisance
-from fitting.nuisances import Nuisances
+from fitting.laws.bent_law import BentLaw
+from fitting.nuisances.nuisance import Nuisance
+from fitting.nuisances.nuisances import Nuisances
 from fitting.specimen import Specimen, StatedSpecimen
-from fitting.tolerances import OF_NARROW, kind_of
+from fitting.stated.tolerances import OF_NARROW, kind_of
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult
 from instrument.files.text import read_text

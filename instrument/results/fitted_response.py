@@ -7,11 +7,11 @@ from functools import cached_property
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.direct import displacement_direct
+from fitting.dynamics.direct import displacement_direct
 from fitting.errors import OutsideModel
 from fitting.identification.model import velocity
 from fitting.laws import CoreLaw
-from fitting.reduced import ReducedPlate
+from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
 from instrument.models.fitted_plate import FittedPlate

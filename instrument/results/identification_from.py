@@ -5,14 +5,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.bent_law import BentLaw
+from fitting.discrepancy.theory_error import TheoryError
 from fitting.identification.bare_plate import BarePlateFit
 from fitting.identification.fit import Fit
 from fitting.identification.result import Identification
 from fitting.laws import CoreLaw
+from fitting.laws.bent_law import BentLaw
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
-from fitting.theory_error import TheoryError
 from instrument.facts.identification import (
     BareMode,
     BarePlateFound,

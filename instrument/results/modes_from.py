@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from fitting.complex_modes import ModalValue
+from fitting.dynamics.complex_modes import ModalValue
 from fitting.laws import CoreLaw
 from instrument.facts.modes import ComplexModeRow, ModesResult
 

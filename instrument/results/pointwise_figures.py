@@ -7,10 +7,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fitting.arrays import Array
-from fitting.chances import Z_95
+from fitting.identification.kramers_kronig import FIRST_ORDER, KramersKronig
+from fitting.identification.pointwise import PointwiseLaw
 from fitting.identification.result import LawBand
-from fitting.kramers_kronig import FIRST_ORDER, KramersKronig
-from fitting.pointwise import PointwiseLaw
+from fitting.numerics.chances import Z_95
 from instrument.errors import BadInput
 from instrument.models.pointwise import Pointwise
 from instrument.results.drawing import (

@@ -1,7 +1,7 @@
 """A core band by band and its causality, read off a second look at a fit."""
 
-from fitting.kramers_kronig import KramersKronig
-from fitting.pointwise import PointwiseLaw
+from fitting.identification.kramers_kronig import KramersKronig
+from fitting.identification.pointwise import PointwiseLaw
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.pointwise import BandFound, CausalityTest
 from instrument.models.pointwise import Pointwise

@@ -6,7 +6,7 @@ from dataclasses import asdict
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.aside import Reasons
+from fitting.data.aside import Reasons
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.result import LawBand
 from fitting.identification.validation import Validation

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from fitting.aside import DISTURBED, INSENSITIVE, LOST, Reasons, reasons
+from fitting.data.aside import DISTURBED, INSENSITIVE, LOST, Reasons, reasons
 from instrument.facts.rows import PointSetAside
 from instrument.stream.derived import PointMeasured
 

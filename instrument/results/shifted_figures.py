@@ -7,7 +7,7 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from fitting.chances import Z_95
+from fitting.numerics.chances import Z_95
 from instrument.models.temperatures import Shifted
 from instrument.results.drawing import DATA, MODEL, WIDTH_IN, label, legend, panels
 

@@ -9,8 +9,8 @@ from typing import Literal
 
 import numpy as np
 
-from fitting.edges import Edge
 from fitting.specimen import Specimen
+from fitting.stated.edges import Edge
 from fitting.structures import AnySpecimen, Beam, ShearPair
 
 Kind = Literal["face", "core", "bare", "treated", "held", "support", "mass"]

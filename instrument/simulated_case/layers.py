@@ -5,7 +5,7 @@ import numpy as np
 from drivers.simulated.plant.law import MaxwellLaw, maxwell_series
 from drivers.simulated.plant.layered_solid import Sheet
 from fitting.laws import CoreLaw
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 
 
 def face_sheet(face: Face) -> Sheet:

@@ -17,8 +17,8 @@ from drivers.simulated.plant.layered_solid import Sheet
 from drivers.simulated.plant.solid_plate import PlateStated
 from drivers.simulated.plant.structure import Structure
 from drivers.simulated.plates import Hang, Mount, Struck
+from fitting.dynamics.unstated_damping import MODES
 from fitting.specimen import Specimen
-from fitting.unstated_damping import MODES
 from instrument.models.cache import cached
 from instrument.progress import Progress, quiet
 from instrument.simulated_case.layers import core_sheet, face_sheet, series_of

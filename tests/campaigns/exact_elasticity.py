@@ -16,14 +16,14 @@ import numpy as np
 import scipy.linalg as la
 from rich.progress import track
 
-from fitting.complex_modes import complex_modes
+from fitting.discrepancy.model_error import model_error_at
+from fitting.dynamics.complex_modes import complex_modes
 from fitting.errors import FittingError, OutsideModel
 from fitting.laws import LAWS, CoreLaw
-from fitting.layers import Core, Face
 from fitting.mode_tables.table import ModalTable
-from fitting.model_error import model_error_at
-from fitting.plate import Plate
+from fitting.plate.plate import Plate
 from fitting.specimen import Specimen
+from fitting.stated.layers import Core, Face
 from instrument.models.modal import identify_tables
 from instrument.models.theory import theory_over
 

@@ -19,8 +19,8 @@ from rich.progress import track
 
 from fitting.errors import FittingError
 from fitting.laws import LAWS
-from fitting.layers import Core, Face
 from fitting.specimen import Specimen
+from fitting.stated.layers import Core, Face
 from fitting.sweep import Sweep
 from instrument.models.identification import identify
 

@@ -20,7 +20,7 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.identification.result import LawBand
 from fitting.laws import LAWS
-from fitting.layers import Core
+from fitting.stated.layers import Core
 from fitting.structures.shear_pair import ShearPair, disc
 from fitting.sweep import Sweep
 from instrument.models.files import File

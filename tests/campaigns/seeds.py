@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.simulated.plant.law import ZN1
-from fitting.chances import Z_95
+from fitting.numerics.chances import Z_95
 from instrument.run.experiment import Finished, run_experiment
 from instrument.session.configuration import read_whole_experiment
 from instrument.simulated_case import FILES, case_file

@@ -27,14 +27,14 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 import shear_pair_cases
 from conftest import DATA
 
-from fitting.chances import chi2_above
 from fitting.errors import FittingError
 from fitting.identification.as_stated import pulled_together
 from fitting.identification.fit import Fit
 from fitting.laws import LAWS
+from fitting.numerics.chances import chi2_above
 from fitting.specimen import Specimen
+from fitting.stated.tolerances import STATED
 from fitting.sweep import Sweep
-from fitting.tolerances import STATED
 from instrument.campaign.beams.cases import draw_case as draw_beam
 from instrument.campaign.plates.answers import Answer, Band, answer_from, band_from
 from instrument.campaign.plates.cases import draw_case as draw_plate

@@ -16,14 +16,14 @@ from fitting.diagnosis.search.candidates import CandidateFit
 from fitting.diagnosis.several.of_files import Place
 from fitting.diagnosis.several.one_plate import plates_of
 from fitting.diagnosis.several.several_problem import SeveralProblem, SeveralResponse
-from fitting.direct import displacement_direct
+from fitting.dynamics.direct import displacement_direct
 from fitting.effects import CATALOGUE
 from fitting.effects.change import Change
 from fitting.errors import OutsideModel
 from fitting.identification.model import SweepModel
-from fitting.plate import Plate
-from fitting.plate_numbers import tolerance
-from fitting.rational import rational_sweep, rational_sweeps
+from fitting.plate.plate import Plate
+from fitting.plate.plate_numbers import tolerance
+from fitting.reduced.rational import rational_sweep, rational_sweeps
 from fitting.sweep import Sweep
 
 FORCE_M, OTHER_FORCE_M = (0.27, 0.03), (0.271, 0.0305)

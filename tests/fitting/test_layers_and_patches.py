@@ -5,21 +5,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fitting.discrepancy.layer_theory import layerwise_lambda
+from fitting.discrepancy.theory_error import check_theory, theory_error
+from fitting.dynamics.real_modes import real_modes
 from fitting.effects import CATALOGUE
-from fitting.element import face_plane_stress
 from fitting.laws.constant import ConstantModulus
-from fitting.layer_theory import layerwise_lambda
-from fitting.layers import Core, Face, Glue, Orthotropy
-from fitting.mesh import SHIFT_M
-from fitting.nuisances import Nuisances, nuisances_of
-from fitting.part_matrices import moving_part, projected_parts
-from fitting.parts import coefficients, layers_of, loaded, names_of, specimen_of
-from fitting.patches import Patch, shifts_of
-from fitting.plate import Plate
-from fitting.plate_numbers import plate_numbers
-from fitting.real_modes import real_modes
+from fitting.nuisances.nuisances import Nuisances, nuisances_of
+from fitting.plate.element import face_plane_stress
+from fitting.plate.mesh import SHIFT_M
+from fitting.plate.part_matrices import moving_part, projected_parts
+from fitting.plate.parts import coefficients, layers_of, loaded, names_of, specimen_of
+from fitting.plate.plate import Plate
+from fitting.plate.plate_numbers import plate_numbers
 from fitting.specimen import Specimen
-from fitting.theory_error import check_theory, theory_error
+from fitting.stated.layers import Core, Face, Glue, Orthotropy
+from fitting.stated.patches import Patch, shifts_of
 
 G = 5e5
 CORE = Core(0.5e-3, 0.49, 790.0, ConstantModulus(G, 0.8))

@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 from pulled_bar import FACE, LENGTH_M, exact_hz
 
+from fitting.dynamics.real_modes import real_modes
 from fitting.effects import CATALOGUE
 from fitting.effects.axial_stress import AxialStressEffect
 from fitting.identification.adjusted import stated_number
-from fitting.nuisance import Nuisance
-from fitting.parts import coefficients, layers_of, names_of, specimen_of
-from fitting.patches import Patch
-from fitting.plate import Plate
-from fitting.plate_numbers import moved, plate_numbers
-from fitting.real_modes import real_modes
+from fitting.nuisances.nuisance import Nuisance
+from fitting.plate.parts import coefficients, layers_of, names_of, specimen_of
+from fitting.plate.plate import Plate
+from fitting.plate.plate_numbers import moved, plate_numbers
 from fitting.specimen import Specimen
+from fitting.stated.patches import Patch
 
 STRIP = Specimen(LENGTH_M, 0.02, "clamped-free-clamped-free", replace(FACE, poisson=1e-9), elements=(60, 4))
 

@@ -10,7 +10,7 @@ from found_law_cases import facts
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fitting.chances import Z_95
+from fitting.numerics.chances import Z_95
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.modes import ComplexModeRow, ModesResult

@@ -9,13 +9,13 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.data.noise import Noise, scatter_of_left
 from fitting.diagnosis.checks.structure import roughness
 from fitting.diagnosis.inference.begin import Begun
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.inference.usual_law import polished
 from fitting.diagnosis.thresholds import VERDICT
-from fitting.noise import Noise, scatter_of_left
 from fitting.sweep import Sweep
 
 

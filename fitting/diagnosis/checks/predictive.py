@@ -9,12 +9,12 @@ from types import MappingProxyType
 import numpy as np
 
 from fitting.arrays import Mask
-from fitting.chances import chi2_above, chi2_exceeded, normal_above, normal_exceeded
 from fitting.diagnosis.checks.structure import along_frequency
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.effects.base import Effect
+from fitting.numerics.chances import chi2_above, chi2_exceeded, normal_above, normal_exceeded
 from fitting.sweep import Sweep
 
 TOLERANCES = "tolerances"

@@ -8,7 +8,7 @@ from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.digits import written_out
 from fitting.identification.validation import MOST_POINTS_ONE_BY_ONE
 from fitting.laws import CoreLaw
-from fitting.resonance_parts import modes_between
+from fitting.reduced.resonance_parts import modes_between
 from fitting.sweep import Sweep
 
 _MOST = 5

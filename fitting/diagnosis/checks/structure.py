@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Mask
-from fitting.chances import chi2_exceeded
+from fitting.data.noise import groups_of
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.digits import two_digits, written_out
-from fitting.noise import groups_of
+from fitting.numerics.chances import chi2_exceeded
 from fitting.sweep import Sweep
 
 LAGS = 8

@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.bent_law import BentLaw
+from fitting.data.noise import Noise
 from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.inference.evidence import BareModes, Evidence
 from fitting.diagnosis.inference.refit import ROUGH, refit
@@ -27,8 +27,8 @@ from fitting.identification.fit import Fit
 from fitting.identification.model import SweepModel
 from fitting.identification.residuals import Residuals
 from fitting.laws import CoreLaw
-from fitting.noise import Noise
-from fitting.reduced import ReducedPlate
+from fitting.laws.bent_law import BentLaw
+from fitting.reduced.reduced_plate import ReducedPlate
 
 _FAR = 0.1
 """Relative change of the modulus from which the grids and the model's error are made anew."""

@@ -6,12 +6,12 @@ from functools import cached_property
 import numpy as np
 
 from fitting.arrays import Array, Complex, Mask
+from fitting.data.noise import Noise
+from fitting.data.readings import Readings
 from fitting.diagnosis.inference.whitening import SHARE, Whitening
 from fitting.effects.base import Effect
-from fitting.layers import Face
-from fitting.noise import Noise
-from fitting.nuisances import Nuisances
-from fitting.readings import Readings
+from fitting.nuisances.nuisances import Nuisances
+from fitting.stated.layers import Face
 from fitting.sweep import Sweep
 
 _BLUNT = 0.03

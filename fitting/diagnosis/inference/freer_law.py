@@ -1,7 +1,8 @@
 """A law that bends as far as the data ask for.
 
-How far materials lie off a formula is taken from a handful (`fitting.bent_law`); one may lie further. With xi
-the whitened bend that was found, k numbers, and C their covariance, a wider prior makes data likelier where
+How far materials lie off a formula is taken from a handful (`fitting.laws.bent_law`); one may lie further.
+With xi the whitened bend that was found, k numbers, and C their covariance, a wider prior makes data
+likelier where
 
     xi . xi > gamma,   gamma = k - tr C
 
@@ -13,12 +14,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from fitting.bent_law import BentLaw
 from fitting.diagnosis.inference.begin import Begun
 from fitting.diagnosis.inference.marginal import cost
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.inference.usual_law import polished
 from fitting.laws import CoreLaw
+from fitting.laws.bent_law import BentLaw
 
 _TIMES = 2.0
 """From one width of the prior to the next: their evidence is flat between. A choice."""

@@ -13,6 +13,7 @@ from fitting.diagnosis.problem.narrow_resonances import Errs, narrow_of
 from fitting.diagnosis.problem.nodes import HZ_A_NODE, Nodes
 from fitting.diagnosis.problem.plate_poles import PlatePoles, cuts_between
 from fitting.diagnosis.problem.pole_following import KnownPoles
+from fitting.discrepancy.model_error import model_error_at
 from fitting.effects.added_mass import AddedMassEffect
 from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import CONDENSED, EnrichedReducedPlate
@@ -20,10 +21,9 @@ from fitting.effects.given import Points
 from fitting.effects.span import Span
 from fitting.identification.adjusted import Adjusted, adjusted
 from fitting.laws import CoreLaw
-from fitting.model_error import model_error_at
-from fitting.narrow import NarrowResonances
-from fitting.nuisances import Nuisances, nuisances_of
-from fitting.rational import RationalSweep
+from fitting.nuisances.narrow import NarrowResonances
+from fitting.nuisances.nuisances import Nuisances, nuisances_of
+from fitting.reduced.rational import RationalSweep
 from fitting.specimen import Specimen, StatedSpecimen
 from fitting.sweep import Sweep
 

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from fitting.arrays import Array, Complex, Mask
-from fitting.levels import by_level
-from fitting.model_error import AGAIN, AGAIN_WITHIN_S, DRIFT, GAIN
+from fitting.data.levels import by_level
+from fitting.discrepancy.model_error import AGAIN, AGAIN_WITHIN_S, DRIFT, GAIN
 from fitting.sweep import Sweep
 
 

@@ -11,11 +11,11 @@ import numpy as np
 from scipy.ndimage import median_filter
 
 from fitting.arrays import Array, Mask
+from fitting.data.noise import groups_of
 from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.diagnosis.problem.smooth_core import unexplained
 from fitting.identification.validation import rms
 from fitting.laws import CoreLaw
-from fitting.noise import groups_of
 
 FEWEST = 60
 """Points of a curve below which a stretch of it says nothing."""

@@ -1,7 +1,7 @@
 """What the model gets wrong, as changes of the response of known size, marginalised in every fit.
 
 Of each resonance of a segment: itself a little off, its damping, and how much is read of it; and what the
-instruments read wrongly (`channel_error`). Sizes are the specimen's own (`fitting.model_error`).
+instruments read wrongly (`channel_error`). Sizes are the specimen's own (`fitting.discrepancy.model_error`).
 """
 
 from dataclasses import dataclass
@@ -15,11 +15,11 @@ from fitting.diagnosis.problem.channel_error import blow_rows, channel_rows
 from fitting.diagnosis.problem.narrow_resonances import shapes_of
 from fitting.diagnosis.problem.plate_alone import plate_alone
 from fitting.diagnosis.problem.plate_answer import Asked, motions
+from fitting.discrepancy.model_error import GAIN, STRUCK_GAIN, model_error_at
 from fitting.effects.change import Change
 from fitting.laws import CoreLaw
-from fitting.model_error import GAIN, STRUCK_GAIN, model_error_at
-from fitting.reduced import ReducedPlate
-from fitting.resonance_parts import Answers, Part, parts_of
+from fitting.reduced.reduced_plate import ReducedPlate
+from fitting.reduced.resonance_parts import Answers, Part, parts_of
 from fitting.specimen import Specimen, StatedSpecimen
 
 _ALIKE = 1e-3

@@ -7,11 +7,11 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.problem.plate_poles import PLAIN
+from fitting.discrepancy.model_error import ModelError
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
-from fitting.model_error import ModelError
-from fitting.narrow import NARROW, NarrowResonance, NarrowResonances
-from fitting.resonance_parts import Moving, RealMode, modes_between
+from fitting.nuisances.narrow import NARROW, NarrowResonance, NarrowResonances
+from fitting.reduced.resonance_parts import Moving, RealMode, modes_between
 from fitting.sweep import Sweep
 
 BESIDE = 1.5

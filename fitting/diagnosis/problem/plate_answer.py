@@ -11,10 +11,10 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.problem.pole_following import KnownPoles
-from fitting.dynamic_stiffness import Matrices, dynamic_stiffness, stacked
+from fitting.dynamics.dynamic_stiffness import Matrices, dynamic_stiffness, stacked
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.nuisances import Nuisances
+from fitting.nuisances.nuisances import Nuisances
 
 
 @dataclass(frozen=True)

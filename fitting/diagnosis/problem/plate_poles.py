@@ -6,7 +6,7 @@ from scipy.linalg import eigh
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.problem.nodes import MOST_POLES, Nodes
 from fitting.diagnosis.problem.pole_following import KnownPoles, ModulusNear
-from fitting.dynamic_stiffness import stacked
+from fitting.dynamics.dynamic_stiffness import stacked
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.sweep import segments_by_gap

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from fitting.arrays import Array, Complex
-from fitting.dynamic_stiffness import Matrices, dynamic_stiffness
+from fitting.dynamics.dynamic_stiffness import Matrices, dynamic_stiffness
 
 _STEPS = 1
 """Of Rayleigh's quotient, from what the known modes make of it."""

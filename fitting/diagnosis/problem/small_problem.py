@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.data.noise import Noise
 from fitting.diagnosis.problem.base import DiagnosisProblem, NodeGrid, points_of
 from fitting.diagnosis.problem.channel_error import channel_rows
 from fitting.diagnosis.problem.every_point import EveryPoint
@@ -14,7 +15,6 @@ from fitting.diagnosis.problem.plate_poles import PlatePoles
 from fitting.diagnosis.problem.small_error import octaves, theory_rows
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
-from fitting.noise import Noise
 from fitting.structures.small import (
     SmallNuisances,
     SmallSpecimen,

@@ -9,10 +9,10 @@ little. G_0 is where a search begins; hats follow what it lacks.
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.identification.pointwise import velocity_of_sweep
+from fitting.identification.pointwise_roots import VelocityOf
 from fitting.laws import CoreLaw
-from fitting.pointwise import velocity_of_sweep
-from fitting.pointwise_roots import VelocityOf
-from fitting.rational import RationalSweep
+from fitting.reduced.rational import RationalSweep
 from fitting.specimen import Reading
 from fitting.sweep import Sweep
 

@@ -1,6 +1,6 @@
 """What a sweep reads of a plate with some effects, and how that changes with law and unknowns.
 
-The stated numbers come first among the unknowns (`fitting.nuisances`), then those of each effect.
+The stated numbers come first among the unknowns (`fitting.nuisances.nuisances`), then those of each effect.
 
 The unchanged plate is exact at every point (a rational sum in G*). What effects change of the plate is
 solved at a few nodes and interpolated, to first order in how far a point's modulus is off the law's.

@@ -7,7 +7,6 @@ from functools import cached_property
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.bent_law import BentLaw
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refit import ROUGH, refit
 from fitting.diagnosis.inference.refitted import Refitted
@@ -20,6 +19,7 @@ from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
+from fitting.laws.bent_law import BentLaw
 
 _NEAR_BY = 3.0
 """Times: starts of an unknown over decades that are no further apart lead to the same place. A choice."""

@@ -4,13 +4,13 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from fitting.chances import chi2_above
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.search.candidate_fits import FirstLook, Form
 from fitting.diagnosis.search.candidates import Known, is_over_decades
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
 from fitting.diagnosis.search.looks import Start, has_place
 from fitting.diagnosis.thresholds import SEARCH, VERDICT
+from fitting.numerics.chances import chi2_above
 from fitting.progress import Report, unheard
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.effects.given import Points
-from fitting.rational import RationalSweep
+from fitting.reduced.rational import RationalSweep
 from fitting.sweep import Sweep
 
 

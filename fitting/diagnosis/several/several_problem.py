@@ -37,8 +37,8 @@ from fitting.errors import OutsideModel
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.validation import rms
 from fitting.laws import CoreLaw
-from fitting.nuisances import Nuisances
-from fitting.reduced import ReducedPlate
+from fitting.nuisances.nuisances import Nuisances
+from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 

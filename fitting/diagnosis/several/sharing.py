@@ -10,7 +10,7 @@ from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.plate_alone import plate_alone
 from fitting.diagnosis.several.of_files import Place
 from fitting.identification.adjusted import stated_number
-from fitting.nuisance import Nuisance
+from fitting.nuisances.nuisance import Nuisance
 
 OF_EACH_SPOT = ("gain", "delay", "pickup")
 """Kinds of stated numbers that are another one at every spot, though they are stated alike."""

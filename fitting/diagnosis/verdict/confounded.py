@@ -19,8 +19,8 @@ from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.verdict.judgement import Judgement
 from fitting.diagnosis.verdict.names import NONE
 from fitting.effects.base import Effect
-from fitting.nuisance import Nuisance
-from fitting.tolerances import OF_THEORY
+from fitting.nuisances.nuisance import Nuisance
+from fitting.stated.tolerances import OF_THEORY
 
 HIDDEN = 1.0
 """Standard deviations that a cause of the usual size may leave and still be hidden."""

@@ -31,8 +31,8 @@ from fitting.diagnosis.several.several_problem import SeveralResponse
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
-from fitting.narrow import NarrowResonance, NarrowResonances
-from fitting.resonance_parts import RealMode, modes_between
+from fitting.nuisances.narrow import NarrowResonance, NarrowResonances
+from fitting.reduced.resonance_parts import RealMode, modes_between
 
 UNLISTED = "unlisted"
 """Its name beside those of effects."""

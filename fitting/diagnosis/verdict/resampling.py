@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array, Mask
+from fitting.data.noise import Noise, noise_of
 from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.inference.evidence import BareModes
@@ -22,9 +23,8 @@ from fitting.effects.base import Effect
 from fitting.identification.result import differences_percent
 from fitting.identification.validation import MOST_POINTS_ONE_BY_ONE, rms
 from fitting.laws import CoreLaw
-from fitting.noise import Noise, noise_of
 from fitting.progress import Report, unheard
-from fitting.reduced import ReducedPlate
+from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.sweep import Sweep
 
 SMALL = MOST_POINTS_ONE_BY_ONE

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Mask
-from fitting.aside import Reasons
+from fitting.data.aside import Reasons
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.problem.base import DiagnosisProblem
@@ -17,7 +17,7 @@ from fitting.identification.adjusted import Adjusted
 from fitting.identification.result import LawBand
 from fitting.identification.validation import Validation, rms
 from fitting.laws import CoreLaw
-from fitting.reduced import ReducedPlate
+from fitting.reduced.reduced_plate import ReducedPlate
 
 Verdict = Literal["none", "effect", "ambiguous", "unknown"]
 

@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSplitter, QVBoxLayout, QWidget
 
 from fitting.arrays import Array
-from fitting.chances import Z_95
+from fitting.numerics.chances import Z_95
 from gui.pages.law.corner import emptiest_corner
 from gui.pages.law.curve import LawCurve
 from gui.plots import Axis, Plot

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, Mask
-from fitting.aside import Reasons
+from fitting.data.aside import Reasons
 from instrument.files.acceleration import acceleration_unit
 from instrument.files.point_columns import stored
 from instrument.results.quality import QUALITIES, quality_of

@@ -4,7 +4,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from fitting.aside import DISTURBED
+from fitting.data.aside import DISTURBED
 from fitting.diagnosis.several.of_files import ALIKE, EACH, FILE
 from gui.pages.together.fits import FAR_STD, FittedFile
 from gui.short_name import short_name

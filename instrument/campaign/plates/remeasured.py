@@ -9,9 +9,9 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.specimen import PlacedMass, Specimen
+from fitting.stated.tolerances import STATED
 from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
-from fitting.tolerances import STATED
 from instrument.campaign.plates.cases import PlateTruth, measured
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden import HIDDEN

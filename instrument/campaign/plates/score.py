@@ -6,8 +6,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from fitting.chances import Z_95
 from fitting.diagnosis.verdict.kin import UNLISTED
+from fitting.numerics.chances import Z_95
 from instrument.campaign.plates.answers import LAW, Band, PlateOutcome, explains
 from instrument.campaign.plates.cases import KINDS, NONE, PAIR
 

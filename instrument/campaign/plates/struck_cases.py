@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.discrepancy.theory_error import theory_error
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
-from fitting.theory_error import theory_error
 from instrument.campaign.draws import log_uniform
 from instrument.campaign.plates.blows import Blows, draw_blows
 from instrument.campaign.plates.geometry import PLATES, TruePlate, plate_named

@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.arrays import Complex
+from fitting.data.noise import noise_of
 from fitting.errors import OutsideModel
-from fitting.noise import noise_of
 from fitting.sweep import Sweep
 from instrument.campaign.plates.cases import PlateCase
 from instrument.campaign.plates.judged import models_of

@@ -7,7 +7,7 @@ import pytest
 from conftest import TABLE_4
 from threadpoolctl import threadpool_limits
 
-from fitting.bent_law import BentLaw
+from fitting.data.noise import noise_of
 from fitting.depth.bootstrap import bootstrap
 from fitting.depth.intervals import LEVELS
 from fitting.depth.many import ManyResiduals
@@ -19,7 +19,7 @@ from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.inference.whitening import SHARE
 from fitting.diagnosis.problem.model_error import model_error
 from fitting.diagnosis.response.sweep_response import SweepResponse
-from fitting.noise import noise_of
+from fitting.laws.bent_law import BentLaw
 from instrument.campaign.bench import GRID_HZ, synthetic_sweep
 from instrument.models.set_up import set_up
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from fitting.damping import viscous_damping
+from fitting.dynamics.damping import viscous_damping
 from fitting.effects import CATALOGUE
 from fitting.effects.clamp_line import ClampLineEffect
 from fitting.effects.constraining_stiffness import ConstrainingStiffnessEffect
@@ -19,9 +19,18 @@ from fitting.effects.orthotropic_substrate import sheet
 from fitting.effects.other_plates import changed_to, mixed
 from fitting.effects.substrate_stiffness import SubstrateStiffnessEffect
 from fitting.effects.substrate_thickness import SubstrateThicknessEffect, with_substrate
-from fitting.element import DOFS, THETA_Y, U_B, V_B, Shape, core_shear, face_plane_stress, face_stiffness
-from fitting.layers import Face
-from fitting.plate import Plate
+from fitting.plate.element import (
+    DOFS,
+    THETA_Y,
+    U_B,
+    V_B,
+    Shape,
+    core_shear,
+    face_plane_stress,
+    face_stiffness,
+)
+from fitting.plate.plate import Plate
+from fitting.stated.layers import Face
 
 ORTHOTROPIC, GRADED = CATALOGUE["orthotropic_substrate"], CATALOGUE["graded_core"]
 STIFFNESS, THICKNESS = ConstrainingStiffnessEffect(), ConstrainingThicknessEffect()

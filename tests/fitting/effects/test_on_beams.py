@@ -13,7 +13,7 @@ from fitting.effects.layer_density import SUBSTRATE
 from fitting.effects.number_off import NumberOffEffect, moved
 from fitting.effects.outside_damping import OutsideDampingEffect
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 from fitting.structures import Beam
 from fitting.structures.small import widened_system_of
 from fitting.structures.small_modes import elastic_modes, small_modes

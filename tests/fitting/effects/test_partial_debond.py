@@ -8,7 +8,7 @@ from solved_in_full import Full
 
 from fitting.effects import CATALOGUE
 from fitting.effects.partial_debond import LEFT, PartialDebondEffect, joined, strips
-from fitting.patches import Patch
+from fitting.stated.patches import Patch
 from instrument.files.specimen_file import read_specimen
 from instrument.paper_case import case_file
 

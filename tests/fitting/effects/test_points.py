@@ -9,7 +9,7 @@ from fitting.effects import CATALOGUE
 from fitting.effects.added_masses import AddedMassesEffect
 from fitting.effects.base_roll import rolling
 from fitting.effects.tether import TetherEffect
-from fitting.element import THETA_X, V_B, V_C, W
+from fitting.plate.element import THETA_X, V_B, V_C, W
 
 MASSES, TETHER, ROLL = AddedMassesEffect(), TetherEffect(), CATALOGUE["base_roll"]
 TWO = (3e-3, 0.27, 0.06, 5e-3, 0.16, 0.17)

@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import scipy.sparse.linalg as sla
 
-from fitting.damping import viscous_damping
 from fitting.diagnosis.problem.plate_answer import answer
-from fitting.domain import domain_of
+from fitting.dynamics.damping import viscous_damping
 from fitting.effects.enriching import USUAL_HZ, enriched, reach_over
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.partial_debond import LEFT, PartialDebondEffect, strips
-from fitting.plate import Plate
-from fitting.reduced import reduce_plate
+from fitting.plate.plate import Plate
+from fitting.reduced.domain import domain_of
+from fitting.reduced.reduced_plate import reduce_plate
 from instrument.campaign.plates.judged import models_of
 
 HZ = np.array([100.0, 380.0, 540.0, 580.0])

@@ -9,9 +9,8 @@ import pytest
 import scipy.sparse as sp
 import scipy.sparse.linalg as sla
 
-from fitting.damping import viscous_damping
 from fitting.diagnosis.problem.plate_answer import answer
-from fitting.domain import domain_of
+from fitting.dynamics.damping import viscous_damping
 from fitting.effects import CATALOGUE, Change, all_spans
 from fitting.effects.base_rocking import BaseRockingEffect
 from fitting.effects.clamp_compliance import root_springs
@@ -22,8 +21,9 @@ from fitting.effects.partial_debond import LEFT, PartialDebondEffect, strips
 from fitting.effects.span import Span
 from fitting.effects.spot_offset import SpotOffsetEffect
 from fitting.effects.viscous_damping import ViscousDampingEffect
-from fitting.plate import Plate
-from fitting.reduced import reduce_plate
+from fitting.plate.plate import Plate
+from fitting.reduced.domain import domain_of
+from fitting.reduced.reduced_plate import reduce_plate
 from instrument.files.specimen_file import read_specimen
 from instrument.paper_case import case_file
 

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from fitting.data.noise import noise_of
 from fitting.effects.absolute_velocity import AbsoluteVelocityEffect
 from fitting.effects.amplitude_softening import AmplitudeSofteningEffect
 from fitting.effects.given import ModulusAt, Points
@@ -13,7 +14,6 @@ from fitting.effects.level_error import LevelErrorEffect
 from fitting.effects.mains_hum import MainsHumEffect
 from fitting.effects.temperature_drift import C_1, C_2_K, TemperatureDriftEffect
 from fitting.laws.fractional_zener import FractionalZener
-from fitting.noise import noise_of
 from fitting.sweep import Sweep
 
 LAW = FractionalZener(g0_pa=0.27e6, ginf_pa=4.1e6, tau_s=1.21e-4, alpha=0.83)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from fitting.identification.adjusted import adjusted, is_relative
-from fitting.layers import Glue
-from fitting.nuisance import Nuisance
+from fitting.nuisances.nuisance import Nuisance
+from fitting.stated.layers import Glue
 
 YOUNG = Nuisance("substrate_young", "substrate_young", 0.01)
 PICKUP = Nuisance("pickup_y", "pickup", 5e-4)

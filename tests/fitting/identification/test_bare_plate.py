@@ -8,10 +8,16 @@ import scipy.sparse as sp
 from conftest import TABLE_4
 from scipy.sparse.linalg import eigsh
 
-from fitting.bare_modes import CarriedSensor, bare_modes, clamp_softness, edge_softening, loaded_modes
+from fitting.dynamics.bare_modes import (
+    CarriedSensor,
+    bare_modes,
+    clamp_softness,
+    edge_softening,
+    loaded_modes,
+)
+from fitting.dynamics.real_modes import real_modes
 from fitting.effects import CATALOGUE
 from fitting.effects.orthotropic_substrate import sheet
-from fitting.element import U_B, V_B, Shape, face_stiffness
 from fitting.errors import TooFewPoints
 from fitting.identification.bare_plate import (
     FREQUENCY_SCATTER,
@@ -19,12 +25,12 @@ from fitting.identification.bare_plate import (
     match_modes,
     with_bare_plate,
 )
-from fitting.nuisance import Nuisance
-from fitting.nuisances import Nuisances
-from fitting.plate import Plate
-from fitting.plate_numbers import moved, plate_numbers
-from fitting.real_modes import real_modes
-from fitting.tolerances import STATED
+from fitting.nuisances.nuisance import Nuisance
+from fitting.nuisances.nuisances import Nuisances
+from fitting.plate.element import U_B, V_B, Shape, face_stiffness
+from fitting.plate.plate import Plate
+from fitting.plate.plate_numbers import moved, plate_numbers
+from fitting.stated.tolerances import STATED
 from instrument.campaign.bench import synthetic_sweep
 from instrument.cli.main import run
 from instrument.models.identification import identify

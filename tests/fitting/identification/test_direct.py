@@ -6,6 +6,7 @@ from conftest import TABLE_4
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fitting.data.noise import Noise, noise_of
 from fitting.errors import TooFewPoints
 from fitting.identification import direct
 from fitting.identification.model import SweepModel
@@ -24,7 +25,6 @@ from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.laws.generalised_maxwell import GeneralisedMaxwell
 from fitting.laws.isd112 import Isd112
-from fitting.noise import Noise, noise_of
 from instrument.campaign.bench import GRID_HZ, synthetic_sweep
 
 

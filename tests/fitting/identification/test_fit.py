@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitting.bent_law import BentLaw
+from fitting.data.noise import noise_of
 from fitting.identification.fit import Fit
 from fitting.identification.result import summarise
 from fitting.identification.uncertainty import uncertainty_of
 from fitting.identification.validation import Validation
+from fitting.laws.bent_law import BentLaw
 from fitting.laws.constant import ConstantModulus
-from fitting.noise import noise_of
 from fitting.sweep import Sweep
 
 LAW = ConstantModulus(1e6, 0.5)

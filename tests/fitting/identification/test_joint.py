@@ -8,7 +8,7 @@ import pytest
 from conftest import TABLE_4
 from threadpoolctl import threadpool_limits
 
-from fitting.bent_law import BentLaw
+from fitting.data.noise import noise_of
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.inference.posterior import posterior
 from fitting.diagnosis.inference.usual_law import within_search
@@ -18,8 +18,8 @@ from fitting.diagnosis.problem.model_error import model_error
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.identification.direct import fit_direct
 from fitting.identification.uncertainty import uncertainty_of
+from fitting.laws.bent_law import BentLaw
 from fitting.laws.fractional_zener import FractionalZener
-from fitting.noise import noise_of
 from instrument.campaign.bench import GRID_HZ, synthetic_sweep
 from instrument.models.set_up import set_up
 

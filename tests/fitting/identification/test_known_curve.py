@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from conftest import TABLE_4
 
-from fitting.bent_law import BentLaw
 from fitting.identification.known_curve import known_curve, known_of_mixture
+from fitting.laws.bent_law import BentLaw
 
 ERRORS = np.array([0.03, 0.02, 0.04, 0.01])
 LOW, HIGH = 14.0, 300.0

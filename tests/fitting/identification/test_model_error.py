@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from conftest import DATA
 
+from fitting.data.noise import noise_of
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.problem.model_error import model_error
+from fitting.discrepancy.model_error import FREQUENCY, GAIN, LOSS, model_error_at
 from fitting.identification.result import law_band
 from fitting.identification.uncertainty import uncertainty_of
 from fitting.laws.fractional_zener import FractionalZener
-from fitting.model_error import FREQUENCY, GAIN, LOSS, model_error_at
-from fitting.noise import noise_of
-from fitting.plate_numbers import moved
-from fitting.tolerances import STATED
+from fitting.plate.plate_numbers import moved
+from fitting.stated.tolerances import STATED
 from instrument.files.sweep_file import read_sweep
 from instrument.models.identification import identify
 from instrument.models.set_up import set_up

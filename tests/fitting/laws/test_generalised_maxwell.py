@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from fitting.bent_law import BentLaw
 from fitting.effects.core_law import OtherCoreLawEffect
 from fitting.effects.given import Points
+from fitting.laws.bent_law import BentLaw
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.laws.generalised_maxwell import GeneralisedMaxwell
+from fitting.laws.prony import series_of
 from fitting.laws.smooth import Smooth
 from fitting.laws.vicinity import Vicinity
-from fitting.prony import series_of
 
 FREQUENCIES_HZ = np.geomspace(15.0, 250.0, 40)
 WIDE = GeneralisedMaxwell(0.156e6, (0.183e6, 0.9e6, 4.26e6), (4.24e-2, 1.69e-3, 6.3e-5))

@@ -4,15 +4,15 @@ from conftest import TABLE_4
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from fitting.bent_law import BentLaw
+from fitting.data.noise import noise_of
 from fitting.errors import OutsideModel
 from fitting.identification import direct
 from fitting.identification.model import SweepModel
 from fitting.identification.residuals import Residuals
+from fitting.laws.bent_law import BentLaw
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.generalised_maxwell import GeneralisedMaxwell
 from fitting.laws.smooth import Smooth
-from fitting.noise import noise_of
 from instrument.campaign.bench import synthetic_sweep
 
 LAW = Smooth((14.0, 50.0, 120.0, 300.0), (0.3e6, 0.4e6, 0.6e6, 1e6), (0.25, 0.5, 0.8, 0.9))

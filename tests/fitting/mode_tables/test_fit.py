@@ -3,16 +3,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitting.complex_modes import complex_modes
+from fitting.dynamics.complex_modes import complex_modes
 from fitting.errors import OutsideModel, TooFewPoints
 from fitting.laws import LAWS
-from fitting.layers import Core, Face
 from fitting.mode_tables.build import member_of, tapped, with_own_error
 from fitting.mode_tables.fit import fit_modes
 from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.table import ModalTable
-from fitting.plate import Plate
+from fitting.plate.plate import Plate
 from fitting.specimen import Specimen
+from fitting.stated.layers import Core, Face
 from fitting.structures.beam import Beam
 from fitting.structures.small_modes import small_modes
 from instrument.cli.main import run

@@ -8,9 +8,9 @@ import pytest
 
 from fitting.errors import OutsideModel
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core, Face
 from fitting.mode_tables.formulas import by_formula
 from fitting.mode_tables.table import ModalTable
+from fitting.stated.layers import Core, Face
 from fitting.structures.beam import Beam
 from fitting.structures.small_modes import small_modes
 from instrument.cli.main import run

@@ -2,8 +2,8 @@ from dataclasses import replace
 
 from fitting.effects import CATALOGUE
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core
 from fitting.mode_tables.standing import standing
+from fitting.stated.layers import Core
 from fitting.structures import ShearPair
 from tests.beam_temperatures import beam
 

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitting.damping import viscous_damping
-from fitting.direct import displacement_direct
+from fitting.dynamics.damping import viscous_damping
+from fitting.dynamics.direct import displacement_direct
 from fitting.effects import CATALOGUE
 from fitting.planning.elsewhere import read_elsewhere, struck
-from fitting.plate import Plate
+from fitting.plate.plate import Plate
 from instrument.models.set_up import set_up
 
 OMEGA, G = 2 * np.pi * np.array([30.0, 90.0]), np.array([1e6 + 3e5j, 2e6 + 5e5j])

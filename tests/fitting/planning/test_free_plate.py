@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from fitting.damping import viscous_damping
-from fitting.direct import displacement_direct
+from fitting.dynamics.damping import viscous_damping
+from fitting.dynamics.direct import displacement_direct
 from fitting.planning.free_plate import free_plate, free_specimen
-from fitting.plate import Plate
+from fitting.plate.plate import Plate
 
 F_HZ = np.array([60.0, 140.0, 250.0])
 

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fitting.data.noise import Noise
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refit import kept
 from fitting.diagnosis.problem.model_error import model_error
 from fitting.diagnosis.several.responses import response_of
-from fitting.noise import Noise
 from fitting.planning.exact_problem import exact_problem
 from fitting.planning.sensitivity import ReadingNoise, bent, sensitivity
 from instrument.models.set_up import set_up

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fitting.data.noise import noise_of
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.diagnosis.verdict.result import Rivals
 from fitting.effects import CATALOGUE
-from fitting.noise import noise_of
 from fitting.planning.confusion import SEEN
 from fitting.planning.unseen import unseen
 from instrument.files.sweep_file import read_sweep

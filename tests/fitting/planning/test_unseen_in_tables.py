@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from beam_tables import BEAM, FACE, LAW, read
 
+from fitting.data.readings import Readings
 from fitting.diagnosis.inference.refit import refit
 from fitting.mode_tables.build import member_of
 from fitting.mode_tables.diagnose import diagnose_modes
 from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.standing import standing
 from fitting.planning.unseen_in_tables import unseen_in_tables
-from fitting.readings import Readings
 
 FORMS = {e.name: e for e in standing([BEAM])}
 SOME = tuple(FORMS[name] for name in ("substrate_stiffness", "core_thickness", "tether", "channel_delay"))

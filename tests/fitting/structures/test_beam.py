@@ -7,7 +7,7 @@ from scipy.optimize import newton
 
 from fitting.errors import OutsideModel
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 from fitting.structures import Beam
 from fitting.structures.e756 import oberst, sandwich, van_oort, young_of_bare
 from fitting.structures.small_modes import small_modes, small_velocity

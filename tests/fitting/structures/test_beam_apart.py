@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 from fitting.structures import Beam
 from fitting.structures.beam_apart import (
     APART_WITHIN,

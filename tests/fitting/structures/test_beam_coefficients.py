@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from fitting.laws import LAWS
-from fitting.layers import Core, Face
 from fitting.specimen import PlacedMass
+from fitting.stated.layers import Core, Face
 from fitting.structures.beam import Beam
 from fitting.structures.beam_coefficients import coefficients
 from fitting.structures.beam_section import PARTS

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 from fitting.structures import Beam
 from fitting.structures.beam_error import HELD_WIDTH, HELD_WIDTH_WITHIN, shortened_m
 from fitting.structures.small import nuisances_of

@@ -8,8 +8,8 @@ from scipy.optimize import brentq
 
 from fitting.effects import CATALOGUE
 from fitting.laws import LAWS
-from fitting.layers import Core, Face
 from fitting.specimen import PlacedMass
+from fitting.stated.layers import Core, Face
 from fitting.structures.beam import Beam
 from fitting.structures.small import displacement, nuisances_of, system_of
 from fitting.structures.small_modes import small_modes

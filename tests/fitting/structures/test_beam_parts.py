@@ -9,7 +9,7 @@ import scipy.linalg as la
 from fitting.effects import CATALOGUE
 from fitting.effects.treatment_not_gripped import LetGo
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 from fitting.structures import Beam
 from fitting.structures.beam_parts import parts_of
 from fitting.structures.small import displacement, system_of, widened_system_of

@@ -8,7 +8,7 @@ from scipy.sparse.linalg import spsolve
 
 from drivers.simulated.plant.solid_beam import BeamStated, Sheet, SolidBeam
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 from fitting.structures import Beam
 from fitting.structures.beam_reading import read_otherwise, row_at
 from fitting.structures.small import displacement, system_of

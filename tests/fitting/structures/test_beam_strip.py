@@ -10,7 +10,7 @@ from drivers.simulated.plant.layered_solid import Sheet
 from drivers.simulated.plant.solid_beam import BeamBuild, BeamStated, SolidBeam
 from fitting.effects.treatment_not_gripped import TreatmentEndsShortEffect, TreatmentOfBeamEffect
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 from fitting.structures import Beam
 from fitting.structures.beam_let_go import hold_above
 from fitting.structures.beam_strip import strip

@@ -9,7 +9,7 @@ from numpy.polynomial import Polynomial
 
 from fitting.effects import CATALOGUE
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 from fitting.structures import Beam
 from fitting.structures.beam_section import SLIP
 from fitting.structures.beam_shapes import slip_by_pieces

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 from fitting.structures.beam import Beam
 from fitting.structures.central_impedance import (
     bending_stiffness,

@@ -14,7 +14,7 @@ import pytest
 from scipy.optimize import brentq
 
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 from fitting.structures.beam import Beam
 from fitting.structures.e756 import mode_coefficient, sandwich
 from fitting.structures.small_modes import small_modes

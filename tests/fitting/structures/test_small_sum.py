@@ -7,7 +7,7 @@ import pytest
 import scipy.linalg as la
 
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 from fitting.structures import Beam, ShearPair
 from fitting.structures.small import displacement, system_of
 from fitting.structures.small_sum import rational_of

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from fitting.laws import LAWS
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 from fitting.structures.stated_beam import StatedBeam
 
 B, C = Face(1.5e-3, 69e9, 0.33, 2700.0), Face(0.5e-3, 210e9, 0.3, 7800.0)

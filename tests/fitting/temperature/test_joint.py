@@ -5,7 +5,7 @@ import pytest
 import shear_pair_cases as cases
 from shear_pair_temperatures import LOG_A, POINTS, REFERENCE, T, begun, fitted, shifted
 
-from fitting.bent_law import BentLaw
+from fitting.laws.bent_law import BentLaw
 from fitting.temperature.joint import TemperatureProblem
 from fitting.temperature.shifted_fit import ShiftedFit
 from fitting.temperature.shifts import Shift

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from temperature_cases import LAW, REFERENCE, T
 
-from fitting.bent_law import BentLaw
+from fitting.laws.bent_law import BentLaw
 from fitting.temperature.one_law import OneLaw, OwnLaws
 from fitting.temperature.shifts import Shift
 

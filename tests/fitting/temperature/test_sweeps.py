@@ -7,11 +7,11 @@ import pytest
 import shear_pair_cases as cases
 from shear_pair_temperatures import PAIR, POINTS, alone, begun, shifted
 
+from fitting.data.noise import noise_of
 from fitting.diagnosis.executor import ALONE
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.effects import CATALOGUE
-from fitting.noise import noise_of
 from fitting.temperature.members import Joined
 from fitting.temperature.sweeps import Sweeps
 

@@ -7,7 +7,7 @@ import pytest
 from diagnosis_cases import diagnosis
 from result_cases import identification
 
-from fitting.chances import Z_95
+from fitting.numerics.chances import Z_95
 from gui.pages.diagnosis.candidates import Candidates
 from gui.pages.diagnosis.comparison import HeldOutBars, LawChange
 from gui.pages.diagnosis.finding import Finding, headline

@@ -8,7 +8,7 @@ from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 from result_cases import identification
 
-from fitting.chances import Z_95
+from fitting.numerics.chances import Z_95
 from gui.pages.material import MaterialPage, comparison
 from gui.pages.material.compared import PAPER
 from gui.pages.material.numbers import headline, parameters

@@ -8,7 +8,7 @@ import pytest
 from session_cases import SyntheticSession, configuration
 from sessions import point
 
-from fitting.aside import LOST, reasons
+from fitting.data.aside import LOST, reasons
 from gui.pages.sweep.curve import CurveStretch, grid, joined, regions_of
 from gui.pages.sweep.drifted import drifted
 from gui.pages.sweep.following import Following, latest_cycles, words

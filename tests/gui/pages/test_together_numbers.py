@@ -6,7 +6,7 @@ from diagnosis_cases import diagnosis
 from pair_files import write_pair
 from result_cases import identification
 
-from fitting.aside import DISTURBED, LOST
+from fitting.data.aside import DISTURBED, LOST
 from gui.pages.together.fits import FAR_STD, fitted_files, has_stages
 from gui.pages.together.looked import look
 from gui.pages.together.numbers import (

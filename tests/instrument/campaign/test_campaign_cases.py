@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from drivers.simulated.plant.effects import Effects
-from fitting.noise import noise_of
+from fitting.data.noise import noise_of
 from instrument.campaign.cases import KINDS, Truth, clean, draw, measured, nominal_specimen
 from instrument.campaign.channels import TrueChannels
 from instrument.campaign.materials import TrueLaw, deviation, draw_strange_material, nearest_zener

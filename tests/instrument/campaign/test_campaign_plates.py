@@ -7,8 +7,8 @@ import pytest
 import scipy.sparse as sp
 from coarse_solid import COARSE, MODULI, P2
 
-from fitting.plate import Plate
-from fitting.real_modes import real_modes
+from fitting.dynamics.real_modes import real_modes
+from fitting.plate.plate import Plate
 from instrument.campaign.plates import cases, kept, simulate
 from instrument.campaign.plates.cases import NONE, PAIR, draw_case
 from instrument.campaign.plates.geometry import PLATES, plate_named

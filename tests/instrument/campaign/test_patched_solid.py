@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import LinearOperator, eigsh
 
+from fitting.dynamics.real_modes import real_modes
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core, Face
-from fitting.patches import Patch
-from fitting.plate import Plate
-from fitting.real_modes import real_modes
+from fitting.plate.plate import Plate
 from fitting.specimen import Specimen
+from fitting.stated.layers import Core, Face
+from fitting.stated.patches import Patch
 from instrument.campaign.plates.geometry import plate_named
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.solid import Build, Solid, factorised

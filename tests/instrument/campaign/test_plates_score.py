@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from fitting.noise import noise_of
+from fitting.data.noise import noise_of
 from instrument.campaign.plates import visible
 from instrument.campaign.plates.answers import Answer, Band, line_of, outcome_from, outcome_of
 from instrument.campaign.plates.cases import KINDS, NONE, draw_case

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import splu
 
-from fitting.damping import viscous_damping
-from fitting.direct import displacement_direct
-from fitting.plate import Plate
+from fitting.dynamics.damping import viscous_damping
+from fitting.dynamics.direct import displacement_direct
+from fitting.plate.plate import Plate
 from instrument.campaign.plates.geometry import plate_named
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.hidden import HIDDEN

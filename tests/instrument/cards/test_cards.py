@@ -10,7 +10,7 @@ import pytest
 from conftest import TABLE_4
 from diagnosed_session import diagnosed_session
 
-from fitting.prony import MOST_TERMS, fit_prony
+from fitting.laws.prony import MOST_TERMS, fit_prony
 from instrument.cards.card import Card
 from instrument.cli.main import run
 from instrument.errors import BadInput

@@ -1,7 +1,7 @@
 import pytest
 
-from fitting.layers import Orthotropy
-from fitting.patches import Patch
+from fitting.stated.layers import Orthotropy
+from fitting.stated.patches import Patch
 from instrument.files.layer_tables import GluePart, PatchPart, StatedLayer, refuse_patches
 
 METAL = {"thickness_mm": 1.0, "poisson": 0.3, "density_kg_m3": 2700.0}

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from fitting.laws import LAWS
-from fitting.layers import Glue, Orthotropy
-from fitting.patches import Patch
-from fitting.plate_numbers import tolerance
-from fitting.tolerances import OF_TEMPERATURE, STATED
+from fitting.plate.plate_numbers import tolerance
+from fitting.stated.layers import Glue, Orthotropy
+from fitting.stated.patches import Patch
+from fitting.stated.tolerances import OF_TEMPERATURE, STATED
 from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen
 from instrument.paper_case import case_file

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from fitting.bare_modes import CarriedSensor
+from fitting.dynamics.bare_modes import CarriedSensor
 from instrument.hammer_test.expected import expected_modes_hz
 
 

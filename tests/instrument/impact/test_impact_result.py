@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from impact_cases import AMPLITUDES, BARE_HZ, TABLE_3, clean_hit, noisy_hits
 
-from fitting.bare_modes import CarriedSensor
+from fitting.dynamics.bare_modes import CarriedSensor
 from fitting.modal.frf import DampingEstimate, Frf, Refusal
 from instrument.errors import BadInput
 from instrument.impact.damping import damping_of_frfs, damping_of_hits

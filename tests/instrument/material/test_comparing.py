@@ -9,7 +9,7 @@ from conftest import TABLE_4
 from diagnosed_session import diagnosed_session
 from found_law_cases import ERRORS, HIGH, LOW, facts
 
-from fitting.chances import Z_95
+from fitting.numerics.chances import Z_95
 from instrument.cli.main import run
 from instrument.errors import BadInput
 from instrument.material.comparing import compare

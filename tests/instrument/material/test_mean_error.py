@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fitting.chances import Z_95
+from fitting.numerics.chances import Z_95
 from instrument.material.mean_error import mean_error
 
 

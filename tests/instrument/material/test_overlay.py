@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from fitting.chances import Z_95
+from fitting.numerics.chances import Z_95
 from instrument.errors import BadInput
 from instrument.files.dma_file import DmaTable
 from instrument.material.found_law import MaterialLaw

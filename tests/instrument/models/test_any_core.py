@@ -5,7 +5,7 @@ import pytest
 import shear_pair_cases
 
 from fitting.errors import OutsideModel
-from fitting.layers import Face
+from fitting.stated.layers import Face
 from fitting.structures.beam import Beam
 from instrument.models.any_core import FURTHEST, any_core
 from instrument.models.mistakes import response_of

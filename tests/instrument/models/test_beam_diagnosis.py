@@ -9,7 +9,7 @@ from rivals import among
 from fitting.effects import CATALOGUE
 from fitting.identification.model import velocity
 from fitting.laws import LAWS
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 from fitting.structures import Beam
 from fitting.structures.small import widened_system_of
 from fitting.sweep import Sweep

@@ -8,7 +8,7 @@ import pytest
 from fitting.effects import CATALOGUE
 from fitting.errors import OutsideModel
 from fitting.laws import LAWS
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 from fitting.structures.beam import Beam
 from fitting.structures.small import system_of
 from fitting.structures.small_sum import rational_of

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from fitting.rational import RationalSweep
+from fitting.reduced.rational import RationalSweep
 from instrument.models import cache
 from instrument.models.arrays import pack, unpack
 

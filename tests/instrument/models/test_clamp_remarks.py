@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from fitting.layers import Face
 from fitting.specimen import Specimen
+from fitting.stated.layers import Face
 from fitting.structures import Beam
 from instrument.models.clamp_remarks import remarks_on_clamps
 

@@ -8,7 +8,7 @@ import pytest
 from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.diagnosis.several.responses import response_of
 from fitting.laws import LAWS
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 from fitting.structures import Beam
 from fitting.structures.small_modes import small_modes
 from fitting.sweep import Sweep

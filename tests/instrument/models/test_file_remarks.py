@@ -8,7 +8,7 @@ from shear_pair_cases import sweep
 
 from fitting.identification.validation import HeldOutSegment
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core
+from fitting.stated.layers import Core
 from fitting.structures import ShearPair
 from fitting.structures.shear_pair import EDGE
 from instrument.models.file_remarks import (

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from shear_pair_cases import pair, sweep
 
-from fitting.aside import DISTURBED
+from fitting.data.aside import DISTURBED
 from fitting.diagnosis.problem.glitch import Glitch
 from fitting.identification.result import doubts_itself
 from instrument.models.files import File

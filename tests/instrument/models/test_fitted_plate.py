@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from conftest import DATA, TABLE_4
 
-from fitting.direct import displacement_direct
-from fitting.nuisance import Nuisance
-from fitting.nuisances import Nuisances
+from fitting.dynamics.direct import displacement_direct
+from fitting.nuisances.nuisance import Nuisance
+from fitting.nuisances.nuisances import Nuisances
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult, PosteriorFound
 from instrument.files.specimen_file import read_specimen

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitting.damping import viscous_damping
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.diagnosis.several.responses import response_of
-from fitting.direct import solve_direct
+from fitting.dynamics.damping import viscous_damping
+from fitting.dynamics.direct import solve_direct
 from fitting.effects import CATALOGUE
 from fitting.errors import OutsideModel
-from fitting.plate import Plate
+from fitting.plate.plate import Plate
 from fitting.specimen import PlacedMass
 from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen

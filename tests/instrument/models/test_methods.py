@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fitting.noise import noise_of
+from fitting.data.noise import noise_of
 from fitting.sweep import Sweep
 from instrument.models.methods import PaperMethod, Task
 from instrument.models.specimen_models import Models

@@ -11,8 +11,8 @@ from rivals import all_but, among
 from scipy.optimize import root
 
 from fitting.laws import LAWS
-from fitting.layers import Core, Face
 from fitting.mode_tables.table import ModalTable
+from fitting.stated.layers import Core, Face
 from fitting.structures.beam import Beam
 from fitting.structures.small_modes import small_modes
 from instrument.campaign.plates.geometry import plate_named

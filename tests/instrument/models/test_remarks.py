@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from conftest import DATA
 
-from fitting.noise import noise_of, scatter_over_stated
-from fitting.patches import Patch
+from fitting.data.noise import noise_of, scatter_over_stated
+from fitting.stated.patches import Patch
+from fitting.stated.tolerances import STATED
 from fitting.sweep import Sweep
-from fitting.tolerances import STATED
 from instrument.files.sweep_file import read_sweep
 from instrument.models.remarks import remarks_on_noise, remarks_on_patches, remarks_on_tolerances
 from instrument.models.tolerance_words import asked, tolerance_rows, tolerances_used

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from plate_files import plate_text
 
-from fitting.damping import viscous_damping
-from fitting.direct import displacement_direct
+from fitting.dynamics.damping import viscous_damping
+from fitting.dynamics.direct import displacement_direct
 from fitting.identification.model import velocity
-from fitting.plate import Plate
+from fitting.plate.plate import Plate
 from instrument.cli.main import run
 from instrument.files.specimen_file import read_specimen
 from instrument.models.diagnosis import effects_among

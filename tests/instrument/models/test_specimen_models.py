@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fitting.reduced import ReducedPlate
+from fitting.reduced.reduced_plate import ReducedPlate
 
 FREQUENCY_HZ = np.array([19.3, 60.0, 101.0, 280.0])
 

@@ -2,9 +2,9 @@
 
 import pytest
 
-from fitting import complex_modes as modes_of_a_plate
-from fitting.complex_modes import complex_modes
-from fitting.plate import Plate
+from fitting.dynamics import complex_modes as modes_of_a_plate
+from fitting.dynamics.complex_modes import complex_modes
+from fitting.plate.plate import Plate
 from instrument.models.specimen_modes import edge_twist_remark, specimen_modes
 
 

@@ -8,9 +8,9 @@ import pytest
 from json_schema import faults
 from temperature_cases import LAW, NOISE, REFERENCE, OneProcess, T, TwoProcesses, arrhenius, sweeps, wlf
 
-from fitting.bare_modes import bare_modes
-from fitting.plate import Plate
-from fitting.strays import strays
+from fitting.data.strays import strays
+from fitting.dynamics.bare_modes import bare_modes
+from fitting.plate.plate import Plate
 from fitting.temperature.shifts import Shift
 from instrument.cli.main import run
 from instrument.errors import BadInput

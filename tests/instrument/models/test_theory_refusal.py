@@ -9,9 +9,9 @@ import pytest
 from beam_cases import BEAM
 from conftest import TABLE_4
 
+from fitting.data.noise import noise_of
 from fitting.errors import OutsideModel
 from fitting.laws.constant import ConstantModulus
-from fitting.noise import noise_of
 from fitting.sweep import Sweep
 from instrument.cli.main import run
 from instrument.files.structure_file import read_structure

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fitting.data.noise import noise_of
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.inference.usual_law import polished
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.diagnosis.verdict.result import Rivals
 from fitting.effects import CATALOGUE
-from fitting.noise import noise_of
 from instrument.files.sweep_file import read_sweep
 from instrument.models.set_up import set_up
 from tests.conftest import DATA

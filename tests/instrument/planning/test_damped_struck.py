@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitting.damping import viscous_damping
 from fitting.diagnosis.inference.usual_law import polished
-from fitting.direct import displacement_direct
+from fitting.dynamics.damping import viscous_damping
+from fitting.dynamics.direct import displacement_direct
 from fitting.effects import CATALOGUE
 from fitting.planning.further import Expecting
 from fitting.planning.rivalry import outcome
 from fitting.planning.sensitivity import ReadingNoise
-from fitting.plate import Plate
+from fitting.plate.plate import Plate
 from instrument.impact.mobility import GAIN
 from instrument.planning.damped_struck import damped_struck
 from instrument.planning.measurable import Template

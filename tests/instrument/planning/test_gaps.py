@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fitting.noise import noise_of
+from fitting.data.noise import noise_of
 from fitting.sweep import Sweep
 from instrument.planning.gaps import gaps_of, nearest, steps_between
 

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from fitting.patches import Patch
-from fitting.plate import Plate
+from fitting.plate.plate import Plate
+from fitting.stated.patches import Patch
 from instrument.files.specimen_file import read_specimen
 from instrument.paper_case import case_file
 from instrument.planning.spots import spot_row

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fitting.dynamics.real_modes import real_modes
 from fitting.laws.constant import ConstantModulus
-from fitting.plate import Plate
-from fitting.real_modes import real_modes
+from fitting.plate.plate import Plate
 from instrument.files.sweep_file import read_sweep
 from instrument.models.set_up import set_up
 from instrument.planning.steps import about, twists_hz, where

@@ -9,13 +9,13 @@ from diagnosis_cases import diagnosis as diagnosed
 from diagnosis_cases import sweep
 from result_cases import identification
 
-from fitting.aside import LOST, reasons
+from fitting.data.aside import LOST, reasons
+from fitting.data.noise import Noise
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.fit import Fit
 from fitting.identification.result import Identification, law_band
 from fitting.identification.uncertainty import Uncertainty
 from fitting.identification.validation import HeldOutSegment, Validation
-from fitting.noise import Noise
 from instrument.interchange.identified import SessionFit
 from instrument.report.blocks import FactsBlock, FigureBlock, Sentence, TableBlock
 from instrument.report.fitted import ReportedFit

@@ -9,7 +9,7 @@ import pytest
 from matplotlib.figure import Figure
 from session_cases import GAIN
 
-from fitting.aside import LOST, reasons
+from fitting.data.aside import LOST, reasons
 from instrument.interchange.point_table import columns
 from instrument.interchange.read_session import read_session
 from instrument.report.blocks import FigureBlock, Sentence, TableBlock

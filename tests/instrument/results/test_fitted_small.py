@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fitting.laws.fractional_zener import FractionalZener
-from fitting.layers import Core
+from fitting.stated.layers import Core
 from fitting.structures.shear_pair import ShearPair, disc
 from fitting.structures.small_modes import small_velocity
 from instrument.results.fit_file import FoundLaw

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 from following_cases import BACKWARDS, SPOT
 
-from fitting.layers import Face
 from fitting.specimen import Specimen
+from fitting.stated.layers import Face
 from fitting.structures import ShearPair
 from instrument.facts.follow_up import FollowUp
 from instrument.results.offer_sketch import offer_view

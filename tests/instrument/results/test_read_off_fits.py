@@ -10,12 +10,12 @@ from result_cases import identification
 from shear_pair_temperatures import LOG_A, REFERENCE, T, alone, fitted, shifted
 
 from fitting.diagnosis.verdict.result import FoundEffect, ParameterEstimate
+from fitting.identification.pointwise import PointwiseLaw
 from fitting.identification.result import LawBand
 from fitting.mode_tables.build import member_of
 from fitting.mode_tables.diagnose import diagnose_modes
 from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.standing import standing
-from fitting.pointwise import PointwiseLaw
 from fitting.temperature.simple import Verdict
 from instrument.models.modal import TablesDiagnosed
 from instrument.models.pointwise import Pointwise

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from shear_pair_temperatures import LOG_A, REFERENCE, T, alone, fitted, shifted
 
-from fitting.chances import Z_95
+from fitting.identification.pointwise import PointwiseLaw
 from fitting.identification.result import LawBand
-from fitting.pointwise import PointwiseLaw
+from fitting.numerics.chances import Z_95
 from instrument.errors import BadInput
 from instrument.facts.plan import LawOutlook, PlannedStep, PlanResult, SpotCompared
 from instrument.models.pointwise import Pointwise

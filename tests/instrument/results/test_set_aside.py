@@ -3,7 +3,7 @@
 import numpy as np
 from sessions import point
 
-from fitting.aside import LOST, reasons
+from fitting.data.aside import LOST, reasons
 from instrument.results.rows_from import points_set_aside_from
 from instrument.results.set_aside import why_aside, words_of
 from instrument.session.points import sweep_of

@@ -7,8 +7,8 @@ import pytest
 
 from drivers.simulated.plant.built import refuse_effects
 from drivers.simulated.plant.effects import AddedMass, ClampFriction, Effects
-from fitting.layers import Glue
-from fitting.patches import Patch
+from fitting.stated.layers import Glue
+from fitting.stated.patches import Patch
 from instrument.errors import BadInput
 from instrument.files.new_file import write_new
 from instrument.files.rig_file import RigDocument

@@ -13,10 +13,10 @@ from drivers.simulated.plant.law import ZN1
 from drivers.simulated.plant.layered_solid import Sheet
 from drivers.simulated.plant.sandwich import sandwich
 from drivers.simulated.plant.solid_plate import PlateStated
-from fitting.damping import viscous_damping
-from fitting.direct import displacement_direct
+from fitting.dynamics.damping import viscous_damping
+from fitting.dynamics.direct import displacement_direct
 from fitting.planning.free_plate import free_specimen
-from fitting.plate import Plate
+from fitting.plate.plate import Plate
 from instrument.files.specimen_file import read_specimen
 from instrument.simulated_case import case_file
 

@@ -8,7 +8,7 @@ from scipy.sparse.linalg import spsolve
 from drivers.simulated.plant.lines import Line
 from drivers.simulated.plant.solid_pad import PairStated, SolidPad
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core
+from fitting.stated.layers import Core
 from fitting.structures.shear_pair import EDGE, ShearPair, disc
 
 

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
+from fitting.data.noise import Noise, noise_of
 from fitting.diagnosis.checks.overstated_noise import is_overstated, share_left, with_own_noise
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.laws import LAWS
-from fitting.layers import Core, Face
-from fitting.noise import Noise, noise_of
+from fitting.stated.layers import Core, Face
 from fitting.structures.beam import Beam
 from fitting.structures.small import system_of
 from fitting.structures.small_sum import rational_of

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitting.chances import chi2_above
+from fitting.data.readings import Readings
 from fitting.diagnosis.checks.predictive import (
     checks,
     form_error,
@@ -20,7 +20,7 @@ from fitting.diagnosis.thresholds import VERDICT
 from fitting.effects.base import Effect
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.smooth import Smooth
-from fitting.readings import Readings
+from fitting.numerics.chances import chi2_above
 from fitting.sweep import Sweep
 
 N = 118

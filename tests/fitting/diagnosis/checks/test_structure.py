@@ -1,10 +1,10 @@
 import numpy as np
 
-from fitting.chances import normal_exceeded
+from fitting.data.readings import Readings
 from fitting.diagnosis.checks.structure import along_frequency, roughness, structure
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.thresholds import VERDICT
-from fitting.readings import Readings
+from fitting.numerics.chances import normal_exceeded
 from fitting.sweep import Sweep
 
 N = 118

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from fitting.data.readings import Readings
 from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.inference import usual_law
 from fitting.diagnosis.inference.evidence import Evidence
@@ -14,7 +15,6 @@ from fitting.diagnosis.inference.usual_law import at_rest
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
-from fitting.readings import Readings
 
 BEGINNING, END = ConstantModulus(0.15e6, 0.4), ConstantModulus(0.5e6 * np.e, 0.3 * np.e)
 

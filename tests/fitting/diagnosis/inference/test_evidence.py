@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from fitting.data.noise import Noise
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.whitening import SHARE
-from fitting.noise import Noise
 from fitting.sweep import Sweep
 
 F = np.linspace(20.0, 30.0, 8)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitting.bent_law import BentLaw
+from fitting.data.noise import Noise
 from fitting.diagnosis.diagnose import diagnose_task
 from fitting.diagnosis.executor import ALONE
 from fitting.diagnosis.inference.begin import begin
@@ -15,8 +15,8 @@ from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.diagnosis.search.catalogue_search import Search
 from fitting.effects import CATALOGUE
 from fitting.laws import LAWS
-from fitting.layers import Core, Face
-from fitting.noise import Noise
+from fitting.laws.bent_law import BentLaw
+from fitting.stated.layers import Core, Face
 from fitting.structures.beam import Beam
 from fitting.structures.small import system_of
 from fitting.structures.small_sum import rational_of

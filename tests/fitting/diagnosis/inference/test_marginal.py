@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fitting.bent_law import BentLaw
 from fitting.diagnosis.inference.marginal import cost, log_determinant, probabilities
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.effects.base import Effect, EffectParameter, Tie
+from fitting.laws.bent_law import BentLaw
 from fitting.laws.constant import ConstantModulus
 
 N = 60

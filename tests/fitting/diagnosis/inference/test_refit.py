@@ -5,6 +5,7 @@ from unittest import mock
 import numpy as np
 import pytest
 
+from fitting.data.readings import Readings
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.joint_problem import JointProblem
 from fitting.diagnosis.inference.refit import refit
@@ -12,7 +13,6 @@ from fitting.diagnosis.several.of_files import EACH, OfFiles
 from fitting.effects import CATALOGUE
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.smooth import Smooth
-from fitting.readings import Readings
 
 LAW = ConstantModulus(0.5e6, 0.5)
 SOFTNESS = 5e13

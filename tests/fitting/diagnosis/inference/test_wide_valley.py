@@ -5,13 +5,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from fitting.data.readings import Readings
 from fitting.diagnosis.inference import wide_valley
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.wide_valley import in_wide_valley, of_effects, whole, with_stated
 from fitting.diagnosis.response.unknowns import STATED_NUMBER
 from fitting.effects import CATALOGUE
 from fitting.laws.constant import ConstantModulus
-from fitting.readings import Readings
 
 LAW, GAIN = ConstantModulus(0.5e6, 0.5), CATALOGUE["gain_error"]
 BY_STATED = 0.01

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fitting.diagnosis.problem.channel_error import blow_rows, channel_rows
-from fitting.model_error import AGAIN, DRIFT, GAIN, STRUCK_GAIN
+from fitting.discrepancy.model_error import AGAIN, DRIFT, GAIN, STRUCK_GAIN
 from fitting.sweep import Sweep
 
 F = np.tile(np.linspace(20.0, 30.0, 5), 2)

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fitting.data.noise import Noise
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.problem import narrow_resonances
 from fitting.diagnosis.problem.small_error import theory_rows
@@ -12,9 +13,8 @@ from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.diagnosis.several.responses import response_of
 from fitting.laws import LAWS
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core, Face
-from fitting.narrow import THEORY
-from fitting.noise import Noise
+from fitting.nuisances.narrow import THEORY
+from fitting.stated.layers import Core, Face
 from fitting.structures import Beam
 from fitting.structures.small_modes import small_modes
 from fitting.sweep import Sweep

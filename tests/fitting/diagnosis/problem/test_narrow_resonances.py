@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 from supported_plate import supported
 
+from fitting.data.noise import Noise
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.problem import narrow_resonances
 from fitting.diagnosis.problem.model_error import own_errors
 from fitting.diagnosis.problem.narrow_resonances import narrow_of
 from fitting.diagnosis.several.responses import response_of
+from fitting.discrepancy.model_error import model_error_at
 from fitting.laws import LAWS
 from fitting.laws.constant import ConstantModulus
-from fitting.model_error import model_error_at
-from fitting.narrow import THEORY
-from fitting.noise import Noise
-from fitting.resonance_parts import modes_between
+from fitting.nuisances.narrow import THEORY
+from fitting.reduced.resonance_parts import modes_between
 from fitting.sweep import Sweep
 from instrument.models.set_up import set_up
 

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fitting.data.noise import Noise
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.problem.model_error import COMMON, own_errors
-from fitting.noise import Noise
 from fitting.sweep import Sweep
 from instrument.models.set_up import set_up
 

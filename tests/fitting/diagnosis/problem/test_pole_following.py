@@ -4,7 +4,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from fitting.diagnosis.problem.pole_following import KnownPoles, ModulusNear
-from fitting.dynamic_stiffness import stacked
+from fitting.dynamics.dynamic_stiffness import stacked
 
 
 def matrices(detuning, coupling, loss):

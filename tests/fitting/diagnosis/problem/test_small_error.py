@@ -5,7 +5,7 @@ import pytest
 
 from fitting.diagnosis.problem.small_error import octaves, theory_rows
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 from fitting.structures import Beam, ShearPair
 from fitting.structures.small import displacement, system_of, widened_system_of
 

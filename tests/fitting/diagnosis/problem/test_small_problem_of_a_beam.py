@@ -7,7 +7,7 @@ import pytest
 
 from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.laws.constant import ConstantModulus
-from fitting.layers import Core, Face
+from fitting.stated.layers import Core, Face
 from fitting.structures import Beam
 from fitting.structures.small import displacement, system_of
 from fitting.sweep import Sweep

@@ -11,8 +11,8 @@ from fitting.effects.gain_error import GainErrorEffect
 from fitting.effects.phase_scale import PhaseScaleEffect
 from fitting.effects.sensor_lowpass import SensorLowpassEffect
 from fitting.effects.substrate_stiffness import SubstrateStiffnessEffect
-from fitting.nuisance import Nuisance
-from fitting.nuisances import Nuisances
+from fitting.nuisances.nuisance import Nuisance
+from fitting.nuisances.nuisances import Nuisances
 
 OMEGA = 2 * np.pi * np.array([20.0, 90.0, 250.0])
 V = np.array([0.3 + 0.1j, -0.2 + 0.5j, 0.05 - 0.4j])

@@ -6,14 +6,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fitting.damping import viscous_damping
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.plate_answer import StrainedCore
 from fitting.diagnosis.response.plate_changes import PlateChanges
 from fitting.diagnosis.response.point_modulus import PointModulus
 from fitting.diagnosis.response.strains import Reference, Strains
 from fitting.diagnosis.response.unknowns import Unknowns
-from fitting.domain import domain_of
+from fitting.dynamics.damping import viscous_damping
 from fitting.effects import CATALOGUE
 from fitting.effects.added_mass import PointMass
 from fitting.effects.amplitude_softening import CoreStrain
@@ -21,9 +20,10 @@ from fitting.effects.change import Change
 from fitting.effects.enriching import enriched
 from fitting.effects.full_plate import FullPlate
 from fitting.laws.constant import ConstantModulus
-from fitting.plate import Plate
-from fitting.rational import rational_sweep
-from fitting.reduced import reduce_plate
+from fitting.plate.plate import Plate
+from fitting.reduced.domain import domain_of
+from fitting.reduced.rational import rational_sweep
+from fitting.reduced.reduced_plate import reduce_plate
 from fitting.sweep import Sweep
 
 F_HZ = np.linspace(14.0, 26.0, 90)

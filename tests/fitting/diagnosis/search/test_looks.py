@@ -5,12 +5,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from fitting.data.readings import Readings
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.search import looks
 from fitting.diagnosis.search.looks import look
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect, EffectParameter
-from fitting.readings import Readings
 
 
 class Bent(Effect):

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from fitting.diagnosis.several.joining import joined, joined_points, side_by_side
 from fitting.effects.given import Points
-from fitting.rational import RationalSweep
+from fitting.reduced.rational import RationalSweep
 from fitting.sweep import Sweep
 
 

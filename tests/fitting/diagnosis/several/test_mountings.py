@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from fitting.diagnosis.several.mountings import mountings, of_mounting
-from fitting.layers import Face
 from fitting.specimen import PlacedMass, Specimen
+from fitting.stated.layers import Face
 
 SHAKEN = Specimen(
     0.3, 0.2, "cantilever", Face(2e-3, 70e9, 0.3, 2700.0), pickup_m=(0.1, 0.1), reads="absolute"

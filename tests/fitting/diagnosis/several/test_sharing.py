@@ -6,8 +6,8 @@ import numpy as np
 
 from fitting.diagnosis.several.of_files import Place
 from fitting.diagnosis.several.sharing import shared, with_narrow
-from fitting.narrow import NarrowResonance, NarrowResonances
-from fitting.nuisance import Nuisance
+from fitting.nuisances.narrow import NarrowResonance, NarrowResonances
+from fitting.nuisances.nuisance import Nuisance
 from fitting.specimen import Specimen
 
 NUMBERS = (Nuisance("gain", "gain", 0.003), Nuisance("length", "length", 1e-3))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from supported_plate import supported
 
+from fitting.data.noise import Noise
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.inference.refit import refit
 from fitting.diagnosis.search.catalogue_search import Search
@@ -14,7 +15,6 @@ from fitting.diagnosis.several.several_problem import SeveralProblem
 from fitting.diagnosis.verdict.kin import CHANCE, kin_of
 from fitting.effects import CATALOGUE
 from fitting.laws import LAWS
-from fitting.noise import Noise
 from fitting.sweep import Sweep
 from instrument.models.set_up import set_up
 

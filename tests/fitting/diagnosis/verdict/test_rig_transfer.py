@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from shear_pair_cases import HEAVIER_KG, LAW, fixture_factor, pair, sweeps_of_masses
 
+from fitting.data.noise import Noise, noise_of
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.diagnosis.several.several_problem import SeveralProblem
 from fitting.diagnosis.several.wandering import Wandering
 from fitting.diagnosis.verdict.rig_transfer import rig_transfer, thinned, validation_of
-from fitting.noise import Noise, noise_of
 
 
 def task(sweeps):

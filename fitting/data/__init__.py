@@ -1,0 +1,1 @@
+"""Readings of a sweep: how noisy they are, which are none, which belong together."""

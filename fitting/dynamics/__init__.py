@@ -1,0 +1,1 @@
+"""How a plate moves, on all its degrees of freedom: modes, damping, response."""

@@ -1,0 +1,1 @@
+"""Nuisance parameters: stated numbers, and narrow resonances, as unknowns of a fit."""

@@ -1,0 +1,1 @@
+"""Mathematics that knows of no plate: sparse factors, chances, robust scatter."""

@@ -1,0 +1,1 @@
+"""A plate on a few motions, certified, and its response as a sum rational in G*."""
