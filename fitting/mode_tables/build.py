@@ -62,8 +62,8 @@ def with_own_error(member: Member, law: CoreLaw) -> Member:
     """With what its theory gets wrong at the modes of a law, and what it is not said how they were read."""
     f, s = member.table.frequency_hz, member.specimen
     if member.table.read is None and not s.exact:
-        otherwise = member.reads_otherwise(law, np.zeros(len(member.stated)), "half-power")
-        member = replace(member, otherwise=np.array(otherwise))
+        otherwise = np.array(member.reads_otherwise(law, np.zeros(len(member.stated)), "half-power"))
+        member = replace(member, otherwise=otherwise / 2)
     neighbours = np.zeros(1), np.zeros(1)
     if member.table.read == "half-power" and not s.exact:
         neighbours = _neighbours(member.table)

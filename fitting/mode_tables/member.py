@@ -48,7 +48,8 @@ class Member:
     together: Array = field(default_factory=lambda: np.zeros((0, 2, 1)))
     """Relative errors of all f and eta by one cause each. Shape (causes, 2, modes)."""
     otherwise: Array = field(default_factory=lambda: np.zeros((2, 1)))
-    """By how much f and eta would be read otherwise, relative, where nobody says how. Shape (2, modes)."""
+    """Where nobody says how they were read, half of what f and eta as peaks are over the model's, relative:
+    so much is taken for read, give or take as much. Shape (2, modes)."""
     halved: "Member | None" = None
     """The plate with half as many elements each way: its modes say what the mesh gets wrong."""
     mesh_off: Array = field(default_factory=lambda: np.zeros((2, 1)))
@@ -110,7 +111,7 @@ class Member:
 
     def _as_measured(self, modes: Sequence[ComplexMode], k: Stiffness) -> Complex:
         ln_f, ln_eta = self._read(k)
-        f, (f_off, eta_off) = np.array([m.frequency_hz for m in modes]), self.mesh_off
+        f, (f_off, eta_off) = np.array([m.frequency_hz for m in modes]), self.mesh_off - self.otherwise
         return np.asarray(np.log(f) + ln_f - f_off + 1j * self.kappa * (ln_eta - eta_off))
 
     def _read(self, k: Stiffness) -> tuple[Array, Array]:

@@ -73,6 +73,11 @@ class TemperatureProblem:
         begin = self.one_law(laws)
         return replace(self, joined=self.joined.erring_at(begin), begin=begin)
 
+    def erring_at(self, law: OneLaw) -> "TemperatureProblem | None":
+        """The same, what the model gets wrong asked at a law found; None where each said so by itself."""
+        joined = self.joined.erring_at(law)
+        return replace(self, joined=joined, begin=law) if joined is not self.joined else None
+
     def one_law(self, laws: Sequence[CoreLaw]) -> OneLaw:
         """One law that lies near those of each temperature by itself: where the fit starts."""
         if self.begin is not None:

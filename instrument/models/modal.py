@@ -90,7 +90,7 @@ def identify_tables(
         for t, s in zip(tables, specimens, strict=True)
     )
     seconds = perf_counter() - ready
-    reads = remark_on_reading(problem.members, found.law)
+    reads = remark_on_reading(problem.members, [found.law] * len(problem.members))
     left = (*remark_on_fit(found, tables), *remarks_on_pulls(found))
     if odd is not None:
         left = (remark_on_misread(odd, tables),)
@@ -139,7 +139,7 @@ def diagnose_tables(
             found = diagnose_modes(ModalProblem.of(members), effects, start, report)
     accepted = found.judgement.accepted
     law = accepted.fitted.law if accepted else found.begun.none.law
-    reads = remark_on_reading(members, law)
+    reads = remark_on_reading(members, [law] * len(members))
     remarks = (*check_theories(law, tables, specimens), *reads, *remarks_on_tables(tables, specimens))
     odd = remark_on_misread(found.odd, tables) if found.odd is not None else ""
     return TablesDiagnosed(found, effects, ready - began, perf_counter() - ready, remarks, odd)

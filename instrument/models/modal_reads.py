@@ -13,10 +13,13 @@ _MATTERS = 0.5
 """Standard deviations of a table's number that another reading of it moves it by."""
 
 
-def remark_on_reading(members: Sequence[Member], law: CoreLaw) -> tuple[str, ...]:
-    """That peaks and half-power widths are other numbers than the model's, where nobody says which it is."""
+def remark_on_reading(members: Sequence[Member], laws: Sequence[CoreLaw]) -> tuple[str, ...]:
+    """That peaks and half-power widths are other numbers than the model's, where nobody says which it is.
+
+    `laws` are of each.
+    """
     moved_f, moved_eta, matters = list[float](), list[float](), False
-    for m in members:
+    for m, law in zip(members, laws, strict=True):
         if m.table.read is not None:
             continue
         try:
@@ -29,12 +32,18 @@ def remark_on_reading(members: Sequence[Member], law: CoreLaw) -> tuple[str, ...
         moved_eta += eta.tolist()
     if not matters:
         return ()
-    left_open = "" if any(m.specimen.exact for m in members) else ", which is left open in the fit"
+    exact = any(m.specimen.exact for m in members)
+    own = "the model's own, the core as it is at each frequency ('viscorig modes')"
+    taken = (
+        f"as {own}"
+        if exact
+        else f"half way between {own}, and peaks and half-power widths, and either left open"
+    )
     return (
-        "modes are taken as the model's own, the core as it is at each frequency ('viscorig modes'); peaks "
-        f"and half-power widths of an FRF read {_over(moved_f)} % in frequency and {_over(moved_eta)} % in "
-        f"loss factor beside them{left_open}: say which they are by a line '# read: half-power' in the "
-        "table, '# read: poles' (a curve fit) or '# read: model'",
+        f"how the modes were read is not said: taken {taken}; peaks and half-power widths of an FRF are "
+        f"{_over(moved_f)} % in frequency and {_over(moved_eta)} % in loss factor beside the model's: say "
+        "which they are by a line '# read: half-power' in the table, '# read: poles' (a curve fit) or "
+        "'# read: model'",
     )
 
 

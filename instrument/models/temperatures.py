@@ -20,9 +20,11 @@ from fitting.temperature.members import Alone
 from fitting.temperature.shifted_fit import ShiftedFit
 from fitting.temperature.shifts import Kind, Shift
 from fitting.temperature.simple import Verdict, in_doubt, judge, serving
+from fitting.temperature.tables import Tables
 from fitting.temperature.thermometers import each_its_own, rising
 from instrument.errors import BadInput
 from instrument.models.members import AtTemperature, Members
+from instrument.models.modal_reads import remark_on_reading
 from instrument.models.other_processes import executor
 from instrument.models.set_up import Hammer
 from instrument.models.temperature_remarks import remarks_at_temperatures
@@ -32,6 +34,8 @@ from instrument.progress import Progress, quiet
 _BAND_POINTS = 61
 _FREER = 2
 """Times that a law is let bend further before it is refused. A choice."""
+_ROUNDS = 2
+"""Fits of tables after the first, each about the law that the one before has found. A choice."""
 _SCATTERED = 0.01
 """Tail probability below which temperatures lie farther off than is said of them."""
 _FORMS = {"wlf": "WLF", "arrhenius": "Arrhenius' line"}
@@ -153,6 +157,9 @@ def identify_shifted(
     cause = next(iter(serving(causes)), None)
     fit = cause.fit if cause is not None else fit
     remarks = (*members.remarks, *remarks_at_temperatures(members), *_theories(members, fit))
+    if isinstance(task.joined, Tables):
+        tables = task.joined.problem.members
+        remarks += remark_on_reading(tables, [fit.joint.at(k) for k in range(len(tables))])
     if reference_c is not None and reference != reference_c:
         remarks += (
             f"one factor a temperature says nothing between them: the law is at {reference:g} degC, the "
@@ -207,16 +214,28 @@ class _Asked:
         with self.progress("each temperature by itself") as report:
             alone = self.members.alone(report, with_effects=with_effects)
         with self.progress("one law for all"):
-            task = self._task(alone, self.shift)
-            return alone, task, self._fit(task, alone)
+            return alone, *self._fit_of(self._task(alone, self.shift), alone)
 
     def _task(self, alone: Sequence[Alone], shift: Shift) -> TemperatureProblem:
         joined = self.members.joined([a.begun for a in alone])
         return TemperatureProblem(joined, shift, self.vertical).near([a.begun.none.law for a in alone])
 
-    def _fit(self, task: TemperatureProblem, alone: Sequence[Alone]) -> ShiftedFit:
+    def _fit_of(
+        self, task: TemperatureProblem, alone: Sequence[Alone]
+    ) -> tuple[TemperatureProblem, ShiftedFit]:
+        """A fit, and once more where the law found says other of what is asked about it than the one before.
+
+        How peaks read a mode beside its own is twice as much in a transition as beside it.
+        """
         begun = [a.begun for a in alone]
-        return fit_shifted(task, [b.none.law for b in begun], task.stated([b.none.z for b in begun]))
+        laws, z = [b.none.law for b in begun], task.stated([b.none.z for b in begun])
+        fit = fit_shifted(task, laws, z)
+        for _ in range(_ROUNDS):
+            again = task.erring_at(fit.joint)
+            if again is None:
+                break
+            task, fit = again, fit_shifted(again, laws, z)
+        return task, fit
 
     def freer(self, task: TemperatureProblem, fit: ShiftedFit) -> ShiftedFit:
         """One law that bends further, where that is all that one law lacks; else the fit as it is."""
@@ -234,7 +253,7 @@ class _Asked:
         if self.shift.kind == "free" and len(np.unique(self.shift.temperature_c)) == len(alone):
             return None
         with self.progress("a factor for each of them"):
-            return self._fit(self._task(alone, each_its_own(self.shift)), alone)
+            return self._fit_of(self._task(alone, each_its_own(self.shift)), alone)[1]
 
     def common_causes(self, alone: Sequence[Alone], task: TemperatureProblem, fit: ShiftedFit) -> list[Cause]:
         """What all may have in common: channels first, which ask for no other model of the specimen."""
