@@ -4,6 +4,7 @@ from fitting.mode_tables.table import ModalTable
 from fitting.specimen import Specimen
 from fitting.stated.layers import METAL_PER_K, Face
 from fitting.structures import Beam
+from fitting.temperature.shifts import ZERO_K
 from instrument.models.clamp_remarks import remarks_on_clamps
 from instrument.models.file_remarks import remarks_on_edges
 from instrument.models.members import Members
@@ -15,9 +16,9 @@ _FAR_K = 40.0
 """The same of a plate, whose metal is taken to be as stated: by then it is off by more than its tolerance."""
 
 
-def remarks_at_temperatures(members: Members) -> tuple[str, ...]:
-    """Each once."""
-    said: list[str] = []
+def remarks_at_temperatures(members: Members, *, vertical: bool) -> tuple[str, ...]:
+    """Each once; `vertical`: whether the law is shifted in size too."""
+    said = [] if vertical else _on_entropy(members)
     for specimen in members.specimens:
         said += [*remarks_on_clamps(specimen), *remarks_on_edges(specimen)]
         if isinstance(specimen, Beam):
@@ -30,6 +31,17 @@ def remarks_at_temperatures(members: Members) -> tuple[str, ...]:
     tables = [one.data for one in members.every if isinstance(one.data, ModalTable)]
     said += remarks_on_errors(tables)
     return tuple(dict.fromkeys(said))
+
+
+def _on_entropy(members: Members) -> list[str]:
+    """That a rubber's modulus goes with the absolute temperature, where it is not let."""
+    if any(s.exact for s in members.specimens) or _kelvins(members) < _WORTH_SAYING_K:
+        return []
+    T = [one.temperature_c + ZERO_K for one in members.every]
+    return [
+        "the law is shifted in frequency alone: a rubber's modulus goes with the absolute temperature "
+        f"besides, by {100 * (max(T) / min(T) - 1):.0f} % over these, as '--vertical' allows"
+    ]
 
 
 def _kelvins(members: Members) -> float:

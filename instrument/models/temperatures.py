@@ -156,7 +156,11 @@ def identify_shifted(
     verdict = judge(fit, causes, apart, [one.name for one in every], members.scale_known, odd)
     cause = next(iter(serving(causes)), None)
     fit = cause.fit if cause is not None else fit
-    remarks = (*members.remarks, *remarks_at_temperatures(members), *_theories(members, fit))
+    remarks = (
+        *members.remarks,
+        *remarks_at_temperatures(members, vertical=vertical),
+        *_theories(members, fit),
+    )
     if isinstance(task.joined, Tables):
         tables = task.joined.problem.members
         remarks += remark_on_reading(tables, [fit.joint.at(k) for k in range(len(tables))])

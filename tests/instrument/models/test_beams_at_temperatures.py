@@ -167,10 +167,12 @@ def test_structures_of_two_kinds_make_no_shift(made):
 
 def test_of_an_exact_beam_that_states_its_metal_nothing_is_guessed(made):
     stated = beam(young_per_k=-3e-4)
-    assert not any("a kelvin" in one for one in remarks_at_temperatures(Members(made, [stated])))
+    assert not any(
+        "a kelvin" in one for one in remarks_at_temperatures(Members(made, [stated]), vertical=False)
+    )
     exact = replace(beam(), exact=True)
     members = Members(made, [exact])
-    assert not any("a kelvin" in one for one in remarks_at_temperatures(members))
+    assert not any("a kelvin" in one for one in remarks_at_temperatures(members, vertical=False))
     assert members.specimen(made[0]) == exact
     assert Members(made, [stated]).specimen(made[0]).temperature_c == 0.0
 
@@ -189,3 +191,12 @@ def test_over_many_draws_bands_hold_what_they_say(law):
     for one in (shifts, storage, eta):
         assert np.mean(np.abs(one) < 1.96) > 0.85
         assert np.sqrt(np.mean(np.square(one))) < 1.4
+
+
+def test_that_a_rubber_s_modulus_goes_with_the_temperature_is_said_where_it_is_not_let(made):
+    members = Members(made, [beam()])
+    of_rubber = [one for one in remarks_at_temperatures(members, vertical=False) if "--vertical" in one]
+    T = [one.temperature_c + 273.15 for one in made]
+    assert len(of_rubber) == 1
+    assert f"besides, by {100 * (max(T) / min(T) - 1):.0f} % over these" in of_rubber[0]
+    assert not any("--vertical" in one for one in remarks_at_temperatures(members, vertical=True))
