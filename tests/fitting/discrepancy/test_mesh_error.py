@@ -125,7 +125,7 @@ def test_a_stiff_core_asks_for_smaller_elements(zn1):
     assert fine_enough(zn1, 1e6) is None
     assert fine_enough(zn1.bare, 1e6) is None
     n_x, n_y = zn1.mesh
-    assert fine_enough(zn1, 1e12) == (2 * n_x, 2 * n_y)
+    assert fine_enough(zn1, 1e12) == (1.5 * n_x, 1.5 * n_y)
     some = next(m for m in np.geomspace(1e6, 1e12, 61) if fine_enough(zn1, m) is not None)
     assert fine_enough(zn1, some)[0] <= 1.15 * n_x
 
