@@ -116,7 +116,8 @@ def loaded(load: float | Array, part: Array) -> Array:
 
 
 def coefficients(specimen: Specimen, reference: Specimen) -> Coefficients:
-    """Of a specimen on the mesh of another: the same number of elements, stretched."""
+    """Of a specimen on the mesh of another: the same number of elements, stretched, and what it counts."""
+    specimen = replace(specimen, faces_shear=reference.faces_shear)
     sides = _Sides.of(specimen, reference)
     K_0 = sides.area * np.concatenate(
         [*_of_faces(specimen, reference, sides), *_of_glue_and_pull(specimen, reference, sides)]
