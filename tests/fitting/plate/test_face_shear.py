@@ -11,7 +11,7 @@ from fitting.discrepancy.theory_error import stack
 from fitting.dynamics.complex_modes import complex_modes
 from fitting.laws.constant import ConstantModulus
 from fitting.plate.element_matrices import element_matrices
-from fitting.plate.face_shear import counted, edge_twist_left, share
+from fitting.plate.face_shear import edge_twist_left, share_of_faces, with_face_shear
 from fitting.plate.mesh import mesh_of
 from fitting.plate.part_matrices import element_parts
 from fitting.plate.parts import coefficients, layers_of, specimen_of, stretched
@@ -112,13 +112,13 @@ def test_modes_of_a_simply_supported_plate_are_exact_but_for_its_mesh():
 
 def test_it_is_counted_where_the_core_is_stiff():
     made = plate("laminated steel", faces_shear=False)
-    assert not counted(made, 1e6).faces_shear
-    assert counted(made, 5e7).faces_shear
-    assert share(made.bare, 5e7) == 0.0
+    assert not with_face_shear(made, 1e6).faces_shear
+    assert with_face_shear(made, 5e7).faces_shear
+    assert share_of_faces(made.bare, 5e7) == 0.0
     assert not made.bare.faces_shear
     # h/(2 kappa G_f) of two faces, beside H/G of the core.
     faces, core = 2 * 1e-3 / (4 * 5 / 6 * 200e9 / 2.6), 0.05e-3 / 5e7
-    assert share(made, 5e7) == pytest.approx(faces / (faces + core))
+    assert share_of_faces(made, 5e7) == pytest.approx(faces / (faces + core))
 
 
 def test_a_free_edge_does_not_lose_its_twist_twice():
