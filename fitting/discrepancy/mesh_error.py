@@ -122,7 +122,7 @@ class _Node:
 
     mesh: Mesh
     faces: Complex
-    """Of both and of glue. Shape (28, 28), as the next two; 36 with glue."""
+    """Of both and of what slips. Shape (28, 28), as the next two; 36 with slip."""
     K_1: Array
     M: Array
     moves: tuple[int, ...]
@@ -135,7 +135,7 @@ def _node(specimen: Specimen, finer: int) -> _Node:
     mesh = mesh_of(specimen)
     mesh = Mesh(mesh.length_m, mesh.width_m, finer * n_x, finer * n_y, mesh.dofs)
     e, b, c = element_matrices(specimen, mesh), specimen.substrate, specimen.constraining
-    faces = (1 + 1j * b.loss_factor) * e.K_substrate + np.asarray(e.K_glue)
+    faces = (1 + 1j * b.loss_factor) * e.K_substrate + np.asarray(e.K_slip)
     if c is not None:
         faces = faces + (1 + 1j * c.loss_factor) * e.K_constraining
     still = {U_C, V_C, *range(G_X, mesh.dofs)} if specimen.core is None else set()

@@ -76,7 +76,7 @@ def test_the_element_is_the_sum_of_its_parts_for_any_stated_numbers(glue, both_s
         factors = np.ones((4, mesh_of(one).dofs))
         factors[:, :7] = stretched(one, reference)
         scale = np.outer(factors, factors)
-        faces = (1 + 1j * one.substrate.loss_factor) * e.K_substrate + e.K_constraining + e.K_glue
+        faces = (1 + 1j * one.substrate.loss_factor) * e.K_substrate + e.K_constraining + e.K_slip
         for whole, of, its in ((faces, c.K_0, parts[0]), (e.M, c.M, parts[2])):
             np.testing.assert_allclose(
                 np.tensordot(of, its, axes=1), whole * scale, atol=1e-12 * np.abs(whole * scale).max()
