@@ -9,12 +9,12 @@ posterior. Where to begin:
     plate/, dynamics/           the plate's matrices; its modes, damping and response in full
     reduced/, discrepancy/      the small model that is fitted instead; how wrong the plate's theory is
     structures/                 beams and shear pairs, as matrices of the same equation
-    nuisances/                  stated numbers as unknowns of a fit
+    nuisances/                  stated numbers, and narrow resonances, as unknowns of a fit
     identification/             a law from a sweep, or G* without one
     diagnosis/, effects/        what a fit cannot explain, and the causes that are tried
     mode_tables/, temperature/  modes instead of sweeps; several temperatures
     planning/, depth/           what a measurement would teach; intervals beyond the linear errors
-    modal/                      damping read off an FRF
+    modal/, numerics/           damping read off an FRF; mathematics that knows of no plate
 
 ARCHITECTURE.md has all of it, and which folder uses which.
 """

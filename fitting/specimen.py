@@ -148,7 +148,7 @@ class Specimen(Driven):
     axial_pa: tuple[float | None, float | None] = (None, None)
     """Stress in its faces along x and along y; zero is filled in where clamps on opposite edges may pull."""
     faces_shear: bool = False
-    """Whether it is counted that the core shears its faces across their thickness (`plate.face_shear`)."""
+    """Whether it is counted that the core shears its faces (`fitting.plate.face_shear`)."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "boundary", named(self.boundary))
@@ -260,7 +260,7 @@ class Specimen(Driven):
 
     @property
     def slips(self) -> bool:
-        """Whether glue or its faces take part in the slip."""
+        """Whether anything slips beside the core: glue, or faces that shear."""
         return self.has_glue or (self.core is not None and self.faces_shear)
 
     @property

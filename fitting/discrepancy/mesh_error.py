@@ -8,8 +8,9 @@ have the wave's lambda as the mesh has it, exactly. The deflection of Adini, Clo
 bilinear motions in the plane are too stiff, both as the square of an element's share of the wave; which of
 them is larger goes with the plate, how large with the wave's direction.
 
-Beside a clamped or a free edge faces slide on their core within a length of sqrt(E h h_v/|G|); where an
-element is a good part of that its straight sides are too stiff there, whatever the mode.
+Beside a clamped or a free edge faces slide on their core within a length of sqrt(h_v/(c |G|)), h_v the core's
+thickness and c the sum of 1/(E h) over both faces; where an element is a good part of that its straight sides
+are too stiff there, whatever the mode.
 
 Source: the dispersion of periodic structures, Brillouin, Wave Propagation in Periodic Structures (1946).
 """
@@ -35,8 +36,8 @@ _OF_HALVES = 4 / 3
 _FAR = 0.25
 """An element over the length of sliding up to which errors go with its square there, as elsewhere."""
 _SLIDING_FREQUENCY, _SLIDING_LOSS, _STIFF_LOSS = 4e-3, 1.2e-2, 3e-2
-"""Sizes of the errors beside edges, in units of r/(1 + r), r an element over the length of sliding; the last
-of a loss factor, times what r is beyond `_FAR`.
+"""Sizes of the errors beside edges, times r/(1 + r), r an element over the length of sliding: of a frequency,
+of a loss factor, and, times what r is beyond `_FAR`, of a loss factor besides.
 
 Six modes each of fourteen cantilevers and free plates against meshes twice as fine, r 0.03 to 4.5: 0.02 % at
 0.05, up to 0.15 % at 0.5 and 0.3 % at 4. Loss factors of steel and aluminium about stiff cores: 0.2, 1, 3 and
@@ -83,8 +84,9 @@ def mesh_error(specimen: Specimen, wavenumber: Array, G: Complex) -> MeshError:
 def beside_edges(specimen: Specimen, G: Complex, *, taken_off: bool = False) -> tuple[Array, Array]:
     """Relative sizes, of frequencies and of loss factors, at core moduli; none of a bare plate.
 
-    `taken_off`: of what is left where a mesh of half as many elements says how much to take off. That holds
-    where faces slide far, and says little where they slide within an element. Shape of `G` each.
+    `taken_off`: of what is left where a mesh of half as many elements each way has said how much to take off.
+    It says that well where faces slide over several elements, hardly where they slide within one. Shape of
+    `G` each.
     """
     if specimen.core is None or specimen.constraining is None:
         return np.zeros(np.shape(G)), np.zeros(np.shape(G))
@@ -96,7 +98,7 @@ def beside_edges(specimen: Specimen, G: Complex, *, taken_off: bool = False) -> 
 
 
 def fine_enough(specimen: Specimen, modulus_pa: float) -> tuple[int, int] | None:
-    """Elements along x and y where a core so stiff asks for smaller ones beside its edges; else None.
+    """Elements along x and y where so stiff a core asks for smaller ones than by default; else None.
 
     Of steel and aluminium about adhesives, laws from tables of six modes were 4 to 20 % off with the default
     mesh and 1 to 10 % with these.
@@ -109,7 +111,7 @@ def fine_enough(specimen: Specimen, modulus_pa: float) -> tuple[int, int] | None
 
 
 def _over_sliding(specimen: Specimen, modulus_pa: Array) -> Array:
-    """r: an element over the length sqrt(E h h_v/G) within which faces slide. Shape of the modulus."""
+    """r: an element's longer side over the length within which faces slide. Shape of the modulus."""
     b, v, c = specimen.substrate, specimen.core, specimen.constraining
     assert v is not None
     assert c is not None
@@ -124,7 +126,7 @@ class _Node:
 
     mesh: Mesh
     faces: Complex
-    """Of both and of glue. Shape (28, 28), as the next two; 36 with glue."""
+    """Of both and of what slips. Shape (28, 28), as the next two; 36 with slip."""
     K_1: Array
     M: Array
     moves: tuple[int, ...]
@@ -137,7 +139,7 @@ def _node(specimen: Specimen, finer: int) -> _Node:
     mesh = mesh_of(specimen)
     mesh = Mesh(mesh.length_m, mesh.width_m, finer * n_x, finer * n_y, mesh.dofs)
     e, b, c = element_matrices(specimen, mesh), specimen.substrate, specimen.constraining
-    faces = (1 + 1j * b.loss_factor) * e.K_substrate + np.asarray(e.K_glue)
+    faces = (1 + 1j * b.loss_factor) * e.K_substrate + np.asarray(e.K_slip)
     if c is not None:
         faces = faces + (1 + 1j * c.loss_factor) * e.K_constraining
     still = {U_C, V_C, *range(G_X, mesh.dofs)} if specimen.core is None else set()

@@ -39,9 +39,9 @@ _FEWEST = 4
 MESH_LEFT = 1 / 3
 """Of what a mesh gets wrong, where it is taken off: beside edges an error goes less than with the square."""
 _PEAK_OFF, _WIDTH_OFF, _ALONE = 0.8, 6.0, 0.1
-"""Of a mode read off its peak, times its loss factor squared: cantilevers of Euler and Bernoulli, a base or a
-force at six places, read at the tip or between, have 0.1 to 2.8 of f and 0.3 to 69 of eta in modes 2 and 3, a
-tenth and less in the first. A judgement; what lies further off is no reading."""
+"""Of a mode read off its peak, times its loss factor squared: cantilevers of Euler and Bernoulli, driven by
+their base or a force at five places, read at the tip or between, have 0.1 to 2.8 of f and 0.3 to 69 of eta in
+modes 2 and 3, a tenth and less in the first. A judgement; what lies further off is no reading."""
 _READ, _STRUCK = (0.77, 0.31), (0.93, 0.12)
 """Of length and width: a plate has to be struck and read somewhere, though no mode depends on it."""
 Widen = Callable[[Specimen, Array], EnrichedReducedPlate]
@@ -59,7 +59,7 @@ def member_of(table: ModalTable, specimen: AnySpecimen, widen: Widen | None = No
 
 
 def with_own_error(member: Member, law: CoreLaw) -> Member:
-    """With what its theory gets wrong at the modes of a law, and what it is not said how they were read."""
+    """With what its theory gets wrong at a law's modes, and what reading may do where nobody says how."""
     f, s = member.table.frequency_hz, member.specimen
     if member.table.read is None and not s.exact:
         otherwise = np.array(member.reads_otherwise(law, np.zeros(len(member.stated)), "half-power"))

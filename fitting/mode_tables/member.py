@@ -48,8 +48,9 @@ class Member:
     together: Array = field(default_factory=lambda: np.zeros((0, 2, 1)))
     """Relative errors of all f and eta by one cause each. Shape (causes, 2, modes)."""
     otherwise: Array = field(default_factory=lambda: np.zeros((2, 1)))
-    """Where nobody says how they were read, half of what f and eta as peaks are over the model's, relative:
-    so much is taken for read, give or take as much. Shape (2, modes)."""
+    """Half of what f and eta read off peaks have more than the model's, relative; zero where the table says
+    how it was read. So much is added to the model's, with as much for its standard deviation, one cause of
+    all. Shape (2, modes)."""
     halved: "Member | None" = None
     """The plate with half as many elements each way: its modes say what the mesh gets wrong."""
     mesh_off: Array = field(default_factory=lambda: np.zeros((2, 1)))

@@ -1,11 +1,11 @@
-"""The paper's layer-wise rectangular element: four nodes, seven degrees of freedom each; nine with glue.
+"""The paper's layer-wise rectangular element: four nodes, seven degrees of freedom each; nine with slip.
 
 Degrees of freedom of a node, in this order: u_c, v_c, u_b, v_b, w, theta_x, theta_y, with
 theta_x = dw/dy and theta_y = -dw/dx. In-plane displacements are bilinear, the deflection is
 the twelve-term polynomial of Adini, Clough and Melosh. The core follows its faces: the
 interfaces are continuous, so its displacement and shear strain follow from the seven. Thin layers of glue
 beside the core carry its shear and nothing else; how far they slip, along x and y, is two degrees of freedom
-more, behind the seven. Faces that the core shears slip as glue does (`fitting.plate.face_shear`).
+more, behind the seven. Faces that the core shears add to that slip (`fitting.plate.face_shear`).
 
 Source: the paper's Eq. (15) to (18), with the thickness restored in Eq. (16) and
 1/(1 - mu) in Eq. (17b).
@@ -23,7 +23,7 @@ U_C, V_C, U_B, V_B, W, THETA_X, THETA_Y, G_X, G_Y = range(9)
 """Places of a node's degrees of freedom: both faces in their plane, w, its slopes, slip beside the core."""
 DOFS = 7
 """Of a node."""
-WITH_GLUE = 9
+WITH_SLIP = 9
 """Of a node where glue or sheared faces slip."""
 GLUE_TURNS = 1 / 3
 """Of the glue's mass: mean square of what moves with one side from 0 to the slip of the other."""
@@ -68,7 +68,7 @@ class Shape:
     """Shape function vectors of one element of sides `a_m`, `b_m`.
 
     Every method takes local coordinates from corner one and returns rows over the element's
-    28 degrees of freedom, 36 with glue. Shapes below are without.
+    28 degrees of freedom, 36 with slip. Shapes below are without.
     """
 
     a_m: float
@@ -212,19 +212,19 @@ def core_shear(
 ) -> tuple[Array, Array]:
     """N_10, N_11: transverse shear strains, gamma_xz = (u_c - u_b + d w_x)/H_v. Shape (28,) each.
 
-    What the glue slips is taken off.
+    The slip of glue and sheared faces is taken off.
     """
     H_v = core.thickness_m
     d = core.between_faces_m + (constraining.thickness_m + substrate.thickness_m) / 2
     N_10 = shape.inplane(U_C, x, y) - shape.inplane(U_B, x, y) + d * shape.deflection(x, y, dx=1)
     N_11 = shape.inplane(V_C, x, y) - shape.inplane(V_B, x, y) + d * shape.deflection(x, y, dy=1)
-    if shape.dofs == WITH_GLUE:
+    if shape.dofs == WITH_SLIP:
         N_10, N_11 = N_10 - shape.inplane(G_X, x, y), N_11 - shape.inplane(G_Y, x, y)
     return N_10 / H_v, N_11 / H_v
 
 
-def glue_stiffness(shape: Shape, over: Rectangles | None = None) -> Array:
-    """Of its slip, for a shear stiffness per area of one. Shape (36, 36)."""
+def slip_stiffness(shape: Shape, over: Rectangles | None = None) -> Array:
+    """Of the slip beside the core, for a shear stiffness per area of one. Shape (36, 36)."""
     K = _square(shape)
     for x, y, dA in gauss_points(shape, over):
         for dof in (G_X, G_Y):
@@ -234,9 +234,11 @@ def glue_stiffness(shape: Shape, over: Rectangles | None = None) -> Array:
 
 
 def turned_sections(shape: Shape, face: Face, turn: complex, over: Rectangles | None = None) -> Complex:
-    """What bending a face takes where its sections turn by `turn` (1/m) of the slip, less where they do not.
+    """By how much bending a face takes more where its sections turn by `turn` (1/m) times the slip.
 
-    Of faces whose own axes are turned their coupling is left out. Shape (36, 36).
+    h^3/12 times the integral of (B + turn B_g)^T D (B + turn B_g) - B^T D B, B the curvatures -w'' and B_g
+    the slip's derivatives g', as a face's strains are made of u and v. Loss factor left out. Of a face whose
+    own axes are turned, what couples shear to the rest is left out. Shape (36, 36).
     """
     D = face_plane_stress(face)
     D[2, :2] = D[:2, 2] = 0.0
@@ -285,6 +287,6 @@ def core_mass(
         M += core.density_kg_m3 * core.thickness_m * rows.T @ rows * dA
         if glue:
             M += glue * np.outer(rows[2], rows[2]) * dA
-    if shape.dofs == WITH_GLUE:
-        M += GLUE_TURNS * glue * glue_stiffness(shape, over)
+    if shape.dofs == WITH_SLIP:
+        M += GLUE_TURNS * glue * slip_stiffness(shape, over)
     return M

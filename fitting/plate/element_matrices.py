@@ -20,7 +20,7 @@ class ElementMatrices:
     K_substrate: Array
     K_constraining: Array
     K_1: Array
-    K_glue: Complex | float = 0.0
+    K_slip: Complex | float = 0.0
     """Of what slips beside the core; complex where it loses energy."""
     K_pulled: Array | float = 0.0
     """Of clamps on opposite edges that pull it along."""
@@ -28,7 +28,7 @@ class ElementMatrices:
     @property
     def K_0(self) -> Array:
         """Both faces and what pulls them, loss factors left out."""
-        return self.K_substrate + self.K_constraining + np.asarray(self.K_glue).real + self.K_pulled
+        return self.K_substrate + self.K_constraining + np.asarray(self.K_slip).real + self.K_pulled
 
 
 def element_matrices(specimen: Specimen, mesh: Mesh, cell: Cell | None = None) -> ElementMatrices:
@@ -48,11 +48,11 @@ def element_matrices(specimen: Specimen, mesh: Mesh, cell: Cell | None = None) -
     M = M + sides * element.core_mass(shape, s.core, s.substrate, s.constraining, over)
     K_c = sides * element.face_stiffness(shape, s.constraining, U_C, V_C, over)
     K_v = sides * element.core_stiffness(shape, s.core, s.substrate, s.constraining, over)
-    K_glue = np.zeros(K_b.shape, complex)
+    K_slip = np.zeros(K_b.shape, complex)
     if (slip := slip_of(s)) is not None:
-        K_glue += slip.stiffness_pa_m * element.glue_stiffness(shape, over)
+        K_slip += slip.stiffness_pa_m * element.slip_stiffness(shape, over)
         faces = (s.substrate, 1, slip.turn_b), (s.constraining, sides, slip.turn_c)
         for face, times, turn in faces if s.faces_shear else ():
             lossy = times * (1 + 1j * face.loss_factor)
-            K_glue += lossy * element.turned_sections(shape, face, turn, over)
-    return ElementMatrices(M, K_b, K_c, K_v, K_glue, K_pulled)
+            K_slip += lossy * element.turned_sections(shape, face, turn, over)
+    return ElementMatrices(M, K_b, K_c, K_v, K_slip, K_pulled)

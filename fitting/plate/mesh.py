@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Indices
-from fitting.plate.element import CORNERS, DOFS, WITH_GLUE, Rectangles, Shape
+from fitting.plate.element import CORNERS, DOFS, WITH_SLIP, Rectangles, Shape
 from fitting.specimen import Specimen
 from fitting.stated.patches import Patch, shifts_of
 
@@ -49,7 +49,7 @@ class Mesh:
     def element_dofs(self) -> Indices:
         """Degrees of freedom of every element, corners in the element's order.
 
-        Shape (elements, 28), 36 with glue.
+        Shape (elements, 28), 36 with slip.
         """
         i, j = np.meshgrid(np.arange(self.n_x), np.arange(self.n_y), indexing="ij")
         stride = self.n_y + 1
@@ -70,7 +70,7 @@ class Mesh:
 
 def mesh_of(specimen: Specimen) -> Mesh:
     """Of a plate as stated."""
-    dofs = WITH_GLUE if specimen.slips else DOFS
+    dofs = WITH_SLIP if specimen.slips else DOFS
     return Mesh(specimen.length_m, specimen.width_m, *specimen.mesh, dofs)
 
 

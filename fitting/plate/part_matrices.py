@@ -15,14 +15,14 @@ from fitting.plate.element import (
     U_C,
     V_B,
     V_C,
-    WITH_GLUE,
+    WITH_SLIP,
     Rectangle,
     Rectangles,
     Shape,
     W,
     core_stiffness,
     gauss_points,
-    glue_stiffness,
+    slip_stiffness,
 )
 from fitting.plate.mesh import SHIFT_M, Cell, cells_of, is_turned, mesh_of
 from fitting.plate.parts import (
@@ -62,7 +62,7 @@ def element_parts(reference: Specimen, cell: Cell | None = None) -> tuple[Array,
             for to, more in zip((K_0, K_1, M), _treated(shape, names, rectangle), strict=True):
                 to += more
     elif reference.slips:
-        K_0[names.K_0.index(GLUE)] = M[names.M.index(GLUE)] = glue_stiffness(shape)
+        K_0[names.K_0.index(GLUE)] = M[names.M.index(GLUE)] = slip_stiffness(shape)
     core, constraining = reference.core, reference.constraining
     if core is not None and constraining is not None:
         # What the core carries by stretching and bending is a hundred thousandth of its faces'.
@@ -126,7 +126,7 @@ def _treated(shape: Shape, names: Names, rectangle: Rectangle) -> tuple[Array, A
         M[2 : len(MASS)] += dA * np.array(inertia[2:])
         M[names.M.index(W_TREATED)] += dA * inertia[0]
     if GLUE in at:
-        K_0[at[GLUE]] = M[names.M.index(GLUE)] = glue_stiffness(shape, (rectangle,))
+        K_0[at[GLUE]] = M[names.M.index(GLUE)] = slip_stiffness(shape, (rectangle,))
     return K_0, K_1, M
 
 
@@ -256,7 +256,7 @@ def _rows(shape: Shape, x: float, y: float) -> Rows:
                 shape.inplane(dof, x, y, dx=1),
                 shape.inplane(dof, x, y, dy=1),
             )
-    if shape.dofs == WITH_GLUE:
+    if shape.dofs == WITH_SLIP:
         for name, dof in (("gx", G_X), ("gy", G_Y)):
             found[name] = shape.inplane(dof, x, y)
             found[f"{name}_x"], found[f"{name}_y"] = (
@@ -288,7 +288,7 @@ def _bending_turned(r: Rows) -> list[Array]:
 
 
 def _sheared(r: Rows) -> list[Array]:
-    """`SHEARED`."""
+    """`SHEARED`: products of curvatures and derivatives of the slip, then of the latter alone."""
     turns = [
         _both(r["w_xx"], r["gx_x"]),
         _both(r["w_yy"], r["gy_y"]),
@@ -313,7 +313,7 @@ def _bending(r: Rows) -> list[Array]:
 
 
 def _slip(r: Rows) -> list[Array]:
-    """Of gamma_x = (u_c - u_b + d w_x)/H and gamma_y, squared, in powers of d."""
+    """Of gamma_x = (u_c - u_b + d w_x - g_x)/H and gamma_y, squared, in powers of d."""
     x, y = r["uc"] - r["ub"], r["vc"] - r["vb"]
     if "gx" in r:
         x, y = x - r["gx"], y - r["gy"]

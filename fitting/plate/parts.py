@@ -44,11 +44,13 @@ PATCHED = tuple(f"bend c {t}" for t in _BENDING)
 PATCHED_OFF_AXIS = tuple(f"bend c {t}" for t in _BENDING_TURNED)
 """Where not all of the plate is treated: `bend` is then the substrate's alone."""
 W_TREATED, GLUE = "w treated", "glue"
+"""Behind those: inertia of the treatment up and down; the slip beside the core, of glue or of faces that
+shear, in inertia the glue's alone."""
 SHEARED = (
     *(f"turn {t}" for t in ("11", "22", "12 x", "12 y", "66 x", "66 y")),
     *(f"section {t}" for t in _MEMBRANE),
 )
-"""Of faces that the core shears, behind `GLUE`: curvature with the turn of their sections, and that alone."""
+"""Of faces that the core shears, behind `GLUE`: curvatures times the slip's derivatives, then these alone."""
 PULLED = {"x": "pull x", "y": "pull y"}
 """Along clamps on opposite edges."""
 _AXES = ("young_y_pa", "shear_pa", "angle_rad")
@@ -73,7 +75,7 @@ class Names:
 
 
 def names_of(specimen: Specimen) -> Names:
-    """`STIFFNESS`, `CORE`, `MASS`, then what few have: turned axes, patches, glue, shifts; no shape."""
+    """`STIFFNESS`, `CORE`, `MASS`, then what few have: turned axes, patches, slip, pull, shifts; no shape."""
     K_0: tuple[str, ...] = STIFFNESS
     M: tuple[str, ...] = MASS
     turned = is_turned(specimen)
@@ -228,7 +230,7 @@ def _of_glue_and_pull(specimen: Specimen, reference: Specimen, sides: _Sides) ->
 
 
 def _of_core(specimen: Specimen, reference: Specimen, sides: _Sides) -> Array:
-    """`CORE`: with d between the faces' middles, gamma = (u_c - u_b + d w')/H."""
+    """`CORE`: with d between the faces' middles, gamma = (u_c - u_b + d w' - slip)/H."""
     v, core_0 = specimen.core, reference.core
     assert v is not None
     assert core_0 is not None

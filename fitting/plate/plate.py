@@ -121,7 +121,7 @@ class Plate:
         if loss_b or loss_c:
             faces = faces + 1j * (loss_b * self.K_substrate + loss_c * self.K_constraining)
         if s.slips:
-            faces = faces + _sum([self.scatter(np.asarray(e.K_glue), of) for of, e in each])
+            faces = faces + _sum([self.scatter(np.asarray(e.K_slip), of) for of, e in each])
         if any(s.axial_pa):
             faces = faces + _sum([self.scatter(np.asarray(e.K_pulled), of) for of, e in each])
         if s.lacks_edge_twist:

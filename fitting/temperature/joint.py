@@ -74,7 +74,7 @@ class TemperatureProblem:
         return replace(self, joined=self.joined.erring_at(begin), begin=begin)
 
     def erring_at(self, law: OneLaw) -> "TemperatureProblem | None":
-        """The same, what the model gets wrong asked at a law found; None where each said so by itself."""
+        """The same, what the model gets wrong asked at a law found; None of sweeps, not asked again."""
         joined = self.joined.erring_at(law)
         return replace(self, joined=joined, begin=law) if joined is not self.joined else None
 

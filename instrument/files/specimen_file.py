@@ -13,7 +13,7 @@ from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import LAWS, CoreLaw
 from fitting.laws.table import Tabulated
-from fitting.plate.face_shear import counted
+from fitting.plate.face_shear import with_face_shear
 from fitting.specimen import Drive, PlacedMass, Reading, Specimen
 from fitting.stated.edges import named
 from fitting.stated.layers import Core
@@ -293,7 +293,7 @@ def _for_its_core(plate: Specimen) -> Specimen:
     if plate.core is None:
         return plate
     modulus_pa = abs(complex(plate.core.law.modulus(np.array(2 * pi * _STIFF_AT_HZ))))
-    plate = counted(plate, modulus_pa)
+    plate = with_face_shear(plate, modulus_pa)
     return replace(plate, elements=plate.elements or fine_enough(plate, modulus_pa))
 
 

@@ -10,13 +10,13 @@ from fitting.laws import CoreLaw
 from fitting.mode_tables.member import Member
 
 _MATTERS = 0.5
-"""Standard deviations of a table's number that another reading of it moves it by."""
+"""By how many standard deviations of its own another reading moves a number, from which on it is said."""
 
 
 def remark_on_reading(members: Sequence[Member], laws: Sequence[CoreLaw]) -> tuple[str, ...]:
-    """That peaks and half-power widths are other numbers than the model's, where nobody says which it is.
+    """By how much peaks and half-power widths differ from the model's modes, where nobody says what was read.
 
-    `laws` are of each.
+    `laws` are the members', one each. Empty where every table says so, or where it hardly matters.
     """
     moved_f, moved_eta, matters = list[float](), list[float](), False
     for m, law in zip(members, laws, strict=True):

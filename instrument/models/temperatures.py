@@ -227,9 +227,9 @@ class _Asked:
     def _fit_of(
         self, task: TemperatureProblem, alone: Sequence[Alone]
     ) -> tuple[TemperatureProblem, ShiftedFit]:
-        """A fit, and once more where the law found says other of what is asked about it than the one before.
+        """A fit; of tables of modes fits after it, with the model's errors as the law before them has them.
 
-        How peaks read a mode beside its own is twice as much in a transition as beside it.
+        These go with the law: peaks differ from the model's modes twice as much in a transition as beside it.
         """
         begun = [a.begun for a in alone]
         laws, z = [b.none.law for b in begun], task.stated([b.none.z for b in begun])

@@ -9,7 +9,7 @@ from fitting.digits import written_out
 from fitting.discrepancy.theory_error import TheoryError, check_beam_theory, check_theory, refusal
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
-from fitting.plate.face_shear import MATTERS, share
+from fitting.plate.face_shear import COUNTED_ABOVE, share_of_faces
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen, Beam
 
@@ -17,7 +17,7 @@ _PLACES = 10
 """Frequencies of a band that are looked at: the error is smooth in frequency."""
 
 _WORTH_SAYING = 2.0
-"""Times what is counted beside a core stated so stiff: below, G' is off by half a percent. A choice."""
+"""Times `COUNTED_ABOVE`: faces that take less of the slip put G' off by half a percent. A choice."""
 
 
 def check_each_theory(
@@ -58,7 +58,7 @@ def theory_over(specimen: Specimen, law: CoreLaw, frequency_hz: Array) -> Theory
 
 
 def stiffer_than_stated(specimen: Specimen, law: CoreLaw, frequency_hz: Array) -> str:
-    """A line where faces shear beside the core found and not beside the one stated to begin with; or empty.
+    """A line where faces shear about the core found, and were not counted to about the one stated; or empty.
 
     Over the band of `frequency_hz`, of any shape.
     """
@@ -66,14 +66,14 @@ def stiffer_than_stated(specimen: Specimen, law: CoreLaw, frequency_hz: Array) -
         return ""
     f = np.geomspace(np.min(frequency_hz), np.max(frequency_hz), _PLACES)
     modulus_pa = float(np.abs(law.modulus(2 * np.pi * f)).max())
-    taken = share(specimen, modulus_pa)
-    if taken < _WORTH_SAYING * MATTERS:
+    taken = share_of_faces(specimen, modulus_pa)
+    if taken < _WORTH_SAYING * COUNTED_ABOVE:
         return ""
     core, faces = written_out(modulus_pa / 1e6, 2), written_out(100 * taken, 1)
     return (
         f"core of {core} MPa: its faces take {faces} % of the slip by their own "
-        "shear, which is not counted beside a core as soft as stated: expected the law found in [core.law], "
-        "and once more"
+        "shear, which is not counted beside a core as soft as stated: write the law found into "
+        "[core.law] and run it again"
     )
 
 

@@ -29,13 +29,13 @@ class Predicted:
     turn_deg: Array = field(default_factory=_none)
     """Phase less the measured one, -180 to 180; NaN where only amplitudes are known."""
     name: str = ""
-    """What it is with, `with clamp_compliance`; empty of a fit."""
+    """For the legend, `with clamp_compliance`; empty of a fit."""
 
     @classmethod
     def by_fit(cls, points: PointsMeasured, fit: FitUpdated | None, left_out: Mask) -> Self:
         """The law alone. Empty where there is none, or its rows do not belong to these points.
 
-        `left_out` are points that it has set aside, shape (points,).
+        `left_out` are points that the fit has set aside, shape (points,).
         """
         if fit is None or fit.result is None:
             return cls()
@@ -53,8 +53,8 @@ class Predicted:
     ) -> Self:
         """The law with the effects accepted. Empty where none are, or its rows do not belong to these points.
 
-        `last_step` is the recorded diagnosis's; one made here took all points.
-        `left_out` are points that it has set aside, shape (points,).
+        `last_step` is the last that the session's own diagnosis took; one made here took all points.
+        `left_out` are points that the diagnosis has set aside, shape (points,).
         """
         if shown is None or stage_before(shown.found) is None:
             return cls()
@@ -84,7 +84,7 @@ def taken_of(
 ) -> Index | None:
     """Number of the point that each row of a result is of; None where they do not belong to these points.
 
-    `left_out` are points that it has set aside, shape (points,). Shape (rows,).
+    `left_out` are points that the result has set aside, shape (points,). Shape (rows,).
     """
     taken = [k for k in _in_order_of_rows(points, last_step) if not left_out[k]]
     fits = len(rows) == len(taken) and all(

@@ -172,5 +172,5 @@ def test_a_core_that_turns_out_stiffer_than_stated_is_said_to_shear_its_faces():
     assert stiffer_than_stated(plate, ConstantModulus(1e6, 0.5), f) == ""
     said = stiffer_than_stated(plate, ConstantModulus(2e8, 0.0), f)
     assert said.startswith("core of 200 MPa: its faces take ")
-    assert "expected the law found in [core.law]" in said
+    assert "write the law found into [core.law]" in said
     assert stiffer_than_stated(replace(plate, faces_shear=True), ConstantModulus(2e8, 0.0), f) == ""
