@@ -50,7 +50,8 @@ def element_matrices(specimen: Specimen, mesh: Mesh, cell: Cell | None = None) -
     K_v = sides * element.core_stiffness(shape, s.core, s.substrate, s.constraining, over)
     K_slip = np.zeros(K_b.shape, complex)
     if (slip := slip_of(s)) is not None:
-        K_slip += slip.stiffness_pa_m * element.slip_stiffness(shape, over)
+        alone = element.slip_stiffness(shape, over)
+        M, K_slip = M + slip.mass_kg_m2 * alone, K_slip + slip.stiffness_pa_m * alone
         faces = (s.substrate, 1, slip.turn_b), (s.constraining, sides, slip.turn_c)
         for face, times, turn in faces if s.faces_shear else ():
             lossy = times * (1 + 1j * face.loss_factor)

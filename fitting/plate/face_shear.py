@@ -49,6 +49,8 @@ class Slip:
     shear."""
     turn_c: complex
     """r_c: the same of the constraining layer's."""
+    mass_kg_m2: float = 0.0
+    """Of the sections that turn, rho h^3/12 r^2 of each: next to nothing, but no slip moves without mass."""
 
 
 def slip_of(specimen: Specimen) -> Slip | None:
@@ -65,7 +67,11 @@ def slip_of(specimen: Specimen) -> Slip | None:
     angles = [1 / (2 * alike * KAPPA * _shear_modulus(face)) for face, alike in each]
     compliance = _compliance_of_faces(specimen) + glue
     turn_b, turn_c = (angle / compliance for angle in angles)
-    return Slip(1 / compliance, turn_b, turn_c)
+    inertia = (
+        alike * face.density_kg_m3 * face.thickness_m**3 / 12 * abs(turn) ** 2
+        for (face, alike), turn in zip(each, (turn_b, turn_c), strict=True)
+    )
+    return Slip(1 / compliance, turn_b, turn_c, sum(inertia))
 
 
 def edge_twist_left(face: Face, side_m: float) -> float:
@@ -81,8 +87,13 @@ def edge_twist_left(face: Face, side_m: float) -> float:
 
 
 def with_face_shear(specimen: Specimen, modulus_pa: float) -> Specimen:
-    """With the shear of its faces counted where it matters about a core so stiff, else without."""
-    return replace(specimen, faces_shear=share_of_faces(specimen, modulus_pa) > COUNTED_ABOVE)
+    """With the shear of its faces counted where it matters about a core so stiff, else without.
+
+    Not beside patches: at the end of one the substrate's sections stand square again, and a slip that ends
+    there would leave a hinge.
+    """
+    matters = share_of_faces(specimen, modulus_pa) > COUNTED_ABOVE
+    return replace(specimen, faces_shear=matters and not specimen.patches)
 
 
 def share_of_faces(specimen: Specimen, modulus_pa: float) -> float:

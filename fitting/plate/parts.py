@@ -265,7 +265,9 @@ def _of_inertia(specimen: Specimen, reference: Specimen, sides: _Sides) -> Array
     if reference.patches:
         M = np.append(M, mass.treated * sides.area)
     if reference.slips:
-        M = np.append(M, GLUE_TURNS * mass.glue * sides.area)
+        slip = slip_of(specimen)
+        turning = slip.mass_kg_m2 if slip is not None else 0.0
+        M = np.append(M, (GLUE_TURNS * mass.glue + turning) * sides.area)
     return M
 
 

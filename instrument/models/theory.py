@@ -62,7 +62,7 @@ def stiffer_than_stated(specimen: Specimen, law: CoreLaw, frequency_hz: Array) -
 
     Over the band of `frequency_hz`, of any shape.
     """
-    if specimen.core is None or specimen.faces_shear:
+    if specimen.core is None or specimen.faces_shear or specimen.patches:
         return ""
     f = np.geomspace(np.min(frequency_hz), np.max(frequency_hz), _PLACES)
     modulus_pa = float(np.abs(law.modulus(2 * np.pi * f)).max())

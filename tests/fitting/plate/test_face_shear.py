@@ -7,6 +7,8 @@ import pytest
 
 from fitting.discrepancy.exact_layers import exact_lambda
 from fitting.discrepancy.layer_theory import layerwise_lambda
+from fitting.discrepancy.mesh_error import mesh_error
+from fitting.discrepancy.model_error import model_error_at
 from fitting.discrepancy.theory_error import stack
 from fitting.dynamics.complex_modes import complex_modes
 from fitting.laws.constant import ConstantModulus
@@ -18,6 +20,7 @@ from fitting.plate.parts import coefficients, layers_of, specimen_of, stretched
 from fitting.plate.plate import Plate
 from fitting.specimen import Specimen
 from fitting.stated.layers import Core, Face, Glue
+from fitting.stated.patches import Patch
 
 GLASS = Face(4e-3, 70e9, 0.22, 2500.0)
 ALUMINIUM = Face(2e-3, 70e9, 0.33, 2700.0)
@@ -132,3 +135,21 @@ def test_a_free_edge_does_not_lose_its_twist_twice():
         for n in ((14, 9), (28, 18))
     )
     assert fine == pytest.approx(coarse, rel=1e-3)
+
+
+def test_beside_patches_it_is_not_counted():
+    """A slip that ends with its patch would leave a hinge there."""
+    made = replace(plate("laminated steel", faces_shear=False), patches=(Patch(0.0, 0.15, 0.0, 0.2),))
+    assert not with_face_shear(made, 5e7).faces_shear
+
+
+def test_no_slip_moves_without_mass():
+    """What is factorised of a plate with its mass alone, and its waves on the mesh."""
+    made = plate("aluminium", force_m=(0.1, 0.05), pickup_m=(0.2, 0.1))
+    M = Plate(made).M.toarray()
+    np.linalg.cholesky(M)
+    assert np.sort(np.diag(M))[0] > 1e-9 * M.max()
+    G = np.array([1e8 * (1 + 0.5j)])
+    found = mesh_error(made, np.array([20.0]), G)
+    assert 0 < found.frequency[0] < 0.05
+    assert model_error_at(made, np.array([300.0]), G).frequency[0] < 0.05
