@@ -375,9 +375,10 @@ def _turn(face: Face | None, turn: complex, sides: _Sides) -> Complex:
     rx, ry = sides.rx, sides.ry
     curved = [Q_11 * rx**3, Q_22 * ry**3, Q_12 * rx * ry**2, Q_12 * rx**2 * ry, Q_66 * rx * ry**2]
     curved += [Q_66 * rx**2 * ry]
-    alone = np.array([Q_11 * rx**2, Q_22 * ry**2, Q_12 * rx * ry, Q_66 * ry**2, Q_66 * rx**2, Q_66 * rx * ry])
     bend = (1 + 1j * face.loss_factor) * face.thickness_m**3 / 12
-    return np.asarray(bend * np.concatenate([-turn * np.array(curved), turn**2 * alone]), complex)
+    # Sections strain as the plane does, by h^2/12 of it.
+    alone = turn**2 * face.thickness_m**2 / 12 * _stretch(face, rx, ry)
+    return np.concatenate([-turn * bend * np.array(curved), alone])
 
 
 def _stretch_turned(face: Face | None, rx: float, ry: float) -> NDArray[np.complex128]:

@@ -1,19 +1,16 @@
 """SPECIMEN.toml: its keys, units and limits, and the `Specimen` it describes."""
 
-from dataclasses import replace
 from math import pi
 from pathlib import Path
 from typing import Annotated, Any
 
-import numpy as np
 from pydantic import AfterValidator, Field, ValidationError, create_model, model_validator
 
-from fitting.discrepancy.mesh_error import fine_enough
+from fitting.discrepancy.stiff_core import for_its_core
 from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import LAWS, CoreLaw
 from fitting.laws.table import Tabulated
-from fitting.plate.face_shear import with_face_shear
 from fitting.specimen import Drive, PlacedMass, Reading, Specimen
 from fitting.stated.edges import named
 from fitting.stated.layers import Core
@@ -25,9 +22,6 @@ from instrument.files.layer_tables import GluePart, PatchPart, Poisson, StatedLa
 from instrument.files.toml import NotNegative, Percent, Positive, TomlTable, one_line, read_document
 
 Elements = Annotated[int, Field(ge=2, le=400)]
-
-_STIFF_AT_HZ = 1e3
-"""Where the stated law says how stiff a core is. A judgement: most resonances that are measured lie below."""
 
 
 def _known(boundary: str) -> str:
@@ -285,16 +279,7 @@ def specimen_of(d: SpecimenDocument) -> Specimen:
         patches=tuple(p.patch() for p in d.patch or ()),
         both_sides=bool(d.plate.both_sides),
     )
-    return _for_its_core(plate)
-
-
-def _for_its_core(plate: Specimen) -> Specimen:
-    """With what a stiff core asks for: faces that shear, and smaller elements where none are stated."""
-    if plate.core is None:
-        return plate
-    modulus_pa = abs(complex(plate.core.law.modulus(np.array(2 * pi * _STIFF_AT_HZ))))
-    plate = with_face_shear(plate, modulus_pa)
-    return replace(plate, elements=plate.elements or fine_enough(plate, modulus_pa))
+    return for_its_core(plate)
 
 
 def typical_tolerances(kind: str) -> dict[str, float | None]:
