@@ -26,6 +26,8 @@ from fitting.stated.tolerances import PLATE
 
 STEP = 1e-2
 """Step of differences, in standard deviations."""
+_MOST_BARE = 512
+"""Sets of a bare plate's few coefficients kept: derivatives about some twenty places of its numbers."""
 _FELT = 0.3
 """Standard deviations from which a plate's derivatives to stated numbers are taken to vary."""
 _TREATMENT = ("constraining", "core", "glue", *OF_PATCHES)
@@ -112,12 +114,27 @@ class Nuisances:
         """Of all parts, and of the load. Complex where a face has a loss factor. Shape (parts + 1,)."""
         return np.asarray(coefficients(self.moved_specimen(z), self.reference).all)
 
-    def bare_coefficients(self, z: Array) -> tuple[Complex, Array]:
+    def bare_coefficients(self, z: Array) -> tuple[Array | Complex, Array]:
         """Of the bare plate's stiffness and mass, its length as stated. Shapes of `STIFFNESS` and `MASS`."""
         # A hammer test is a mounting of its own.
-        at = np.where([n.kind in _OF_A_MOUNTING for n in self.each], 0.0, z)
-        c = coefficients(self.moved_specimen(at).bare, self.specimen.bare)
-        return c.K_0, c.M
+        at = np.zeros(len(self))
+        at[self.of_bare_plate] = z[self.of_bare_plate]
+        c = self._kept_of_bare.get("c", at, lambda: self._bare_coefficients(at))
+        stiff = self._bare_stiff
+        return c[:stiff], c[stiff:].real
+
+    def _bare_coefficients(self, z: Array) -> Array:
+        c = coefficients(self.moved_specimen(z).bare, self.specimen.bare)
+        return np.concatenate([c.K_0, c.M])
+
+    @cached_property
+    def _bare_stiff(self) -> int:
+        """How many parts the bare plate's K_0 has."""
+        return len(coefficients(self.specimen.bare, self.specimen.bare).K_0)
+
+    @cached_property
+    def _kept_of_bare(self) -> "Kept":
+        return Kept(_MOST_BARE)
 
     @cached_property
     def _kept(self) -> "Kept":

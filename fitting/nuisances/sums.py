@@ -51,14 +51,15 @@ class SideBySide:
 class Kept:
     """Results of a few functions, the latest of each."""
 
-    def __init__(self) -> None:
+    def __init__(self, most: int = _MOST_KEPT) -> None:
+        self._most = most
         self._known: dict[tuple[str, bytes], Array] = {}
 
     def get(self, name: str, z: Array, make: Callable[[], Array]) -> Array:
         """What `make` returns for this z, shape (numbers,)."""
         key = name, z.tobytes()
         if key not in self._known:
-            while len(self._known) >= _MOST_KEPT:
+            while len(self._known) >= self._most:
                 del self._known[next(iter(self._known))]
             self._known[key] = make()
         return self._known[key]

@@ -76,7 +76,7 @@ class BareModes:
             found[k] = (self.stated_shift(nuisances, up) - self.stated_shift(nuisances, down)) / (2 * h)
         return found
 
-    def _energies(self, c: tuple[Complex, Array]) -> tuple[Array, Array]:
+    def _energies(self, c: tuple[Array | Complex, Array]) -> tuple[Array, Array]:
         return np.asarray((self.stiffness @ c[0]).real), self.inertia @ c[1] + self.sensor
 
 

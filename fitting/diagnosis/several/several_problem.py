@@ -283,7 +283,7 @@ class SharedNuisances(Nuisances):
         """Those that a hammer test of the bare plate feels."""
         return [int(self.places[k]) for k in self.first.of_bare_plate]
 
-    def bare_coefficients(self, z: Array) -> tuple[Complex, Array]:
+    def bare_coefficients(self, z: Array) -> tuple[Array | Complex, Array]:
         """As `Nuisances.bare_coefficients`, of the first file's plate."""
         return self.first.bare_coefficients(z[self.places])
 

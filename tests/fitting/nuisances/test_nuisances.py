@@ -5,6 +5,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from numpy.testing import assert_array_equal
 
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.plate_answer import answer
@@ -16,6 +17,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances.moved_plate import moved_plate
 from fitting.nuisances.nuisances import nuisances_of
 from fitting.plate.mesh import Mesh
+from fitting.plate.parts import coefficients
 from fitting.plate.plate import Plate
 from fitting.plate.plate_numbers import tolerance
 from fitting.reduced.domain import domain_of
@@ -117,6 +119,18 @@ def test_derivatives_agree_with_differences(moved, share, tolerance):
             continue
         allowed = 1e-6 + tolerance * np.abs(difference / size).max()
         np.testing.assert_allclose(by[k] / size, difference / size, atol=allowed, err_msg=n.name)
+
+
+def test_the_bare_plate_is_that_of_the_moved_specimen_its_free_length_as_stated(moved):
+    nuisances, mounting = moved.nuisances, ("length", "axial")
+    for z in [*moved.places(), *moved.places()]:  # the second time as they were kept
+        K_0, M = nuisances.bare_coefficients(z)
+        bare = nuisances.moved_specimen(
+            [0 if n.kind in mounting else z[k] for k, n in enumerate(nuisances.each)]
+        )
+        expected = coefficients(bare.bare, moved.specimen.bare)
+        assert_array_equal(K_0, expected.K_0)
+        assert_array_equal(M, expected.M)
 
 
 @pytest.mark.parametrize("share", [1.0, 3.0])
