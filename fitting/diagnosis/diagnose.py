@@ -18,7 +18,7 @@ from fitting.diagnosis.search.singles import Singles
 from fitting.diagnosis.search.with_pairs import with_pairs
 from fitting.diagnosis.verdict import text
 from fitting.diagnosis.verdict.cautions import warnings_of
-from fitting.diagnosis.verdict.judgement import Judgement, in_light_of, judge, told
+from fitting.diagnosis.verdict.judgement import Judgement, beside_another_law, in_light_of, judge, told
 from fitting.diagnosis.verdict.kin import UNLISTED, Unlisted, kin_of
 from fitting.diagnosis.verdict.resampling import Again, Resampled, gain, repeats_of, resampled_of
 from fitting.diagnosis.verdict.result import Candidate, Diagnosis, FoundEffect, ParameterEstimate, Rivals
@@ -244,12 +244,13 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
 
 def _judged(search: Search, scored_fits: Sequence[ScoredFit]) -> Judgement:
     t = search.temper_of(scored_fits)
-    return judge(
+    judgement = judge(
         *search.tempered(scored_fits),
         hidden=frozenset(e.name for e in search.unnamed),
         held_out=search.off_unseen,
         kin=lambda scored: kin_of(search, scored.fitted, t),
     )
+    return beside_another_law(judgement, search.passing_for_a_law)
 
 
 def _rivals(

@@ -138,8 +138,12 @@ class PadSofteningEffect(AmplitudeSofteningEffect):
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         if points.drive == "force" or (self.keeps and not points.timed):
             return super().objection(points, plate)
+        one_level = "one level does not tell softening from the law"
+        return one_level if self.passes_for_a_law(points) else None
+
+    def passes_for_a_law(self, points: Points) -> bool:
         # Over one level the strain of a pad goes up and down once over a wide band, as a law may.
-        return None if points.levels > 1 else "one level does not tell softening from the law"
+        return points.drive == "base" and points.levels < 2
 
 
 def _changed(curve: Kraus, s: Array, kept: float, time_s: Array) -> tuple[Array, Array]:

@@ -174,6 +174,13 @@ class Effect:
         """Why this effect cannot be judged by these data, or None."""
         return None
 
+    def passes_for_a_law(self, points: Points) -> bool:
+        """Whether these data show it as another law of the core, so that it is neither searched nor named.
+
+        Then an explanation by another law may as well be this effect, and no law shows that it is absent.
+        """
+        return False
+
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         """Values to look at first; the best of them by a linear step is followed.
 

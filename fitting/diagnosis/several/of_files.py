@@ -108,6 +108,9 @@ class OfFiles(Effect):
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return self.inner.objection(points, plate)
 
+    def passes_for_a_law(self, points: Points) -> bool:
+        return self.inner.passes_for_a_law(points)
+
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.append(np.tile(u, self.copies), self._where) for u in self.inner.starts(plate, points)]
 

@@ -111,6 +111,16 @@ def in_light_of(judgement: Judgement, p_value: float | None) -> Judgement:
     return replace(judgement, verdict="none", accepted=None, equivalent={}, refused=nearest, why=why)
 
 
+def beside_another_law(judgement: Judgement, names: tuple[str, ...]) -> Judgement:
+    """Another law is not told from effects of these names, which the data would show as one."""
+    accepted = judgement.accepted
+    of_law = {e.name for e in accepted.fitted.effects if e.replaces_law} if accepted is not None else set()
+    if not (names and of_law):
+        return judgement
+    equivalent = {n: (*group, *names) if n in of_law else group for n, group in judgement.equivalent.items()}
+    return replace(judgement, verdict="ambiguous", equivalent=equivalent)
+
+
 def judge(
     none: ScoredFit,
     scored_fits: Sequence[ScoredFit],
