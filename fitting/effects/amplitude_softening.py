@@ -18,6 +18,8 @@ from fitting.plate.element import core_shear_stiffness
 
 _LEVELS = 1.2
 """Of the largest force over the least: over less, strain is a function of frequency, as the law is."""
+_AT_REST = 1e-10
+"""A step of the strain over the reference, at most, for the last one."""
 _ITERATIONS = 60
 """Half steps would come within 1e-10 in 34 where strain hardly falls, secants do in some 8. A bound."""
 _SMALL = 1e-12
@@ -179,6 +181,6 @@ def _strained(curve: Kraus, strain: Strain, points: int, kept: float, time_s: by
         share = np.divide(step, fell, out=np.full(points, 0.5), where=known)
         step = off * np.clip(share, *_FULL)
         s = np.maximum(s + step, 0.0)
-        if np.max(np.abs(step)) < 1e-10:
+        if np.max(np.abs(step)) < _AT_REST:
             break
     return s

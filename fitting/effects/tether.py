@@ -23,8 +23,8 @@ from fitting.effects.span import Span
 
 _LOSS = 0.2
 """To begin with: a cable's sheath loses much."""
-_ALONG = (0.3, 0.5, 0.7, 0.85, 0.98)
-"""Shares of the length, to begin with."""
+_ALONG, _ACROSS = (0.3, 0.5, 0.7, 0.85, 0.98), (0.1, 0.5, 0.9)
+"""Shares of the length and the width, to begin with."""
 _START_N_M = 50.0
 """To begin with: half the spread of the prior."""
 
@@ -50,11 +50,10 @@ class TetherEffect(Effect):
         return own() if own else super().on(kind)
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        across = (0.1, 0.5, 0.9)
         return [
             np.array([_START_N_M, _LOSS, x * plate.length_m, y * plate.width_m])
             for x in _ALONG
-            for y in across
+            for y in _ACROSS
         ]
 
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
