@@ -27,7 +27,7 @@ from instrument.campaign.plates.stated import specimen_from, toml
 from instrument.campaign.plates.struck import struck_plate
 from instrument.campaign.run import Job
 from instrument.campaign.schedule import Schedule
-from instrument.cli.bench import bench
+from instrument.cli.campaign import campaign
 from instrument.facts.follow_up import FollowUp
 from instrument.models.files import File
 
@@ -279,13 +279,11 @@ def test_a_certain_wrong_name_is_told_from_a_group_that_stays(monkeypatch, tmp_p
 
 def test_the_command_draws_kinds_in_turn_and_refuses_those_that_it_has_not(monkeypatch, tmp_path):
     asked = []
-    monkeypatch.setattr("instrument.cli.bench.run_apart", lambda jobs, *a, **k: asked.extend(jobs) or [])
-    monkeypatch.setattr("instrument.cli.bench.write_apart_summary", lambda *a: "said")
-    result = CliRunner().invoke(bench, ["--apart", str(tmp_path), "--count", "8", "--seed", "3"])
+    monkeypatch.setattr("instrument.cli.campaign.run_apart", lambda jobs, *a, **k: asked.extend(jobs) or [])
+    monkeypatch.setattr("instrument.cli.campaign.write_apart_summary", lambda *a: "said")
+    result = CliRunner().invoke(campaign, ["apart", str(tmp_path), "--count", "8", "--seed", "3"])
     assert result.output.strip() == "said"
     assert [job.kind for job in asked] == [*weak_effects.WEAK, weak_effects.WEAK[0]]
     assert [job.seed for job in asked] == list(range(3, 11))
-    refused = CliRunner().invoke(bench, ["--apart", str(tmp_path), "--kind", "mains_hum"])
+    refused = CliRunner().invoke(campaign, ["apart", str(tmp_path), "--kind", "mains_hum"])
     assert refused.exit_code != 0
-    both = CliRunner().invoke(bench, ["--apart", str(tmp_path), "--plates", str(tmp_path)])
-    assert "expected one of them" in str(both.exception)

@@ -43,7 +43,7 @@ from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.score import named
 from instrument.campaign.plates.stated import CAREFUL
 from instrument.campaign.schedule import Schedule
-from instrument.cli.bench import bench
+from instrument.cli.campaign import campaign
 
 LAW = PlateMaterialLaw("fractional-zener", (0.4e6, 8e6, 1e-4, 0.7))
 STRIP, STRUCK, FREE = beam_named("strip"), beam_named("struck"), beam_named("free")
@@ -254,9 +254,9 @@ def test_a_campaign_is_scored_and_told(tmp_path):
 
 
 def test_the_command_runs_it(tmp_path, monkeypatch):
-    monkeypatch.setattr("instrument.cli.bench.beam_identified", right)
+    monkeypatch.setattr("instrument.cli.campaign.beam_identified", right)
     options = ["--count", "1", "--kind", NONE, "--workers", "1", "--law-alone"]
-    said = CliRunner().invoke(bench, ["--beams", str(tmp_path), *options])
+    said = CliRunner().invoke(campaign, ["beams", str(tmp_path), *options])
     assert said.exit_code == 0, said.output
     assert "| none | identify |" in said.output
 

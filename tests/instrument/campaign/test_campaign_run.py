@@ -25,7 +25,7 @@ from instrument.campaign.run import (
     run_campaign,
     write_summary,
 )
-from instrument.cli.bench import bench
+from instrument.cli.campaign import campaign
 from instrument.errors import BadInput, StoppedByUser
 
 UNANSWERED = Outcome("spot_offset", 1, ("spot_offset",), False, 1, 900.0, None, None, "MemoryError: ")
@@ -167,11 +167,9 @@ def test_the_summary_is_kept_beside_the_lines(tmp_path):
 
 def test_the_command_judges_and_prints(tmp_path, monkeypatch):
     monkeypatch.setattr(
-        "instrument.cli.bench.run_campaign", lambda jobs, out, **options: [line_of(UNANSWERED)]
+        "instrument.cli.campaign.run_campaign", lambda jobs, out, **options: [line_of(UNANSWERED)]
     )
-    result = CliRunner().invoke(
-        bench, ["--count", "1", "--diagnosis", str(tmp_path), "--kind", "spot_offset"]
-    )
+    result = CliRunner().invoke(campaign, ["plant", str(tmp_path), "--count", "1", "--kind", "spot_offset"])
     assert result.exit_code == 0, result.output
     assert "MemoryError" in result.output
-    assert CliRunner().invoke(bench, ["--diagnosis", str(tmp_path), "--kind", "gremlins"]).exit_code == 2
+    assert CliRunner().invoke(campaign, ["plant", str(tmp_path), "--kind", "gremlins"]).exit_code == 2
