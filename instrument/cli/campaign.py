@@ -1,24 +1,28 @@
 """`viscorig campaign`: how often a law or a hidden effect is found, by simulated cases."""
 
 from collections.abc import Callable, Sequence
-from functools import partial
+from functools import partial, wraps
 from pathlib import Path
+from typing import Any
 
 import click
 
 from instrument.campaign.beams.cases import KINDS as BEAM_KINDS
 from instrument.campaign.beams.judged import diagnosed as beam_diagnosed
 from instrument.campaign.beams.judged import identified as beam_identified
-from instrument.campaign.beams.run import beam_jobs, run_beams, write_beam_summary
+from instrument.campaign.beams.run import ROTATION as BEAM_ROTATION
+from instrument.campaign.beams.run import run_beams, write_beam_summary
 from instrument.campaign.beams.visible import visible_chi2 as beam_visible
-from instrument.campaign.cases import KINDS as PLANT_KINDS
-from instrument.campaign.plates.apart import apart_jobs, run_apart, write_apart_summary
+from instrument.campaign.plant.run import ROTATION as PLANT_ROTATION
+from instrument.campaign.plant.run import run_plant, write_plant_summary
+from instrument.campaign.plates.apart import run_apart, write_apart_summary
 from instrument.campaign.plates.cases import KINDS as PLATE_KINDS
 from instrument.campaign.plates.judged import diagnosed, diagnosed_without_the_truth, identified
-from instrument.campaign.plates.run import plate_jobs, run_plates, write_plate_summary
+from instrument.campaign.plates.run import ROTATION as PLATE_ROTATION
+from instrument.campaign.plates.run import run_plates, write_plate_summary
 from instrument.campaign.plates.visible import visible_chi2
 from instrument.campaign.plates.weak_effects import WEAK
-from instrument.campaign.run import jobs_of, run_campaign, write_summary
+from instrument.campaign.run import Job, in_rotation
 from instrument.cli.options import NumberRange
 from instrument.errors import BadInput
 from instrument.progress import bar
@@ -32,10 +36,15 @@ def campaign() -> None:
     """
 
 
-def _of_kinds(kinds: Sequence[str]) -> Callable[[Callable[..., None]], click.Command]:
-    """A campaign whose cases are of these kinds: where it is kept, which cases, on how many processes."""
-    folder = click.argument("folder", type=click.Path(path_type=Path, file_okay=False))
-    options = (
+def _of_kinds(
+    rotation: Sequence[str], kinds: Sequence[str] = ()
+) -> Callable[[Callable[..., None]], click.Command]:
+    """A campaign that has these kinds in rotation, and on request others of `kinds`.
+
+    What it runs is given the jobs, the folder and the number of processes, beside options of its own.
+    """
+    decorated = (
+        click.argument("folder", type=click.Path(path_type=Path, file_okay=False)),
         click.option(
             "--count", type=click.IntRange(min=1), default=300, show_default=True, help="Cases to draw."
         ),
@@ -47,7 +56,11 @@ def _of_kinds(kinds: Sequence[str]) -> Callable[[Callable[..., None]], click.Com
             help="Of the first of them.",
         ),
         click.option(
-            "--kind", "kinds", type=click.Choice(kinds), multiple=True, help="Only these; may be repeated."
+            "--kind",
+            "asked",
+            type=click.Choice(list(dict.fromkeys(kinds or rotation))),
+            multiple=True,
+            help="Only these; may be repeated.",
         ),
         click.option(
             "--workers", type=click.IntRange(min=1), default=2, show_default=True, help="Processes."
@@ -55,9 +68,13 @@ def _of_kinds(kinds: Sequence[str]) -> Callable[[Callable[..., None]], click.Com
     )
 
     def command(run: Callable[..., None]) -> click.Command:
-        for option in reversed(options):
-            run = option(run)
-        return campaign.command()(folder(run))
+        @wraps(run)
+        def found(count: int, seed: int, asked: tuple[str, ...], **others: Any) -> None:
+            run(in_rotation(asked or rotation, count, seed), **others)
+
+        for each in reversed(decorated):
+            found = each(found)
+        return campaign.command()(found)
 
     return command
 
@@ -79,32 +96,28 @@ def _refuse_beside_law_alone(law_alone: bool, shows: float | None, without_truth
             raise BadInput(f"{name} is of diagnoses, expected no --law-alone beside it")
 
 
-@_of_kinds(PLANT_KINDS)
+@_of_kinds(PLANT_ROTATION)
 @click.option(
     "--taken-out/--no-taken-out",
     default=True,
     show_default=True,
     help="Diagnose single effects once more without the true one in the catalogue.",
 )
-def plant(folder: Path, count: int, seed: int, kinds: tuple[str, ...], workers: int, taken_out: bool) -> None:
+def plant(jobs: Sequence[Job], folder: Path, workers: int, taken_out: bool) -> None:
     """Diagnose sweeps of the published plate's 3D plant, everything stated exactly."""
-    lines = run_campaign(
-        jobs_of(count, seed, kinds), folder, taken_out=taken_out, workers=workers, progress=bar
-    )
-    click.echo(write_summary(lines, folder))
+    lines = run_plant(jobs, folder, taken_out=taken_out, workers=workers, progress=bar)
+    click.echo(write_plant_summary(lines, folder))
 
 
-@_of_kinds(PLATE_KINDS)
+@_of_kinds(PLATE_ROTATION, PLATE_KINDS)
 @_exact
 @_law_alone
 @_shows
 @click.option("--one-piece", is_flag=True, help="One segment through many resonances.")
 @click.option("--without-truth", is_flag=True, help="What is hidden is not in the catalogue.")
 def plates(
+    jobs: Sequence[Job],
     folder: Path,
-    count: int,
-    seed: int,
-    kinds: tuple[str, ...],
     workers: int,
     exact: bool,
     law_alone: bool,
@@ -114,7 +127,7 @@ def plates(
 ) -> None:
     """Diagnose ten solid plates, each known only within a careful laboratory's tolerances."""
     _refuse_beside_law_alone(law_alone, shows, without_truth)
-    run = partial(run_plates, plate_jobs(count, seed, kinds), folder, exact=exact, one_piece=one_piece)
+    run = partial(run_plates, jobs, folder, exact=exact, one_piece=one_piece)
     judged = diagnosed_without_the_truth if without_truth else diagnosed
     alone = partial(run, identify=identified)
     traced = partial(run, diagnose=judged, visible=visible_chi2, least=shows)
@@ -122,23 +135,16 @@ def plates(
     click.echo(write_plate_summary(found, folder))
 
 
-@_of_kinds(BEAM_KINDS)
+@_of_kinds(BEAM_ROTATION, BEAM_KINDS)
 @_exact
 @_law_alone
 @_shows
 def beams(
-    folder: Path,
-    count: int,
-    seed: int,
-    kinds: tuple[str, ...],
-    workers: int,
-    exact: bool,
-    law_alone: bool,
-    shows: float | None,
+    jobs: Sequence[Job], folder: Path, workers: int, exact: bool, law_alone: bool, shows: float | None
 ) -> None:
     """Diagnose ten solid beams, shaken or struck, known within tolerances too."""
     _refuse_beside_law_alone(law_alone, shows)
-    run = partial(run_beams, beam_jobs(count, seed, kinds), folder, exact=exact)
+    run = partial(run_beams, jobs, folder, exact=exact)
     alone = partial(run, identify=beam_identified)
     traced = partial(run, diagnose=beam_diagnosed, visible=beam_visible, least=shows)
     found = (alone if law_alone else traced)(workers=workers, progress=bar)
@@ -146,7 +152,7 @@ def beams(
 
 
 @_of_kinds(WEAK)
-def apart(folder: Path, count: int, seed: int, kinds: tuple[str, ...], workers: int) -> None:
+def apart(jobs: Sequence[Job], folder: Path, workers: int) -> None:
     """Diagnose solid plates with a weak effect, and measure what is proposed then, twice at most."""
-    lines = run_apart(apart_jobs(count, seed, kinds), folder, workers=workers, progress=bar)
+    lines = run_apart(jobs, folder, workers=workers, progress=bar)
     click.echo(write_apart_summary(lines, folder))

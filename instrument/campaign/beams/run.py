@@ -21,22 +21,16 @@ from instrument.campaign.plates.answers import (
 )
 from instrument.campaign.plates.score import named
 from instrument.campaign.plates.tables import summary
-from instrument.campaign.run import Job, in_rotation, run_campaign
+from instrument.campaign.run import Job, keep_summary, run_campaign
 from instrument.campaign.tables import markdown
 from instrument.progress import Progress, quiet
 
-SUMMARY = "summary.md"
 ROTATION = (*(kind for kind in KINDS if kind not in ON_REQUEST), *(NONE,) * 5)
 """Kinds of successive cases: each effect once, clean ones six times."""
 
 Identify = Callable[[BeamCase], Band]
 Diagnose = Callable[[BeamCase], Answer]
 Visible = Callable[[BeamCase], float | None]
-
-
-def beam_jobs(count: int, seed: int, kinds: Sequence[str] = ()) -> list[Job]:
-    """Kinds in rotation, seeds from `seed` on."""
-    return in_rotation(tuple(kinds) or ROTATION, count, seed)
 
 
 def judge_beam(
@@ -73,17 +67,13 @@ def run_beams(
     )
     by = [f.__name__ for f in (identify, diagnose) if f is not None]
     options = {"of": "beams", "exact": exact, "least": least, "by": by}
-    return run_campaign(
-        jobs, folder, workers=workers, judged_by=judged_by, options=options, progress=progress
-    )
+    return run_campaign(jobs, folder, judged_by, options, workers=workers, progress=progress)
 
 
 def write_beam_summary(lines: Sequence[dict[str, Any]], folder: Path) -> str:
     """The score as Markdown, kept in the folder."""
     outcomes = [outcome_from(line) for line in lines]
-    text = f"{summary(outcomes, 'beams')}\n## Each\n\n{_each(outcomes)}\n"
-    (folder / SUMMARY).write_text(text, encoding="utf-8")
-    return text
+    return keep_summary(f"{summary(outcomes, 'beams')}\n## Each\n\n{_each(outcomes)}\n", folder)
 
 
 def _each(outcomes: Sequence[PlateOutcome]) -> str:

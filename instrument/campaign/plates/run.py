@@ -12,21 +12,15 @@ from instrument.campaign.plates.answers import Answer, Band, judged, outcome_fro
 from instrument.campaign.plates.cases import KINDS, NONE, PAIR, PlateCase, draw_case
 from instrument.campaign.plates.hidden import ON_REQUEST
 from instrument.campaign.plates.tables import summary
-from instrument.campaign.run import Job, in_rotation, run_campaign
+from instrument.campaign.run import Job, keep_summary, run_campaign
 from instrument.progress import Progress, quiet
 
-SUMMARY = "summary.md"
 ROTATION = (*(kind for kind in KINDS if kind not in ON_REQUEST), *(NONE,) * 8, *(PAIR,) * 4)
 """Kinds of successive cases: each effect once, clean ones nine times, pairs five."""
 
 Identify = Callable[[PlateCase], Band]
 Diagnose = Callable[[PlateCase], Answer]
 Visible = Callable[[PlateCase], float | None]
-
-
-def plate_jobs(count: int, seed: int, kinds: Sequence[str] = ()) -> list[Job]:
-    """Kinds in rotation, seeds from `seed` on."""
-    return in_rotation(tuple(kinds) or ROTATION, count, seed)
 
 
 def judge_plate(
@@ -76,13 +70,9 @@ def run_plates(
         "one_piece": one_piece,
         "by": [f.__name__ for f in (identify, diagnose) if f is not None],
     }
-    return run_campaign(
-        jobs, folder, workers=workers, judged_by=judged_by, options=options, progress=progress
-    )
+    return run_campaign(jobs, folder, judged_by, options, workers=workers, progress=progress)
 
 
 def write_plate_summary(lines: Sequence[dict[str, Any]], folder: Path) -> str:
     """The score as Markdown, kept in the folder."""
-    text = summary([outcome_from(line) for line in lines])
-    (folder / SUMMARY).write_text(text, encoding="utf-8")
-    return text
+    return keep_summary(summary([outcome_from(line) for line in lines]), folder)

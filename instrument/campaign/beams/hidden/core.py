@@ -14,7 +14,7 @@ from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting
 from instrument.campaign.draws import either_sign
 from instrument.campaign.plates.hidden.base import Softening, draw_softening
-from instrument.campaign.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
+from instrument.campaign.plates.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
 
 
 def _times(build: BeamBuild, factor: Callable[[Array], Array]) -> BeamBuild:

@@ -17,8 +17,8 @@ from instrument.campaign.plates.hidden.base import (
     draw_softening,
     times,
 )
+from instrument.campaign.plates.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
 from instrument.campaign.plates.solid import Build, Field
-from instrument.campaign.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
 
 
 @dataclass(frozen=True)

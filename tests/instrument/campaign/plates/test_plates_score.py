@@ -13,9 +13,10 @@ from instrument.campaign.plates.answers import Answer, Band, line_of, outcome_fr
 from instrument.campaign.plates.cases import KINDS, NONE, draw_case
 from instrument.campaign.plates.hidden import ON_REQUEST
 from instrument.campaign.plates.judged import left_out
-from instrument.campaign.plates.run import plate_jobs, run_plates
+from instrument.campaign.plates.run import ROTATION, run_plates
 from instrument.campaign.plates.score import reliability, score, traces
 from instrument.campaign.plates.tables import summary
+from instrument.campaign.run import in_rotation
 from instrument.cli.campaign import campaign
 from instrument.errors import BadInput
 
@@ -118,7 +119,7 @@ def no_effect(case):
 
 
 def test_a_campaign_goes_on_where_it_was_stopped(tmp_path):
-    jobs = plate_jobs(3, seed=11, kinds=(NONE, "gain_error"))
+    jobs = in_rotation((NONE, "gain_error"), 3, 11)
     first = run_plates(jobs[:2], tmp_path, identify=true_band, diagnose=no_effect, workers=1)
     with open(tmp_path / "outcomes.jsonl", "a", encoding="utf-8") as file:
         file.write('{"kind": "none", "se')
@@ -170,7 +171,7 @@ def test_the_command_takes_kinds_of_one_campaign_only(tmp_path):
 
 
 def test_every_kind_is_in_rotation():
-    assert {job.kind for job in plate_jobs(60, 0)} == set(KINDS) - set(ON_REQUEST)
+    assert set(ROTATION) == set(KINDS) - set(ON_REQUEST)
 
 
 @pytest.mark.parametrize(("least", "diagnosed"), [("20", True), ("40", False)])

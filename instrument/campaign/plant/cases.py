@@ -25,13 +25,14 @@ from drivers.simulated.plant.effects import (
 from fitting.arrays import Array, Complex
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
-from instrument.campaign.channels import TrueChannels
-from instrument.campaign.hammer import hammer_test
-from instrument.campaign.materials import TrueLaw, draw_material, draw_strange_material
 from instrument.campaign.noise import NoiseFigures, draw_noise, peaks
-from instrument.campaign.plant_sweep import steady
-from instrument.campaign.schedule import Schedule, draw_schedule
-from instrument.campaign.severities import OF_THE_CHANNELS_ALONE, PLACES, Severity, draw_severity
+from instrument.campaign.plant.channels import TrueChannels
+from instrument.campaign.plant.hammer import hammer_test
+from instrument.campaign.plant.materials import TrueLaw, draw_material, draw_strange_material
+from instrument.campaign.plant.response import steady
+from instrument.campaign.plant.schedule import draw_schedule
+from instrument.campaign.plant.severities import OF_THE_CHANNELS_ALONE, PLACES, Severity, draw_severity
+from instrument.campaign.schedule import Schedule
 from instrument.files.specimen_file import read_specimen
 from instrument.simulated_case import case_file
 

@@ -34,7 +34,7 @@ from instrument.campaign.beams.hidden.core import (
 )
 from instrument.campaign.beams.hidden.layers import HiddenCoreThickness, HiddenSubstrateStiffness
 from instrument.campaign.beams.judged import diagnosed, identified
-from instrument.campaign.beams.run import ROTATION, beam_jobs, run_beams, write_beam_summary
+from instrument.campaign.beams.run import ROTATION, run_beams, write_beam_summary
 from instrument.campaign.beams.simulate import BuiltBeam, built, level_unit, reading, resonances
 from instrument.campaign.beams.stated import beam_from, draw_stated, toml
 from instrument.campaign.beams.visible import visible_chi2
@@ -42,6 +42,7 @@ from instrument.campaign.plates.answers import Answer, Band, outcome_of
 from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.score import named
 from instrument.campaign.plates.stated import CAREFUL
+from instrument.campaign.run import in_rotation
 from instrument.campaign.schedule import Schedule
 from instrument.cli.campaign import campaign
 
@@ -241,7 +242,7 @@ def honest(case):
 
 
 def test_a_campaign_is_scored_and_told(tmp_path):
-    jobs = beam_jobs(2, 11, ("none", "spot_offset"))
+    jobs = in_rotation(("none", "spot_offset"), 2, 11)
     lines = run_beams(jobs, tmp_path, identify=right, diagnose=honest, workers=1)
     text = write_beam_summary(lines, tmp_path)
     assert "# 2 sweeps of" in text
@@ -270,7 +271,7 @@ def test_what_shows_is_what_no_law_takes_up():
 
 
 def test_every_kind_is_in_rotation():
-    assert {job.kind for job in beam_jobs(len(ROTATION), 0)} == set(KINDS) - set(ON_REQUEST)
+    assert set(ROTATION) == set(KINDS) - set(ON_REQUEST)
 
 
 @pytest.mark.long
