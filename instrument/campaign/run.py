@@ -68,6 +68,11 @@ def run_campaign(
     return [known[job.kind, job.seed] for job in jobs]
 
 
+def why_not(raised: Exception) -> str:
+    """What a case without an answer keeps of it, in a line."""
+    return " ".join(f"{type(raised).__name__}: {raised}".split())
+
+
 def keep_summary(text: str, folder: Path) -> str:
     """The same text, kept in the folder."""
     (folder / SUMMARY).write_text(text, encoding="utf-8")

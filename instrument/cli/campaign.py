@@ -1,7 +1,7 @@
 """`viscorig campaign`: how often a law or a hidden effect is found, by simulated cases."""
 
 from collections.abc import Callable, Sequence
-from functools import partial, wraps
+from functools import wraps
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,7 @@ from instrument.campaign.beams.visible import visible_chi2 as beam_visible
 from instrument.campaign.plant.run import ROTATION as PLANT_ROTATION
 from instrument.campaign.plant.run import run_plant, write_plant_summary
 from instrument.campaign.plates.apart import run_apart, write_apart_summary
+from instrument.campaign.plates.asked import Asked
 from instrument.campaign.plates.cases import KINDS as PLATE_KINDS
 from instrument.campaign.plates.judged import diagnosed, diagnosed_without_the_truth, identified
 from instrument.campaign.plates.run import ROTATION as PLATE_ROTATION
@@ -127,12 +128,15 @@ def plates(
 ) -> None:
     """Diagnose ten solid plates, each known only within a careful laboratory's tolerances."""
     _refuse_beside_law_alone(law_alone, shows, without_truth)
-    run = partial(run_plates, jobs, folder, exact=exact, one_piece=one_piece)
-    judged = diagnosed_without_the_truth if without_truth else diagnosed
-    alone = partial(run, identify=identified)
-    traced = partial(run, diagnose=judged, visible=visible_chi2, least=shows)
-    found = (alone if law_alone else traced)(workers=workers, progress=bar)
-    click.echo(write_plate_summary(found, folder))
+    asked = Asked(
+        diagnose=diagnosed_without_the_truth if without_truth else diagnosed,
+        visible=visible_chi2,
+        least=shows,
+    )
+    if law_alone:
+        asked = Asked(identify=identified)
+    lines = run_plates(jobs, folder, asked, exact=exact, one_piece=one_piece, workers=workers, progress=bar)
+    click.echo(write_plate_summary(lines, folder))
 
 
 @_of_kinds(BEAM_ROTATION, BEAM_KINDS)
@@ -144,11 +148,11 @@ def beams(
 ) -> None:
     """Diagnose ten solid beams, shaken or struck, known within tolerances too."""
     _refuse_beside_law_alone(law_alone, shows)
-    run = partial(run_beams, jobs, folder, exact=exact)
-    alone = partial(run, identify=beam_identified)
-    traced = partial(run, diagnose=beam_diagnosed, visible=beam_visible, least=shows)
-    found = (alone if law_alone else traced)(workers=workers, progress=bar)
-    click.echo(write_beam_summary(found, folder))
+    asked = Asked(diagnose=beam_diagnosed, visible=beam_visible, least=shows)
+    if law_alone:
+        asked = Asked(identify=beam_identified)
+    lines = run_beams(jobs, folder, asked, exact=exact, workers=workers, progress=bar)
+    click.echo(write_beam_summary(lines, folder))
 
 
 @_of_kinds(WEAK)

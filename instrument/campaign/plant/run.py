@@ -14,7 +14,7 @@ from instrument.campaign.plant.outcome import Outcome, Said, line_of, outcome_of
 from instrument.campaign.plant.severities import OF_THE_CHANNELS_ALONE
 from instrument.campaign.plant.tables import summary
 from instrument.campaign.plant.visible import visible_chi2
-from instrument.campaign.run import Job, keep_summary, run_campaign
+from instrument.campaign.run import Job, keep_summary, run_campaign, why_not
 from instrument.progress import Progress, quiet
 
 ROTATION = (*KINDS, NONE, NONE, PAIR, PAIR)
@@ -37,7 +37,7 @@ def judge(job: Job, taken_out: bool) -> dict[str, Any]:
         if taken_out and job.kind not in (NONE, PAIR, *OF_THE_CHANNELS_ALONE):
             without = _diagnosed(diagnose, case, frozenset(case.truth.names))
     except Exception as raised:
-        error = " ".join(f"{type(raised).__name__}: {raised}".split())
+        error = why_not(raised)
     outcome = Outcome(
         kind=job.kind,
         seed=job.seed,

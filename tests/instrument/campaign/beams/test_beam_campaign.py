@@ -39,6 +39,7 @@ from instrument.campaign.beams.simulate import BuiltBeam, built, level_unit, rea
 from instrument.campaign.beams.stated import beam_from, draw_stated, toml
 from instrument.campaign.beams.visible import visible_chi2
 from instrument.campaign.plates.answers import Answer, Band, outcome_of
+from instrument.campaign.plates.asked import Asked
 from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.score import named
 from instrument.campaign.plates.stated import CAREFUL
@@ -243,7 +244,7 @@ def honest(case):
 
 def test_a_campaign_is_scored_and_told(tmp_path):
     jobs = in_rotation(("none", "spot_offset"), 2, 11)
-    lines = run_beams(jobs, tmp_path, identify=right, diagnose=honest, workers=1)
+    lines = run_beams(jobs, tmp_path, Asked(identify=right, diagnose=honest), workers=1)
     text = write_beam_summary(lines, tmp_path)
     assert "# 2 sweeps of" in text
     assert "solid beams" in text

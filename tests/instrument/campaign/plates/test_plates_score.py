@@ -10,6 +10,7 @@ from click.testing import CliRunner
 from fitting.data.noise import noise_of
 from instrument.campaign.plates import visible
 from instrument.campaign.plates.answers import Answer, Band, line_of, outcome_from, outcome_of
+from instrument.campaign.plates.asked import Asked
 from instrument.campaign.plates.cases import KINDS, NONE, draw_case
 from instrument.campaign.plates.hidden import ON_REQUEST
 from instrument.campaign.plates.judged import left_out
@@ -118,16 +119,19 @@ def no_effect(case):
     return answered(case, "none", stated={"none": 1.0}).said
 
 
+ASKED = Asked(identify=true_band, diagnose=no_effect)
+
+
 def test_a_campaign_goes_on_where_it_was_stopped(tmp_path):
     jobs = in_rotation((NONE, "gain_error"), 3, 11)
-    first = run_plates(jobs[:2], tmp_path, identify=true_band, diagnose=no_effect, workers=1)
+    first = run_plates(jobs[:2], tmp_path, ASKED, workers=1)
     with open(tmp_path / "outcomes.jsonl", "a", encoding="utf-8") as file:
         file.write('{"kind": "none", "se')
-    lines = run_plates(jobs, tmp_path, identify=true_band, diagnose=no_effect, workers=1)
+    lines = run_plates(jobs, tmp_path, ASKED, workers=1)
     assert [line["seed"] for line in lines] == [11, 12, 13]
     assert lines[:2] == first
     with pytest.raises(BadInput, match="other sources or options"):
-        run_plates(jobs, tmp_path, exact=True, identify=true_band, diagnose=no_effect, workers=1)
+        run_plates(jobs, tmp_path, ASKED, exact=True, workers=1)
 
 
 def test_what_contains_the_true_one_is_left_out_with_it():
