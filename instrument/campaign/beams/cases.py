@@ -13,8 +13,9 @@ from instrument.campaign.beams.geometry import BEAMS, TrueBeam, beam_named
 from instrument.campaign.beams.hidden import HIDDEN, HiddenInBeam, Setting
 from instrument.campaign.beams.simulate import BuiltBeam, built, level_unit, reading, resonances
 from instrument.campaign.beams.stated import AXIAL_PA, beam_from, draw_stated, toml
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.noise import NoiseFigures
-from instrument.campaign.plates.materials import PlateMaterialLaw, draw_law, fits
+from instrument.campaign.plates.materials import draw_law, fits
 from instrument.campaign.plates.noise import PlateNoise, draw_noise
 from instrument.campaign.plates.schedule import Resonance, draw_schedule, seen_apart
 from instrument.campaign.plates.simulate import ChannelError
@@ -35,7 +36,7 @@ _LARGEST_LOSS = 0.35
 _LEAST_LOSS, _LEAST_OF_FREE_LAYER = 0.02, 0.005
 """The same where the core takes hardly a part any more: its stretching then counts beside its shear."""
 _MOST_LAWS = 200
-_PROBES = [PlateMaterialLaw("maxwell", (g, 1e3, 1e-3)) for g in (0.3e6, 2e6)]
+_PROBES = [TrueLaw("maxwell", (g, 1e3, 1e-3)) for g in (0.3e6, 2e6)]
 """About the softest and the stiffest that is drawn: a law holds over all of what they reach."""
 
 
@@ -46,7 +47,7 @@ class BeamTruth:
     beam: TrueBeam
     """As it really is, but for the effects."""
     effects: tuple[HiddenInBeam, ...]
-    law: PlateMaterialLaw
+    law: TrueLaw
     noise: PlateNoise
     channel: ChannelError
     resonances_hz: tuple[float, ...]
@@ -154,7 +155,7 @@ def draw_case(kind: str, seed: int, exact: bool = False, *, beam: str | None = N
     return BeamCase(kind, seed, exact, sweep, text, truth, clean, without)
 
 
-def _law_and_resonances(rng: np.random.Generator, true: TrueBeam) -> tuple[PlateMaterialLaw, list[Resonance]]:
+def _law_and_resonances(rng: np.random.Generator, true: TrueBeam) -> tuple[TrueLaw, list[Resonance]]:
     """A law that keeps within the campaign's limits over the segments that it leads to."""
     clean = built(true)
     least = _LEAST_LOSS if true.constraining is not None else _LEAST_OF_FREE_LAYER
@@ -170,7 +171,7 @@ def _law_and_resonances(rng: np.random.Generator, true: TrueBeam) -> tuple[Plate
     raise ArithmeticError(f"no law found that leaves two resonances on beam {true.name}")
 
 
-def _moved(beam: BuiltBeam, law: PlateMaterialLaw, chosen: list[Resonance]) -> list[Resonance]:
+def _moved(beam: BuiltBeam, law: TrueLaw, chosen: list[Resonance]) -> list[Resonance]:
     """The resonances where the effect has moved them."""
     every = resonances(beam, law)
     found = [min(every, key=lambda n: abs(np.log(n.frequency_hz / r.frequency_hz))) for r in chosen]

@@ -25,10 +25,11 @@ from drivers.simulated.plant.effects import (
 from fitting.arrays import Array, Complex
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.noise import NoiseFigures, draw_noise, peaks
 from instrument.campaign.plant.channels import TrueChannels
 from instrument.campaign.plant.hammer import hammer_test
-from instrument.campaign.plant.materials import TrueLaw, draw_material, draw_strange_material
+from instrument.campaign.plant.materials import draw_material, draw_strange_material
 from instrument.campaign.plant.response import steady
 from instrument.campaign.plant.schedule import draw_schedule
 from instrument.campaign.plant.severities import OF_THE_CHANNELS_ALONE, PLACES, Severity, draw_severity

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from fitting.arrays import Array, Complex
 from fitting.sweep import Sweep
-from instrument.campaign.plates.materials import PlateMaterialLaw
+from instrument.campaign.law import TrueLaw
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.rows import LawRow
 from instrument.stream.jsonable import to_jsonable
@@ -114,7 +114,7 @@ class CaseTruth(Protocol):
         """That are there, each with `name`, `near` and `in_catalogue`."""
 
     @property
-    def law(self) -> PlateMaterialLaw:
+    def law(self) -> TrueLaw:
         """Of the core."""
 
     @property

@@ -10,12 +10,13 @@ from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates.geometry import PLATES, TruePlate, plate_named
 from instrument.campaign.plates.hammer import HammerTest
 from instrument.campaign.plates.hidden import HIDDEN, draw_hidden, names_of
 from instrument.campaign.plates.hidden.base import Hidden, Setting
 from instrument.campaign.plates.kept import clean_plate
-from instrument.campaign.plates.materials import PlateMaterialLaw, draw_law, fits
+from instrument.campaign.plates.materials import draw_law, fits
 from instrument.campaign.plates.noise import PlateNoise, draw_noise
 from instrument.campaign.plates.one_piece import draw_whole, in_one_piece, judged_of, of_one_range
 from instrument.campaign.plates.reduced import ReducedSolid
@@ -50,7 +51,7 @@ class PlateTruth:
     plate: TruePlate
     """As it really is, but for the effects."""
     effects: tuple[Hidden, ...]
-    law: PlateMaterialLaw
+    law: TrueLaw
     noise: PlateNoise
     channel: ChannelError
     resonances_hz: tuple[float, ...]
@@ -199,7 +200,7 @@ def draw_case(
 
 def _law_and_schedule(
     rng: np.random.Generator, true: TruePlate, kind: str | None, levels: tuple[float, ...], *, one_piece: bool
-) -> tuple[PlateMaterialLaw, list[Resonance], Schedule]:
+) -> tuple[TrueLaw, list[Resonance], Schedule]:
     """A law that keeps within the campaign's limits where it is swept, and the resonances judged."""
     clean = clean_plate(true)
     band = widest_band_hz(clean, true)
@@ -217,7 +218,7 @@ def _law_and_schedule(
 def _swept(
     rng: np.random.Generator,
     true: TruePlate,
-    law: PlateMaterialLaw,
+    law: TrueLaw,
     levels: tuple[float, ...],
     *,
     one_piece: bool,
@@ -241,7 +242,7 @@ def _middles(schedule: Schedule) -> tuple[float, ...]:
     return tuple(middles)
 
 
-def _share(clean: ReducedSolid, law: PlateMaterialLaw, frequency_hz: float) -> float:
+def _share(clean: ReducedSolid, law: TrueLaw, frequency_hz: float) -> float:
     """Of the core in the stiffness of the mode nearest to a frequency."""
     omega = 2 * np.pi * frequency_hz
     G = float(law.modulus(omega).real)

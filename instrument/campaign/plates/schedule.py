@@ -6,8 +6,8 @@ import numpy as np
 
 from fitting.arrays import Array, Integers
 from instrument.campaign.draws import order_of_time
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates.geometry import TruePlate
-from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.reduced import MODES, ReducedSolid
 from instrument.campaign.schedule import Schedule
 
@@ -41,7 +41,7 @@ class Resonance:
     """Peak velocity at the spot, in any unit."""
 
 
-def resonances(plate: ReducedSolid, spot_m: tuple[float, float], law: PlateMaterialLaw) -> list[Resonance]:
+def resonances(plate: ReducedSolid, spot_m: tuple[float, float], law: TrueLaw) -> list[Resonance]:
     """The even ones in ascending order, the core's modulus taken at each frequency."""
     found = []
     row = plate.reading(*spot_m)
@@ -63,7 +63,7 @@ def resonances(plate: ReducedSolid, spot_m: tuple[float, float], law: PlateMater
     return found
 
 
-def known_to_hz(plate: ReducedSolid, law: PlateMaterialLaw) -> float:
+def known_to_hz(plate: ReducedSolid, law: TrueLaw) -> float:
     """The last but one of the modes on whose basis a solid stands: up to there it is one.
 
     Up to there ten solids are within 0.2 % of the layer-wise plate, beyond the last one 4 % off and more.
@@ -76,9 +76,7 @@ def known_to_hz(plate: ReducedSolid, law: PlateMaterialLaw) -> float:
     return omega / (2 * np.pi)
 
 
-def measured_resonances(
-    plate: ReducedSolid, spot_m: tuple[float, float], law: PlateMaterialLaw
-) -> list[Resonance]:
+def measured_resonances(plate: ReducedSolid, spot_m: tuple[float, float], law: TrueLaw) -> list[Resonance]:
     """The first three that the spot sees and that stand apart. Raises `ArithmeticError` if fewer."""
     chosen = seen_apart(resonances(plate, spot_m, law))
     if len(chosen) < 3:
@@ -140,8 +138,8 @@ def between_s(rng: np.random.Generator) -> float:
 def widest_band_hz(plate: ReducedSolid, true: TruePlate) -> tuple[float, float]:
     """Where segments may lie, no law drawn yet: the first resonance at 0.3 MPa to the third at 2 MPa."""
     soft, stiff = (
-        PlateMaterialLaw("maxwell", (0.3e6, 1e3, 1e-3)),
-        PlateMaterialLaw("maxwell", (2e6, 1e3, 1e-3)),
+        TrueLaw("maxwell", (0.3e6, 1e3, 1e-3)),
+        TrueLaw("maxwell", (2e6, 1e3, 1e-3)),
     )
     low, high = (resonances(plate, true.spot_m, law) for law in (soft, stiff))
     return 0.75 * low[0].frequency_hz, 1.15 * high[2].frequency_hz

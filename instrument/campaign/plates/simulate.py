@@ -7,13 +7,13 @@ from functools import reduce
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.hammer import HammerTest, hammer_test
 from instrument.campaign.plates.hidden.base import Hidden
 from instrument.campaign.plates.hidden.core import HiddenAmplitudeSoftening
 from instrument.campaign.plates.kept import bare_plate, bare_solid, clean_plate
-from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.reduced import REFERENCE_MODULUS_PA, ReducedSolid, reduced
 from instrument.campaign.plates.response import BaseMotion, Shaken, remaining_damping
 from instrument.campaign.plates.softening import softened
@@ -64,7 +64,7 @@ def built(
     )
 
 
-def moduli_of(law: PlateMaterialLaw, frequency_hz: Array) -> tuple[float, ...]:
+def moduli_of(law: TrueLaw, frequency_hz: Array) -> tuple[float, ...]:
     """Where the basis of a plate with this law is made. Shape (n,)."""
     size = np.abs(law.modulus(2 * np.pi * np.array([frequency_hz.min(), frequency_hz.max()])))
     low, high = min(size[0], REFERENCE_MODULUS_PA), max(1.2 * size[1], 1.5 * REFERENCE_MODULUS_PA)
@@ -75,7 +75,7 @@ def reading(
     plate: ReducedSolid,
     true: TruePlate,
     hidden: Sequence[Hidden],
-    law: PlateMaterialLaw,
+    law: TrueLaw,
     schedule: Schedule,
     channel: ChannelError,
 ) -> Complex:
@@ -105,7 +105,7 @@ def peaks_hz(
     plate: ReducedSolid,
     true: TruePlate,
     hidden: Sequence[Hidden],
-    law: PlateMaterialLaw,
+    law: TrueLaw,
     expected_hz: Sequence[float],
 ) -> list[float]:
     """Where the response has its peak near each of the frequencies at which the clean plate has one."""
@@ -121,7 +121,7 @@ def peaks_hz(
 
 
 def _modulus(
-    plate: ReducedSolid, true: TruePlate, hidden: Sequence[Hidden], law: PlateMaterialLaw, schedule: Schedule
+    plate: ReducedSolid, true: TruePlate, hidden: Sequence[Hidden], law: TrueLaw, schedule: Schedule
 ) -> Complex:
     """Of each group of the core at each point, or of all alike."""
     omega = 2 * np.pi * schedule.frequency_hz

@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 
 from drivers.simulated.plant.one_thread import one_thread
 from fitting.arrays import Array, Complex
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.hidden.base import Hidden
-from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.reduced import ReducedSolid, reduced
 from instrument.campaign.plates.simulate import moduli_of
 from instrument.campaign.plates.solid import Build, Patch, Solid
@@ -28,7 +28,7 @@ _REACH, _LEAST = 1.5, 0.03
 @one_thread
 def mobilities_of_free(
     true: TruePlate,
-    law: PlateMaterialLaw,
+    law: TrueLaw,
     frequency_hz: Array,
     forces_m: Points,
     spots_m: Points,
@@ -84,7 +84,7 @@ def struck_plate(
 @one_thread
 def mobility(
     plate: ReducedSolid,
-    law: PlateMaterialLaw,
+    law: TrueLaw,
     frequency_hz: Array,
     force_m: tuple[float, float],
     spot_m: tuple[float, float],
@@ -100,7 +100,7 @@ def mobility(
 
 
 def lines_about(
-    plate: ReducedSolid, law: PlateMaterialLaw, low_hz: float, high_hz: float, most: int, count: int
+    plate: ReducedSolid, law: TrueLaw, low_hz: float, high_hz: float, most: int, count: int
 ) -> tuple[Array, NDArray[np.intp]]:
     """Lines about the lowest resonances of a band, which a spectrum shows, and whose each is.
 
@@ -117,7 +117,7 @@ def lines_about(
     return np.concatenate(found), np.repeat(np.arange(len(found)), count)
 
 
-def resonance(plate: ReducedSolid, law: PlateMaterialLaw, r: int, near_hz: float) -> tuple[float, float]:
+def resonance(plate: ReducedSolid, law: TrueLaw, r: int, near_hz: float) -> tuple[float, float]:
     """Frequency and loss factor of the r-th mode, the modulus taken at its own frequency."""
     f, loss = near_hz, 0.0
     for _ in range(_ROUNDS):

@@ -11,6 +11,7 @@ from fitting.discrepancy.theory_error import theory_error
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.campaign.draws import log_uniform
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates.blows import Blows, draw_blows
 from instrument.campaign.plates.geometry import PLATES, TruePlate, plate_named
 from instrument.campaign.plates.hidden.base import Hidden
@@ -23,7 +24,7 @@ from instrument.campaign.plates.hidden.struck import (
     Place,
     draw_hidden_in_struck,
 )
-from instrument.campaign.plates.materials import PlateMaterialLaw, draw_law, fits
+from instrument.campaign.plates.materials import draw_law, fits
 from instrument.campaign.plates.reduced import ReducedSolid
 from instrument.campaign.plates.simulate import ChannelError
 from instrument.campaign.plates.stated import (
@@ -71,7 +72,7 @@ class StruckTruth:
 
     plate: TruePlate
     free: bool
-    law: PlateMaterialLaw
+    law: TrueLaw
     blows: Blows
     force_m: Place
     spots_m: tuple[Place, ...]
@@ -146,7 +147,7 @@ def draw_struck(
 
 def _law_and_resonances(
     rng: np.random.Generator, true: TruePlate, solid: ReducedSolid, *, free: bool
-) -> tuple[PlateMaterialLaw, list[float]]:
+) -> tuple[TrueLaw, list[float]]:
     first = 6 if free else 0
     low, high = (
         np.sqrt(solid.modes(g, first + n + 1)[0][-1]) / (2 * np.pi)
@@ -166,7 +167,7 @@ def _law_and_resonances(
     raise ArithmeticError(f"no law found that serves a spectrum of plate {true.name}")
 
 
-def _held_by_theory(true: TruePlate, law: PlateMaterialLaw, frequency_hz: float) -> bool:
+def _held_by_theory(true: TruePlate, law: TrueLaw, frequency_hz: float) -> bool:
     at = _specimen_of(true)
     G = law.modulus(2 * np.pi * frequency_hz)
     return bool(theory_error(at, [frequency_hz], G).excess[0] < _THEORY)

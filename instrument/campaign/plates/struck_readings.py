@@ -8,12 +8,12 @@ import numpy as np
 
 from drivers.simulated.plant.one_thread import one_thread
 from fitting.arrays import Array, Complex
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates import kept
 from instrument.campaign.plates.blows import Blows
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden.base import Hidden
 from instrument.campaign.plates.hidden.struck import PLACES, HiddenOfBlows, Place
-from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.reduced import MODULI_PA, ReducedSolid, reduced
 from instrument.campaign.plates.response import BaseMotion, remaining_damping
 from instrument.campaign.plates.solid import Build, Solid
@@ -48,7 +48,7 @@ def plate_of(true: TruePlate, hidden: Sequence[Hidden]) -> TruePlate:
 @one_thread
 def mobilities(
     solid: ReducedSolid,
-    law: PlateMaterialLaw,
+    law: TrueLaw,
     frequency_hz: Array,
     hits_m: Sequence[Place],
     spots_m: Sequence[Place],

@@ -38,16 +38,16 @@ from instrument.campaign.beams.run import ROTATION, run_beams, write_beam_summar
 from instrument.campaign.beams.simulate import BuiltBeam, built, level_unit, reading, resonances
 from instrument.campaign.beams.stated import beam_from, draw_stated, toml
 from instrument.campaign.beams.visible import visible_chi2
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates.answers import Answer, Band, outcome_of
 from instrument.campaign.plates.asked import Asked
-from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.score import named
 from instrument.campaign.plates.stated import CAREFUL
 from instrument.campaign.run import in_rotation
 from instrument.campaign.schedule import Schedule
 from instrument.cli.campaign import campaign
 
-LAW = PlateMaterialLaw("fractional-zener", (0.4e6, 8e6, 1e-4, 0.7))
+LAW = TrueLaw("fractional-zener", (0.4e6, 8e6, 1e-4, 0.7))
 STRIP, STRUCK, FREE = beam_named("strip"), beam_named("struck"), beam_named("free")
 
 
@@ -104,7 +104,7 @@ def test_without_poissons_ratio_the_solid_is_the_beam_of_the_fit():
         constraining=replace(STRIP.constraining, poisson=0.0),
     )
     specimen = beam_from(toml(flat, None, 100.0))
-    law = PlateMaterialLaw("fractional-zener", tuple(specimen.core.law.values))
+    law = TrueLaw("fractional-zener", tuple(specimen.core.law.values))
     f = np.array([15.0, 29.0, 100.0, 172.0, 300.0, 470.0])
     found = level_unit(flat) * reading(built(flat, pieces=16), law, at(*f))
     np.testing.assert_allclose(found, small_velocity(specimen, f), rtol=0.02)

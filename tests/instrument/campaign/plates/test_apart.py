@@ -9,6 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from fitting.gravity import PUBLISHED_G_M_S2
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates import apart, kept, remeasured, weak_effects
 from instrument.campaign.plates.cases import PlateTruth, measured
 from instrument.campaign.plates.geometry import plate_named
@@ -19,7 +20,6 @@ from instrument.campaign.plates.hidden.clamp import (
     HiddenClampFriction,
     HiddenClampLine,
 )
-from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.noise import draw_noise
 from instrument.campaign.plates.remeasured import RemeasuredPlate
 from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, reading
@@ -34,7 +34,7 @@ from instrument.models.files import File
 COARSE = Fineness(5, 3, (0.5, 2.0), (1.0,))
 MODULI = (0.3e6, 1e6, 4e6)
 P2 = plate_named("P2")
-LAW = PlateMaterialLaw("fractional-zener", (0.35e6, 6e6, 1e-4, 0.6))
+LAW = TrueLaw("fractional-zener", (0.35e6, 6e6, 1e-4, 0.6))
 CLAMP = HiddenClampCompliance(3e13, 3e13, 4, 0.02, 0.4)
 OFFSET_M = 3e-3
 
