@@ -21,6 +21,8 @@ from instrument.campaign.plates.noise import PlateNoise, draw_noise
 from instrument.campaign.plates.one_piece import draw_whole, in_one_piece, judged_of, of_one_range
 from instrument.campaign.plates.reduced import ReducedSolid
 from instrument.campaign.plates.schedule import (
+    LARGEST_LOSS,
+    MOST_LAWS,
     Resonance,
     draw_schedule,
     known_to_hz,
@@ -30,18 +32,11 @@ from instrument.campaign.plates.schedule import (
 )
 from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, peaks_hz, reading, struck
 from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
-from instrument.campaign.schedule import Schedule
+from instrument.campaign.schedule import Schedule, draw_levels
 
 NONE, PAIR = "none", "pair"
 KINDS = (NONE, *HIDDEN, PAIR)
-_THREE_LEVELS = (0.25, 0.5, 1.0)
-_ONE_LEVEL_SHARE = {"amplitude_softening": 1 / 3}
-"""Of cases at 1 g alone; `_ONE_LEVEL_ELSE` of all others."""
-_ONE_LEVEL_ELSE = 0.9
 _HAMMER_SHARE = 0.5
-_LARGEST_LOSS = 0.35
-"""Of a resonance: beyond it no peak is left to measure around."""
-_MOST_LAWS = 200
 
 
 @dataclass(frozen=True)
@@ -153,10 +148,9 @@ def draw_case(
     # A spot on the axis sees nothing of what is odd in y.
     able = [p for p in PLATES if "base_roll" not in names or abs(p.spot_m[1] - p.width_m / 2) > 1e-3]
     true = plate_named(plate) if plate else able[int(chance.integers(len(able)))]
-    alone = min((_ONE_LEVEL_SHARE.get(name, _ONE_LEVEL_ELSE) for name in names), default=_ONE_LEVEL_ELSE)
-    levels = (1.0,) if chance.random() < alone else _THREE_LEVELS
+    levels = draw_levels(chance, names)
     found, chosen, schedule = _law_and_schedule(rng("law"), true, law, levels, one_piece=one_piece)
-    middle = tuple(r.frequency_hz for r in chosen) if one_piece else _middles(schedule)
+    middle = tuple(r.frequency_hz for r in chosen) if one_piece else schedule.middles_hz
     at = Setting(true, middle, float(schedule.time_s.max()))
     hidden = draw_hidden(names, rng("effects"), at)
     plate_built = built(true, hidden, moduli_of(found, schedule.frequency_hz))
@@ -165,7 +159,7 @@ def draw_case(
         seen = peaks_hz(plate_built, true, hidden, found, [r.frequency_hz for r in chosen])
         moved = [replace(r, frequency_hz=f) for r, f in zip(chosen, seen, strict=True)]
         schedule = draw_schedule(rng("schedule"), moved, levels)
-        middle = _middles(schedule)
+        middle = schedule.middles_hz
     schedule = reduce(lambda s, h: h.paused(s), hidden, schedule)
     noise, chance = draw_noise(rng("noise figures")), rng("stated")
     if one_piece:
@@ -204,13 +198,13 @@ def _law_and_schedule(
     """A law that keeps within the campaign's limits where it is swept, and the resonances judged."""
     clean = clean_plate(true)
     band = widest_band_hz(clean, true)
-    for _ in range(_MOST_LAWS):
+    for _ in range(MOST_LAWS):
         law = draw_law(rng, band, kind)
         try:
             chosen, judged, schedule = _swept(rng, true, law, levels, one_piece=one_piece)
         except ArithmeticError:
             continue
-        if fits(law, schedule.frequency_hz) and max(r.loss_factor for r in chosen) < _LARGEST_LOSS:
+        if fits(law, schedule.frequency_hz) and max(r.loss_factor for r in chosen) < LARGEST_LOSS:
             return law, judged, schedule
     raise ArithmeticError(f"no law found that serves a sweep on plate {true.name}")
 
@@ -235,13 +229,6 @@ def _swept(
     return chosen, chosen, draw_schedule(rng, chosen, levels)
 
 
-def _middles(schedule: Schedule) -> tuple[float, ...]:
-    """Of the three segments, in ascending order."""
-    f, k = schedule.frequency_hz, schedule.segment
-    middles = sorted(float((f[k == n].min() + f[k == n].max()) / 2) for n in np.unique(k))
-    return tuple(middles)
-
-
 def _share(clean: ReducedSolid, law: TrueLaw, frequency_hz: float) -> float:
     """Of the core in the stiffness of the mode nearest to a frequency."""
     omega = 2 * np.pi * frequency_hz
@@ -264,12 +251,4 @@ def measured(truth: PlateTruth, plate: ReducedSolid, schedule: Schedule, rng: np
     base = commanded * white.drive(rng, len(commanded))
     velocity = ratio * base * truth.noise.factor(rng, schedule)
     velocity = velocity + white.added(rng, ratio * commanded, schedule.sweep)
-    return Sweep(
-        frequency_hz=schedule.frequency_hz,
-        velocity_m_s=velocity,
-        commanded_m_s2=commanded,
-        segment=schedule.segment,
-        sweep=schedule.sweep,
-        base_m_s2=base,
-        time_s=schedule.time_s,
-    )
+    return schedule.read(velocity, commanded, base)

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.signal import lfilter
 
 from fitting.arrays import Complex
-from instrument.campaign.noise import NoiseFigures
+from instrument.campaign.noise import NoiseFigures, draw_figures
 from instrument.campaign.schedule import Schedule
 
 _WHITE_SHARE = 0.5
@@ -48,7 +48,7 @@ class PlateNoise:
 
 def draw_noise(rng: np.random.Generator) -> PlateNoise:
     """Figures of a rig in use."""
-    white = NoiseFigures(float(rng.uniform(0.003, 0.009)), float(rng.uniform(0.0014, 0.0028)))
+    white = draw_figures(rng)
     kind, size = rng.random(), float(rng.uniform(0.0008, 0.0025))
     points, swing = float(rng.uniform(4, 25)), float(rng.uniform(0.001, 0.004))
     if kind < _WHITE_SHARE:

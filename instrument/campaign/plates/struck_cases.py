@@ -26,6 +26,7 @@ from instrument.campaign.plates.hidden.struck import (
 )
 from instrument.campaign.plates.materials import draw_law, fits
 from instrument.campaign.plates.reduced import ReducedSolid
+from instrument.campaign.plates.schedule import MOST_LAWS
 from instrument.campaign.plates.simulate import ChannelError
 from instrument.campaign.plates.stated import (
     CAREFUL,
@@ -61,7 +62,6 @@ _BEGINS, _ENDS = (0.5, 0.8), (1.03, 1.08)
 _STATED_NOISE = 0.5
 """Of cases; the others leave it to the scatter of neighbouring lines."""
 _FORCE_M = 1e-3
-_MOST_LAWS = 200
 _JUDGED = 5
 _STIFF_PA, _SOFT_PA = 2e6, 0.3e6
 
@@ -153,7 +153,7 @@ def _law_and_resonances(
         np.sqrt(solid.modes(g, first + n + 1)[0][-1]) / (2 * np.pi)
         for g, n in ((_SOFT_PA, 0), (_STIFF_PA, _MOST // 2))
     )
-    for _ in range(_MOST_LAWS):
+    for _ in range(MOST_LAWS):
         law = draw_law(rng, (0.6 * float(low), min(float(high), _HIGHEST_HZ)))
         most = int(rng.integers(_FEWEST, _MOST + 1))
         found: list[float] = []
