@@ -15,6 +15,7 @@ from instrument.campaign.beams.simulate import BuiltBeam, built, level_unit, rea
 from instrument.campaign.beams.stated import AXIAL_PA, beam_from, draw_stated, toml
 from instrument.campaign.law import TrueLaw
 from instrument.campaign.noise import draw_figures
+from instrument.campaign.plates.channel import ChannelError
 from instrument.campaign.plates.materials import draw_law, fits
 from instrument.campaign.plates.noise import PlateNoise, draw_noise
 from instrument.campaign.plates.schedule import (
@@ -26,7 +27,6 @@ from instrument.campaign.plates.schedule import (
     draw_schedule,
     seen_apart,
 )
-from instrument.campaign.plates.simulate import ChannelError
 from instrument.campaign.plates.stated import CAREFUL
 from instrument.campaign.schedule import THREE_LEVELS_G, Schedule
 
@@ -144,14 +144,12 @@ def draw_case(kind: str, seed: int, exact: bool = False, *, beam: str | None = N
         schedule = draw_schedule(rng("schedule"), _moved(as_built, law, chosen), levels, points)
     schedule = reduce(lambda s, h: h.paused(s), hidden, schedule)
     chance = rng("stated")
-    off = chance.standard_normal(2)
-    phase = CAREFUL.phase_rad * rng("phase").standard_normal()
-    channel = ChannelError(float(np.exp(CAREFUL.gain * off[0])), CAREFUL.delay_s * off[1], phase)
+    off = *chance.standard_normal(2), rng("phase").standard_normal()
+    channel = ChannelError() if exact else ChannelError.within(CAREFUL, off)
     stated, tolerances = (true, None) if exact else (draw_stated(chance, true), CAREFUL)
     middle = schedule.middles_hz
     # Every other lab knows what a clamp does to the width.
     text = toml(stated, tolerances, middle[len(middle) // 2], held_width=seed % 2 == 0)
-    channel = ChannelError() if exact else channel
     truth = BeamTruth(true, hidden, law, _noise(rng("noise figures")), channel, middle)
     level = level_unit(true) * schedule.level_g
     clean, without = (level * reading(b, law, schedule, channel) for b in (as_built, built(true)))

@@ -16,8 +16,8 @@ from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden import HiddenInBeam
 from instrument.campaign.beams.hidden.core import HiddenAmplitudeSoftening
 from instrument.campaign.law import TrueLaw
+from instrument.campaign.plates.channel import ChannelError
 from instrument.campaign.plates.schedule import Resonance
-from instrument.campaign.plates.simulate import ChannelError
 from instrument.campaign.schedule import Schedule
 
 _MODULI_PA = np.geomspace(0.1e6, 10e6, 5)

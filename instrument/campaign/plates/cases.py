@@ -11,6 +11,7 @@ from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.campaign.law import TrueLaw
+from instrument.campaign.plates.channel import ChannelError
 from instrument.campaign.plates.geometry import PLATES, TruePlate, plate_named
 from instrument.campaign.plates.hammer import HammerTest
 from instrument.campaign.plates.hidden import HIDDEN, draw_hidden, names_of
@@ -30,7 +31,7 @@ from instrument.campaign.plates.schedule import (
     resonances,
     widest_band_hz,
 )
-from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, peaks_hz, reading, struck
+from instrument.campaign.plates.simulate import built, moduli_of, peaks_hz, reading, struck
 from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
 from instrument.campaign.schedule import Schedule, draw_levels
 
@@ -165,16 +166,8 @@ def draw_case(
     if one_piece:
         noise = of_one_range(rng("floor"), noise)
     stated = draw_stated(chance, true)
-    off = chance.standard_normal(2)
-    channel = (
-        ChannelError()
-        if exact
-        else ChannelError(
-            float(np.exp(CAREFUL.gain * off[0])),
-            CAREFUL.delay_s * off[1],
-            CAREFUL.phase_rad * rng("phase").standard_normal(),
-        )
-    )
+    off = *chance.standard_normal(2), rng("phase").standard_normal()
+    channel = ChannelError() if exact else ChannelError.within(CAREFUL, off)
     stated = true if exact else stated
     text = toml(stated, None if exact else CAREFUL, middle[1])
     chance = rng("hammer")

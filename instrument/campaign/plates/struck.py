@@ -1,7 +1,6 @@
 """Solid plates struck at points and read at others, free or clamped: mobilities, phasors of e^{i w t}."""
 
 from collections.abc import Sequence
-from functools import reduce
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +12,7 @@ from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.hidden.base import Hidden
 from instrument.campaign.plates.reduced import ReducedSolid, reduced
-from instrument.campaign.plates.simulate import moduli_of
+from instrument.campaign.plates.simulate import moduli_of, with_effects
 from instrument.campaign.plates.solid import Build, Patch, Solid
 
 Points = Sequence[tuple[float, float]]
@@ -62,23 +61,10 @@ def struck_plate(
 
     Raises `ValueError` for what hangs on it.
     """
-    if any(h.points() for h in hidden if not (free and h.place in LEFT_BEHIND)):
-        raise ValueError("what hangs on the plate is not struck here")
     kept = [h for h in hidden if not (free and h.place in LEFT_BEHIND)]
-    build = reduce(lambda b, h: h.build(b, true), kept, Build(free=free))
-    solid = Solid(reduce(lambda p, h: h.plate(p), kept, true), build, fineness)
-    groups = {h.groups for h in kept}
-    return reduced(
-        solid,
-        moduli_pa,
-        groups=next((g for g in ("bricks", "columns") if g in groups), "whole"),
-        points_m=[force_m],
-        air_density_kg_m3=sum(h.air_kg_m3 for h in kept),
-        stirred=[
-            *(solid.core_with(field) for h in kept for field in h.stirred(solid.plate)),
-            *([solid.rubbing] if build.root is not None and build.root.loss else []),
-        ],
-    )
+    if any(h.points() for h in kept):
+        raise ValueError("what hangs on the plate is not struck here")
+    return with_effects(true, kept, moduli_pa, points_m=[force_m], free=free, fineness=fineness)
 
 
 @one_thread

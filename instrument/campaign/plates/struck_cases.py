@@ -1,6 +1,6 @@
 """A case of a struck plate: an FRF over a whole band, free or in its clamp, read at one to three points."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import reduce
 from typing import Any
 
@@ -13,6 +13,7 @@ from fitting.sweep import Sweep
 from instrument.campaign.draws import log_uniform
 from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates.blows import Blows, draw_blows
+from instrument.campaign.plates.channel import ChannelError
 from instrument.campaign.plates.geometry import PLATES, TruePlate, plate_named
 from instrument.campaign.plates.hidden.base import Hidden
 from instrument.campaign.plates.hidden.struck import (
@@ -27,13 +28,13 @@ from instrument.campaign.plates.hidden.struck import (
 from instrument.campaign.plates.materials import draw_law, fits
 from instrument.campaign.plates.reduced import ReducedSolid
 from instrument.campaign.plates.schedule import MOST_LAWS
-from instrument.campaign.plates.simulate import ChannelError
 from instrument.campaign.plates.stated import (
     CAREFUL,
+    STRUCK,
+    damping_lines,
     digits,
     draw_stated,
-    law_lines,
-    layer_lines,
+    plate_lines,
     specimen_from,
 )
 from instrument.campaign.plates.struck import resonance
@@ -46,7 +47,6 @@ from instrument.campaign.plates.struck_readings import (
     struck_so,
     through_channels,
 )
-from instrument.impact.mobility import GAIN
 
 _FREE = 0.75
 """Of cases; the others stand in their clamp."""
@@ -193,8 +193,7 @@ def _measured(truth: StruckTruth, solid: ReducedSolid, f: Array, rng: np.random.
     ]
     ratios = reduce(lambda r, h: h.ratios(r), hidden, np.array([] if truth.free else truth.plate.ratios))
     each = mobilities(solid, truth.law, f, hits, spots, hidden, ratios)
-    gain, delay, phase = np.array([GAIN, CAREFUL.delay_s, CAREFUL.phase_rad]) * rng.standard_normal(3)
-    channels = ChannelError(np.exp(gain), delay, phase).factor(2 * np.pi * f)
+    channels = ChannelError.within(STRUCK, rng.standard_normal(3)).factor(2 * np.pi * f)
     blows = struck_so(truth.blows, hidden)
     seen = [through_channels(own, 2 * np.pi * f, hidden, k) for k, own in enumerate(each)]
     found = [blows.read(rng, f, own * channels) for own in seen]
@@ -219,22 +218,11 @@ def _stated(rng: np.random.Generator, truth: StruckTruth) -> str:
 
 
 def _toml(plate: TruePlate, force_m: Place, spots_m: Any, *, free: bool, middle_hz: float) -> str:
-    core, faces = plate.core, (("substrate", plate.substrate), ("constraining", plate.constraining))
-    assert core is not None
-    lines = ["[plate]", f"length_mm = {digits(1e3 * plate.length_m)}"]
-    lines += [f"width_mm = {digits(1e3 * plate.width_m)}"]
-    lines += [f'boundary = "{"free" if free else "cantilever"}"', ""]
-    for name, face in faces:
-        assert face is not None
-        lines += layer_lines(name, face)
-    lines += [*layer_lines("core", core), *law_lines(middle_hz)]
-    if not free:
-        ratios = ", ".join(digits(100 * r) for r in plate.ratios)
-        lines += ["[damping]", f"modal_percent = [{ratios}]", ""]
+    lines = plate_lines(plate, "free" if free else "cantilever", middle_hz)
+    lines += [] if free else damping_lines(plate)
     for x, y in spots_m:
         lines += ["[[pickup]]", f"x_mm = {digits(1e3 * x)}", f"y_mm = {digits(1e3 * y)}", ""]
     lines += ["[excitation]", 'kind = "force"']
     lines += [f"x_mm = {digits(1e3 * force_m[0])}", f"y_mm = {digits(1e3 * force_m[1])}", "", "[tolerances]"]
-    said = replace(CAREFUL, gain=GAIN).lines()
-    lines += [line for line in said if not (free and line.startswith("damping"))]
+    lines += [line for line in STRUCK.lines() if not (free and line.startswith("damping"))]
     return "\n".join([*lines, f"force_mm = {1e3 * _FORCE_M:g}"]) + "\n"

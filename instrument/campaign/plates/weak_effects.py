@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.campaign.draws import either_sign, log_uniform
 from instrument.campaign.plates.cases import draw_case, measured
+from instrument.campaign.plates.channel import ChannelError
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden import HIDDEN
 from instrument.campaign.plates.hidden.base import Hidden
 from instrument.campaign.plates.hidden.clamp import HiddenClampCompliance, HiddenClampFriction
 from instrument.campaign.plates.judged import models_of
 from instrument.campaign.plates.remeasured import RemeasuredPlate
-from instrument.campaign.plates.simulate import ChannelError
 from instrument.campaign.plates.stated import CAREFUL, CampaignTolerances, draw_stated, specimen_from, toml
 from instrument.campaign.schedule import Schedule
 from instrument.models.files import File
@@ -77,11 +77,8 @@ def draw_weak(kind: str, seed: int) -> RemeasuredPlate:
     sweep = clean.sweep.take(_thinned(clean.sweep.segment, clean.sweep.commanded_m_s2))
     rng = np.random.default_rng([seed, *kind.encode()])
     true = clean.truth.plate
-    gain, delay = rng.standard_normal(2)
-    phase = MEASURED_WELL.phase_rad * np.random.default_rng([seed, *b"phase"]).standard_normal()
-    channel = ChannelError(
-        float(np.exp(MEASURED_WELL.gain * gain)), MEASURED_WELL.delay_s * float(delay), phase
-    )
+    off = *rng.standard_normal(2), np.random.default_rng([seed, *b"phase"]).standard_normal()
+    channel = ChannelError.within(MEASURED_WELL, off)
     truth = replace(clean.truth, effects=(weak(kind, rng, true),), channel=channel)
     text = toml(draw_stated(rng, true, MEASURED_WELL), MEASURED_WELL, clean.truth.resonances_hz[1])
     assert sweep.time_s is not None

@@ -11,6 +11,7 @@ from fitting.arrays import Array, Complex
 from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting, driven_by_base
 from instrument.campaign.draws import either_sign, log_uniform
+from instrument.campaign.plates.hidden.fixture import FixtureResonance
 
 
 @dataclass(frozen=True)
@@ -34,20 +35,8 @@ class HiddenBaseRocking(HiddenInBeam):
 
 
 @dataclass(frozen=True)
-class HiddenFixtureResonance(HiddenInBeam):
-    """The fixture yields between reference sensor and root, and it pitches.
-
-    The root moves by 1 + gain r^2/(1 - r^2) of the reference, r the frequency over that of the fixture.
-    """
-
-    name: ClassVar[str] = "fixture_resonance"
-    near: ClassVar[tuple[str, ...]] = ("base_rocking",)
-
-    frequency_hz: float
-    damping_ratio: float
-    gain: float
-    pitch_rad_m: float
-    """Per acceleration of the reference, times the same r^2/(1 - r^2)."""
+class HiddenFixtureResonance(FixtureResonance, HiddenInBeam):
+    """Near or beyond the resonances that are measured."""
 
     @classmethod
     def able(cls, beam: TrueBeam) -> bool:
@@ -61,12 +50,5 @@ class HiddenFixtureResonance(HiddenInBeam):
             log_uniform(rng, low, high), log_uniform(rng, 0.01, 0.05), either_sign(rng, 0.01, 0.05), pitch
         )
 
-    def _swing(self, omega: Array) -> Complex:
-        r = omega / (2 * np.pi * self.frequency_hz)
-        return np.asarray(r**2 / (1 - r**2 + 2j * self.damping_ratio * r))
-
-    def pitch(self, omega: Array) -> Complex:
-        return np.asarray(self.pitch_rad_m * self._swing(omega) / (1 + self.gain * self._swing(omega)))
-
     def reference(self, omega: Array) -> Complex:
-        return np.asarray(1 / (1 + self.gain * self._swing(omega)))
+        return np.asarray(1 / self.root(omega))

@@ -10,6 +10,7 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from instrument.campaign.draws import either_sign, log_uniform
 from instrument.campaign.plates.hidden.base import Hidden, Setting
+from instrument.campaign.plates.hidden.fixture import FixtureResonance
 from instrument.campaign.plates.response import BaseMotion
 
 
@@ -48,21 +49,10 @@ class HiddenBaseRoll(Hidden):
 
 
 @dataclass(frozen=True)
-class HiddenFixtureResonance(Hidden):
-    """The fixture yields between reference sensor and root, and it pitches.
+class HiddenFixtureResonance(FixtureResonance, Hidden):
+    """Near or beyond the resonances that are measured."""
 
-    The root moves by 1 + gain r^2/(1 - r^2) of the reference, r the frequency over that of the fixture.
-    """
-
-    name: ClassVar[str] = "fixture_resonance"
     place: ClassVar[str] = "base"
-    near: ClassVar[tuple[str, ...]] = ("base_rocking",)
-
-    frequency_hz: float
-    damping_ratio: float
-    gain: float
-    pitch_rad_m: float
-    """Per acceleration of the reference, times the same r^2/(1 - r^2)."""
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenFixtureResonance":
@@ -74,15 +64,8 @@ class HiddenFixtureResonance(Hidden):
             either_sign(rng, 0.005, 0.03) / at.plate.length_m,
         )
 
-    def _resonance(self, omega: Array) -> Complex:
-        r = omega / (2 * np.pi * self.frequency_hz)
-        return np.asarray(r**2 / (1 - r**2 + 2j * self.damping_ratio * r))
-
     def motion(self, motion: BaseMotion, omega: Array) -> BaseMotion:
-        swing = self._resonance(omega)
-        return BaseMotion(
-            motion.pitch_rad_m + self.pitch_rad_m * swing / (1 + self.gain * swing), motion.roll_rad_m
-        )
+        return BaseMotion(motion.pitch_rad_m + self.pitch(omega), motion.roll_rad_m)
 
     def reference(self, base: Complex, omega: Array) -> Complex:
-        return np.asarray(base / (1 + self.gain * self._resonance(omega)))
+        return np.asarray(base / self.root(omega))

@@ -11,69 +11,59 @@ from fitting.arrays import Array
 from instrument.campaign.draws import either_sign
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden.base import Hidden, Setting, times
+from instrument.campaign.plates.hidden.scaled import (
+    ConstrainingStiffness,
+    ConstrainingThickness,
+    CoreThickness,
+    ScaledLayer,
+    SubstrateStiffness,
+)
 from instrument.campaign.plates.solid import Build
 
 
 @dataclass(frozen=True)
-class HiddenConstrainingStiffness(Hidden):
-    """Young's modulus of the constraining layer."""
+class _ScaledInPlate(ScaledLayer, Hidden):
+    """One number of one layer by a factor."""
 
-    name: ClassVar[str] = "constraining_stiffness"
-    place: ClassVar[str] = "constraining layer"
     changes_solid: ClassVar[bool] = True
 
-    scale: float
-
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenConstrainingStiffness":
-        return cls(1 + either_sign(rng, 0.05, 0.1))
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "_ScaledInPlate":
+        return cls(1 + either_sign(rng, *cls.sizes))
 
     def plate(self, true: TruePlate) -> TruePlate:
-        c = true.constraining
-        assert c is not None
-        return replace(true, constraining=replace(c, young_pa=c.young_pa * self.scale))
+        return self.scaled(true)
 
 
 @dataclass(frozen=True)
-class HiddenConstrainingThickness(Hidden):
-    """Thickness of the constraining layer."""
+class HiddenConstrainingStiffness(ConstrainingStiffness, _ScaledInPlate):
+    """A constraining layer of another alloy, or of another sheet."""
 
-    name: ClassVar[str] = "constraining_thickness"
     place: ClassVar[str] = "constraining layer"
-    changes_solid: ClassVar[bool] = True
-
-    scale: float
-
-    @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenConstrainingThickness":
-        return cls(1 + either_sign(rng, 0.05, 0.1))
-
-    def plate(self, true: TruePlate) -> TruePlate:
-        c = true.constraining
-        assert c is not None
-        return replace(true, constraining=replace(c, thickness_m=c.thickness_m * self.scale))
 
 
 @dataclass(frozen=True)
-class HiddenSubstrateStiffness(Hidden):
-    """Young's modulus of the substrate."""
+class HiddenConstrainingThickness(ConstrainingThickness, _ScaledInPlate):
+    """A constraining layer of another gauge than it is sold as."""
 
-    name: ClassVar[str] = "substrate_stiffness"
+    place: ClassVar[str] = "constraining layer"
+
+
+@dataclass(frozen=True)
+class HiddenSubstrateStiffness(SubstrateStiffness, _ScaledInPlate):
+    """The bare plate that is struck has it too."""
+
     place: ClassVar[str] = "substrate"
-    changes_solid: ClassVar[bool] = True
-
-    scale: float
-
-    @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenSubstrateStiffness":
-        return cls(1 + either_sign(rng, 0.04, 0.08))
-
-    def plate(self, true: TruePlate) -> TruePlate:
-        s = true.substrate
-        return replace(true, substrate=replace(s, young_pa=s.young_pa * self.scale))
 
     def at_hammer(self, plate: TruePlate, build: Build) -> tuple[TruePlate, Build]:
         return self.plate(plate), build
+
+
+@dataclass(frozen=True)
+class HiddenCoreThickness(CoreThickness, _ScaledInPlate):
+    """A core that was pressed or filled otherwise than it is stated."""
+
+    place: ClassVar[str] = "core"
 
 
 @dataclass(frozen=True)
@@ -96,26 +86,6 @@ class HiddenOrthotropicSubstrate(Hidden):
 
     def at_hammer(self, plate: TruePlate, build: Build) -> tuple[TruePlate, Build]:
         return self.plate(plate), build
-
-
-@dataclass(frozen=True)
-class HiddenCoreThickness(Hidden):
-    """Thickness of the core."""
-
-    name: ClassVar[str] = "core_thickness"
-    place: ClassVar[str] = "core"
-    changes_solid: ClassVar[bool] = True
-
-    scale: float
-
-    @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenCoreThickness":
-        return cls(1 + either_sign(rng, 0.1, 0.15))
-
-    def plate(self, true: TruePlate) -> TruePlate:
-        c = true.core
-        assert c is not None
-        return replace(true, core=replace(c, thickness_m=c.thickness_m * self.scale))
 
 
 @dataclass(frozen=True)

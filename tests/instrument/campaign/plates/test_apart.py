@@ -12,6 +12,7 @@ from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates import apart, kept, remeasured, weak_effects
 from instrument.campaign.plates.cases import PlateTruth, measured
+from instrument.campaign.plates.channel import ChannelError
 from instrument.campaign.plates.geometry import plate_named
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.hidden import HIDDEN
@@ -22,7 +23,7 @@ from instrument.campaign.plates.hidden.clamp import (
 )
 from instrument.campaign.plates.noise import draw_noise
 from instrument.campaign.plates.remeasured import RemeasuredPlate
-from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, reading
+from instrument.campaign.plates.simulate import built, moduli_of, reading
 from instrument.campaign.plates.stated import specimen_from, toml
 from instrument.campaign.plates.struck import struck_plate
 from instrument.campaign.run import Job
