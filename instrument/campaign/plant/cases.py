@@ -42,6 +42,7 @@ NONE, PAIR = "none", "pair"
 KINDS = (NONE, *PLACES, PAIR)
 """`none`, each effect by its name, `pair`."""
 _HAMMER_SHARE = 0.5
+"""Of cases: with and without a hammer test are compared."""
 
 _PLANT: dict[str, Any] = {
     "clamp_compliance": ClampCompliance,

@@ -20,6 +20,8 @@ from instrument.progress import Progress, quiet
 
 _MOST = 2
 """Measurements after the first sweep."""
+_STREAM = 90
+"""Of random numbers of the first of them: no other draw of a case has it."""
 _GROUP = 0.01
 """Probability from which a member of a group is put into the table."""
 Line = dict[str, Any]
@@ -39,7 +41,7 @@ def judge_apart(job: Job) -> Line:
         if not ranked:
             break
         best = ranked[0]
-        rig = rig.after(best, np.random.default_rng([job.seed, *job.kind.encode(), 90 + number]))
+        rig = rig.after(best, np.random.default_rng([job.seed, *job.kind.encode(), _STREAM + number]))
         found = rig.diagnosed()
         how = best.model_dump(include={"kind", "level_g", "spot_mm", "seconds", "separation"})
         how |= {"probability_resolved": best.probability_resolved, "ranking_cpu_s": cpu}

@@ -20,7 +20,7 @@ from instrument.campaign.plates.kept import clean_plate
 from instrument.campaign.plates.materials import draw_law, fits
 from instrument.campaign.plates.noise import PlateNoise, draw_noise
 from instrument.campaign.plates.one_piece import draw_whole, in_one_piece, judged_of, of_one_range
-from instrument.campaign.plates.reduced import ReducedSolid
+from instrument.campaign.plates.reduced import MODES, ReducedSolid
 from instrument.campaign.plates.schedule import (
     LARGEST_LOSS,
     MOST_LAWS,
@@ -38,6 +38,7 @@ from instrument.campaign.schedule import Schedule, draw_levels
 NONE, PAIR = "none", "pair"
 KINDS = (NONE, *HIDDEN, PAIR)
 _HAMMER_SHARE = 0.5
+"""Of cases: with and without a hammer test are compared."""
 
 
 @dataclass(frozen=True)
@@ -226,7 +227,7 @@ def _share(clean: ReducedSolid, law: TrueLaw, frequency_hz: float) -> float:
     """Of the core in the stiffness of the mode nearest to a frequency."""
     omega = 2 * np.pi * frequency_hz
     G = float(law.modulus(omega).real)
-    lam, phi = clean.modes(G, 14)
+    lam, phi = clean.modes(G, MODES)
     r = int(np.argmin(np.abs(np.sqrt(lam) - omega)))
     return float(G * (phi[:, r] @ clean.whole_core @ phi[:, r]) / lam[r])
 

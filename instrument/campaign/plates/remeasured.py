@@ -21,6 +21,7 @@ from instrument.campaign.plates.hidden.clamp import HiddenClampCompliance, Hidde
 from instrument.campaign.plates.judged import models_of
 from instrument.campaign.plates.reduced import ReducedSolid
 from instrument.campaign.plates.response import remaining_damping
+from instrument.campaign.plates.schedule import takes_s
 from instrument.campaign.plates.simulate import built, moduli_of, struck
 from instrument.campaign.plates.stated import CAREFUL, STRUCK
 from instrument.campaign.plates.struck import LEFT_BEHIND, lines_about, mobility, struck_plate
@@ -112,7 +113,7 @@ class RemeasuredPlate:
         f = np.array(follow_up.frequencies_hz)
         segment = np.array(follow_up.segments, dtype=np.intp)
         last = self.schedule
-        when = last.time_s.max() + _PAUSE_S + np.cumsum(1.2 + 30 / f)
+        when = last.time_s.max() + _PAUSE_S + np.cumsum(takes_s(f))
         level = np.full(len(f), follow_up.level_g)
         return Schedule(f, segment, last.sweep.max() + segment, level, when)
 

@@ -21,7 +21,11 @@ _APART = 1.25
 _HALF_WIDTHS = 1.3
 """Half of a segment in loss factors of its resonance, within the next."""
 _SHARE = (0.08, 0.22)
+"""Of the resonance's frequency: of a narrow resonance some more, of a broad one not all of the band."""
+_UNEVEN = (0.85, 1.15)
+"""Of that half to either side: nobody hits the middle."""
 _STILL = 1e-3
+"""Share of the load that a mode takes: less, and it is odd in y, which the base does not excite."""
 _BEGUN_PA = 1e6
 """Modulus at which a search for a mode's own frequency begins: within the campaign's range."""
 _SETTLED, _MOST_STEPS = 1e-6, 12
@@ -118,6 +122,11 @@ def draw_schedule(
     return in_passes(rng, segments, order, along(rng), levels_g)
 
 
+def takes_s(frequency_hz: Array) -> Array:
+    """What each point takes at least. Shape of `frequency_hz`."""
+    return _SECONDS + _CYCLES / frequency_hz
+
+
 def in_passes(
     rng: np.random.Generator,
     segments: Sequence[Array],
@@ -135,8 +144,7 @@ def in_passes(
         for k in order:
             f = segments[k]
             in_time = order_of_time(rng, len(f), up_or_down)
-            takes = _SECONDS + _CYCLES / f[in_time] + rng.exponential(LATE_S, len(f))
-            when = now + np.cumsum(takes)
+            when = now + np.cumsum(takes_s(f[in_time]) + rng.exponential(LATE_S, len(f)))
             now = float(when[-1]) + between_s(rng)
             time = np.empty(len(f))
             time[in_time] = when
@@ -147,7 +155,7 @@ def in_passes(
 def _around(rng: np.random.Generator, r: Resonance, points: tuple[int, int]) -> Array:
     count = int(rng.integers(*points))
     half = float(np.clip(_HALF_WIDTHS * r.loss_factor, *_SHARE))
-    low, high = (half * float(rng.uniform(0.85, 1.15)) for _ in range(2))
+    low, high = (half * float(rng.uniform(*_UNEVEN)) for _ in range(2))
     return np.round(np.linspace(r.frequency_hz * (1 - low), r.frequency_hz * (1 + high), count), 3)
 
 

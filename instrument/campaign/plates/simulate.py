@@ -23,6 +23,9 @@ from instrument.campaign.schedule import Schedule
 _LOOK, _LOOKED_AT = (0.62, 1.3), 90
 """Of a clean resonance's frequency: where an effect may have moved it."""
 _NEAR = 0.15
+"""In the logarithm of frequency: how far a peak has moved that still counts for most."""
+_BEYOND, _ABOVE = 1.2, 1.5
+"""How far a basis goes beyond the stiffest core of a sweep, and beyond where remaining damping is stated."""
 
 
 def built(
@@ -65,7 +68,7 @@ def with_effects(
 def moduli_of(law: TrueLaw, frequency_hz: Array) -> tuple[float, ...]:
     """Where the basis of a plate with this law is made. Shape (n,)."""
     size = np.abs(law.modulus(2 * np.pi * np.array([frequency_hz.min(), frequency_hz.max()])))
-    low, high = min(size[0], REFERENCE_MODULUS_PA), max(1.2 * size[1], 1.5 * REFERENCE_MODULUS_PA)
+    low, high = min(size[0], REFERENCE_MODULUS_PA), max(_BEYOND * size[1], _ABOVE * REFERENCE_MODULUS_PA)
     return tuple(float(g) for g in np.geomspace(low, high, 3))
 
 

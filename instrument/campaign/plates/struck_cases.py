@@ -62,7 +62,12 @@ _BEGINS, _ENDS = (0.5, 0.8), (1.03, 1.08)
 _STATED_NOISE = 0.5
 """Of cases; the others leave it to the scatter of neighbouring lines."""
 _FORCE_M = 1e-3
+_STILL = 0.2
+"""Of the length, from a clamp: where a plate hardly moves."""
+_BELOW = 0.6
+"""Of the first resonance of the softest core: where a law's band begins."""
 _JUDGED = 5
+"""Resonances, from the first to the last of the band."""
 _STIFF_PA, _SOFT_PA = 2e6, 0.3e6
 
 
@@ -130,7 +135,7 @@ def draw_struck(
     hangs = kind in OF_FREE or (hangs and kind not in OF_CLAMPED)
     at = chance.permutation(len(PLACES))[: 2 + int(chance.integers(3))]
     # In a clamp what is next to it hardly moves.
-    places = [PLACES[k] for k in at if hangs or PLACES[k][0] > 0.2]
+    places = [PLACES[k] for k in at if hangs or PLACES[k][0] > _STILL]
     if len(places) < 2:
         places = [PLACES[4], PLACES[7]]
     force, *spots = ((x * true.length_m, y * true.width_m) for x, y in places)
@@ -154,7 +159,7 @@ def _law_and_resonances(
         for g, n in ((_SOFT_PA, 0), (_STIFF_PA, _MOST // 2))
     )
     for _ in range(MOST_LAWS):
-        law = draw_law(rng, (0.6 * float(low), min(float(high), _HIGHEST_HZ)))
+        law = draw_law(rng, (_BELOW * float(low), min(float(high), _HIGHEST_HZ)))
         most = int(rng.integers(_FEWEST, _MOST + 1))
         found: list[float] = []
         for r in range(first, first + most):

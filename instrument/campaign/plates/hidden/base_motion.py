@@ -11,7 +11,13 @@ from fitting.arrays import Array, Complex
 from instrument.campaign.draws import either_sign, log_uniform
 from instrument.campaign.plates.hidden.base import Hidden, Setting
 from instrument.campaign.plates.hidden.fixture import FixtureResonance
+from instrument.campaign.plates.hidden.sizes import FIXTURE_DAMPING, FIXTURE_FROM, FIXTURE_GAIN, FIXTURE_PITCH
 from instrument.campaign.plates.response import BaseMotion
+
+_PITCH, _ROLL = (0.01, 0.06), (0.08, 0.4)
+"""Times length and width: what the far edge moves by more than the root. A roll shows less."""
+_FIXTURE_TO = 1.6
+"""Highest own frequency of a fixture over the last resonance: beyond it hardly anything is seen of it."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +31,7 @@ class HiddenBaseRocking(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenBaseRocking":
-        return cls(either_sign(rng, 0.01, 0.06) / at.plate.length_m)
+        return cls(either_sign(rng, *_PITCH) / at.plate.length_m)
 
     def motion(self, motion: BaseMotion, omega: Array) -> BaseMotion:
         return BaseMotion(motion.pitch_rad_m + self.pitch_rad_m, motion.roll_rad_m)
@@ -42,7 +48,7 @@ class HiddenBaseRoll(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenBaseRoll":
-        return cls(either_sign(rng, 0.08, 0.4) / at.plate.width_m)
+        return cls(either_sign(rng, *_ROLL) / at.plate.width_m)
 
     def motion(self, motion: BaseMotion, omega: Array) -> BaseMotion:
         return BaseMotion(motion.pitch_rad_m, motion.roll_rad_m + self.roll_rad_m)
@@ -56,12 +62,12 @@ class HiddenFixtureResonance(FixtureResonance, Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenFixtureResonance":
-        low, high = at.resonances_hz[0] * 1.5, at.resonances_hz[2] * 1.6
+        low, high = at.resonances_hz[0] * FIXTURE_FROM, at.resonances_hz[2] * _FIXTURE_TO
         return cls(
             log_uniform(rng, low, high),
-            log_uniform(rng, 0.01, 0.05),
-            either_sign(rng, 0.01, 0.05),
-            either_sign(rng, 0.005, 0.03) / at.plate.length_m,
+            log_uniform(rng, *FIXTURE_DAMPING),
+            either_sign(rng, *FIXTURE_GAIN),
+            either_sign(rng, *FIXTURE_PITCH) / at.plate.length_m,
         )
 
     def motion(self, motion: BaseMotion, omega: Array) -> BaseMotion:

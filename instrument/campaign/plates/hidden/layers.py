@@ -20,6 +20,11 @@ from instrument.campaign.plates.hidden.scaled import (
 )
 from instrument.campaign.plates.solid import Build
 
+_ROLLED = (0.03, 0.06)
+"""Difference of a sheet's moduli over their mean: three tolerances of a modulus and more."""
+_GONE = (0.08, 0.2)
+"""Side of a corner that is gone, of the shorter side."""
+
 
 @dataclass(frozen=True)
 class _ScaledInPlate(ScaledLayer, Hidden):
@@ -79,7 +84,7 @@ class HiddenOrthotropicSubstrate(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenOrthotropicSubstrate":
-        return cls(either_sign(rng, 0.03, 0.06))
+        return cls(either_sign(rng, *_ROLLED))
 
     def plate(self, true: TruePlate) -> TruePlate:
         return replace(true, substrate=replace(true.substrate, rolled=self.rolled))
@@ -104,7 +109,7 @@ class HiddenMissingPiece(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenMissingPiece":
-        return cls(float(rng.uniform(0.08, 0.2)) * min(at.plate.length_m, at.plate.width_m))
+        return cls(float(rng.uniform(*_GONE)) * min(at.plate.length_m, at.plate.width_m))
 
     def build(self, build: Build, true: TruePlate) -> Build:
         start = true.length_m - self.side_m

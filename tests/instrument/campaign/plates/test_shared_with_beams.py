@@ -6,6 +6,7 @@ import pytest
 from instrument.campaign.beams.geometry import BEAMS
 from instrument.campaign.plates.channel import ChannelError
 from instrument.campaign.plates.geometry import PLATES
+from instrument.campaign.plates.hidden import sizes
 from instrument.campaign.plates.hidden.fixture import FixtureResonance
 from instrument.campaign.plates.hidden.scaled import ConstrainingThickness, SubstrateStiffness
 from instrument.campaign.plates.stated import CAREFUL
@@ -35,3 +36,8 @@ def test_a_channel_is_off_by_so_many_tolerances():
     off = ChannelError.within(CAREFUL, (2.0, -1.0, 3.0)).factor(omega)
     np.testing.assert_allclose(np.abs(off), np.exp(2 * 0.003))
     np.testing.assert_allclose(np.angle(off), np.deg2rad(0.3) + omega * 3e-6)
+
+
+def test_what_is_hidden_matters_beside_what_a_careful_laboratory_knows():
+    assert min(sizes.CLAMP_LINE_M) >= 5 * CAREFUL.length_m
+    assert min(SubstrateStiffness.sizes) >= 4 * CAREFUL.young
