@@ -14,6 +14,7 @@ from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting
 from instrument.campaign.draws import either_sign
 from instrument.campaign.plates.hidden.base import Softening, draw_softening
+from instrument.campaign.plates.hidden.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
 from instrument.campaign.plates.hidden.sizes import (
     ACTIVATION_J_MOL,
     BOND_EDGE,
@@ -22,7 +23,6 @@ from instrument.campaign.plates.hidden.sizes import (
     DRIFT_K,
     DRIFT_TIME,
 )
-from instrument.campaign.plates.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
 
 _GRADED = (0.25, 0.6)
 """Slope of a core's modulus from one end to the other, over its mean: a beam shows less of it."""

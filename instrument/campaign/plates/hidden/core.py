@@ -17,6 +17,7 @@ from instrument.campaign.plates.hidden.base import (
     draw_softening,
     times,
 )
+from instrument.campaign.plates.hidden.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
 from instrument.campaign.plates.hidden.sizes import (
     ACTIVATION_J_MOL,
     BOND_EDGE,
@@ -26,7 +27,6 @@ from instrument.campaign.plates.hidden.sizes import (
     DRIFT_TIME,
     LOOSENED,
 )
-from instrument.campaign.plates.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
 from instrument.campaign.plates.solid import Build, Field
 
 _GRADED = (0.2, 0.4)

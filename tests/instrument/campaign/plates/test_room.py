@@ -6,7 +6,7 @@ import pytest
 from instrument.campaign.beams.run import ROTATION as BEAMS
 from instrument.campaign.plant.schedule import draw_schedule
 from instrument.campaign.plates.cases import KINDS
-from instrument.campaign.plates.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
+from instrument.campaign.plates.hidden.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
 from instrument.campaign.plates.run import ROTATION as PLATES
 
 
