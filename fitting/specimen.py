@@ -326,7 +326,7 @@ class Specimen(Driven):
                 return float(getattr(self._layer(number), number.field))
 
     def _layer(self, number: StatedNumber) -> Face | Core | Glue | Orthotropy | None:
-        """That has a number."""
+        """The layer that holds a stated number; None where the specimen has none."""
         if number.layer == "glue":
             return self.core.glue[0] if self.core is not None else None
         layer: Face | Core | None = getattr(self, number.layer)

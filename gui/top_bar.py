@@ -170,7 +170,7 @@ class TopBar(QFrame):
 
 
 def _left_words(seconds: float) -> str:
-    """What takes longer than foreseen is not over."""
+    """Remaining time in words; never zero, as what takes longer than foreseen is not over."""
     return f"{duration(seconds)} left" if seconds >= 1 else "soon done"
 
 

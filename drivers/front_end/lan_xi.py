@@ -32,7 +32,7 @@ _POLL_S = 0.05
 _LONGEST_BODY = 1 << 22
 """Bytes: a set-up of twelve channels is a hundredth of it."""
 _BODIES = 2.0
-"""Time-outs that a whole answer may take: one until it begins."""
+"""A whole answer may take so many times the time-out: one until it begins, one to arrive."""
 _PIECE_BYTES = 1 << 20
 _CREDIT = struct.Struct("<I")
 

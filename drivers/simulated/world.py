@@ -20,7 +20,8 @@ from drivers.simulated.lan_xi_measurement import Acquired
 from drivers.simulated.sensors import Converted, Input, SimulatedSensor, hum
 
 _UNATTENDED_S = 0.1
-"""Nobody asking for samples for so long, a shaker on its way to rest goes there by itself."""
+"""When nobody has asked for samples for so long, simulated time advances by itself while a shaker comes to
+rest."""
 _TICK_S = 0.01
 _NOTHING = SimulatedSensor("nothing", 0.0, 5e-6, 10.0)
 """An input with nothing on it."""

@@ -29,12 +29,12 @@ _LEAST_GAIN = 1e-6
 _ROUNDING = 1e-12
 """Of the peak's square: no reading scatters by less."""
 _NOTHING = 1e-300
-"""In the place of a reading that is nothing."""
+"""Smallest amplitude to divide by, in the place of a reading of zero."""
 _FEWEST_LEFT = 12
 """Numbers that local models must leave to tell what shorter segments scatter by, two of a phasor: known to a
 fifth then."""
 _LEAST = 0.15
-"""Of the points, that lie in no window of a resonance however sharp: a choice."""
+"""Share of the points that are assumed to lie far from any resonance, however sharp. A choice."""
 _SPLITS = 24
 """Of a floor's part in the variance at the peak, that are tried: a choice, fine beside what scatter tells."""
 _AROUND = 41

@@ -13,23 +13,23 @@ class VerdictThresholds:
     """What is named, what is refused, what counts as random."""
 
     credible: float = 0.95
-    """Probability that the group must hold, and above which one explanation stands alone; a gain that more
-    than one in twenty sweeps without any effect would show too names nothing."""
+    """Probability that a group of explanations must hold together, and above which one of them stands alone.
+    A gain that more than one in twenty sweeps without any effect would show too names nothing."""
     least_doubted: float = 0.2
-    """Probability of none up to which an effect is named; of a clean sweep none keeps four fifths."""
+    """Probability of 'no effect' up to which an effect is named; in a clean sweep it is about four fifths."""
     favoured: float = 2.0
-    """Times the best effect's probability: where none has no more, that effect is named too. Of a clean sweep
-    none has twenty times as much."""
+    """The best effect is named too where 'no effect' is at most so many times as likely; in a clean sweep it
+    is twenty times as likely. Beside a cause of its kind in no catalogue, the same limit holds."""
     stand_in: float = 0.6
-    """Most that an effect is worth which no point shows by itself, beside others that nothing refuses: it may
-    stand in for a cause that is in no catalogue."""
+    """Largest part, of the probability that both have, for effects that no reading shows by itself beside
+    explanations that pass all checks: such an effect may stand in for a cause that is in no catalogue."""
     worth_saying: float = 0.1
     """Probability of an effect that is not named from which it is spoken of: one in ten is no surprise."""
     check_level: float = 1e-4
     """Tail probability below which an explanation fails; six checks refuse one true one in 1600 at most."""
     narrowed: float = 0.3
-    """Of the variance of a stated number, or a sum of them, what the data must take for it to be asked in the
-    check of the tolerances: what they say nothing of stays as stated whatever the cause is."""
+    """A stated number, or a sum of them, counts in the check of the tolerances only if the data take this
+    share of its variance: what they say nothing of stays as stated, whatever the cause is."""
     doubted: float = 0.01
     """Tail probability in that check below which an explanation is not certain: one true one in a hundred."""
     poor: float = 3.0
@@ -48,7 +48,8 @@ class VerdictThresholds:
     wider_along: float = 1.5
     """The model's error is marginalised, not gone: statistics along frequency scatter more than noise's."""
     longest_trace: int = 180
-    """Readings that a trace counts for along frequency: a choice, as three segments of a hundred together.
+    """A curve of residuals counts as at most so many readings in tests along frequency. A choice: as three
+    segments of a hundred together.
 
     Instruments wander by a tenth of a percent over some twenty readings. In a thousand of one piece that is
     plain, and no explanation leaves less.
@@ -159,7 +160,7 @@ class SearchThresholds:
     places_followed: int = 8
     """... of those, how many go on after a few steps: of 36 the best was among the first five by then ..."""
     most_places: int = 30
-    """... and of the rest, where all that lead have stated numbers far off (`Singles._leans`)."""
+    """... and of the rest, where every leading explanation fails a check (`Singles._misplaced`)."""
     finished: int = 2
     """Rough fits of a kind that are followed to the end by a thorough search."""
     laws_finished: int = 2

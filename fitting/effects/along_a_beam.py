@@ -9,9 +9,9 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 
 class AlongABeam(Effect):
-    """A beam knows no place across it: put before a plate's effect, whose last unknown is that one.
+    """Mixin that makes a beam's effect of a plate's whose last unknown is the place across the plate.
 
-    It is nought, on the beam's axis; the form on a beam lacks it.
+    A beam has no such place: its effect lacks that unknown, and the plate's is called with zero, the axis.
     """
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:

@@ -55,7 +55,7 @@ class EffectParameter:
     fixed: bool = False
     """Not moved by a fit: one of the starts."""
     complete: bool = False
-    """At its far limit the effect is there in full: no sign of a fit that would go on."""
+    """A limit means that the effect is fully present: a fit that ends there is not suspect."""
     spread: float | None = None
     """How large such a thing is in a laboratory that has it, in `unit`: the scale of its prior. None: 3
     `typical`.
@@ -120,27 +120,29 @@ class Effect:
     """Prior probability that a laboratory's set-up has it, to be seen or not."""
 
     causes: ClassVar[int] = 1
-    """How many things it supposes at once."""
+    """How many independent causes it counts for: two, where it is two masses."""
 
     between_files: ClassVar[bool] = False
     """Whether it says how one file differs from the others: one alone cannot show it."""
 
     sharp: ClassVar[bool] = False
-    """Whether it gives the plate a pole more: what it changes is asked at every point, not between nodes.
+    """Whether it adds a resonance of its own to the plate.
 
-    Its plate has a motion more too (`EnrichedReducedPlate.with_part`).
+    The response is then computed at every point, not interpolated between nodes, and the reduced plate has
+    one motion more (`EnrichedReducedPlate.with_part`).
     """
 
     anew: ClassVar[bool] = False
-    """Whether it takes another course in every file: what goes with time does."""
+    """Whether it differs from file to file, as everything that depends on time does."""
 
     of_a_segment: ClassVar[bool] = False
     """Whether it is in one segment of a sweep alone: the others cannot foretell it."""
 
     from_afar: bool = False
-    """Whether it is looked for in a wide valley too, however well a fit without it does.
+    """Whether a rough fit that begins with inflated noise (in a wide valley) is tried too, however well the
+    fits from the usual starts do.
 
-    Law and stated numbers may have found a valley of their own to do its work.
+    Law and stated numbers may imitate the effect so well that those fits never leave them.
     """
 
     beside_others: bool = True
@@ -207,8 +209,8 @@ class Effect:
     def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
         """Simpler effects that this one contains, each with the unknowns it would have here.
 
-        A fit of this one that ends where only a simpler one acts has found a place for that. Shapes
-        (parameters,) each.
+        A fit may end where only one part of this effect acts: that part is then fitted alone, from there.
+        Shapes (parameters,) each.
         """
         return ()
 

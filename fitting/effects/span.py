@@ -9,9 +9,8 @@ from fitting.arrays import Array, Complex
 from fitting.effects.full_plate import FullPlate, Snapshot
 
 UNIT_RESPONSE = 0.3
-"""What a response of unit size counts for where forces say nothing of how large an effect makes it: motions
-count down to `enriching.TOLERANCE` of a typical change, so that a hundredth of such a response is left out. A
-choice."""
+"""Size assumed for a unit response where forces do not say how large an effect makes it. Motions smaller than
+`enriching.TOLERANCE` of a typical change are left out, which is a hundredth of such a response. A choice."""
 
 
 class Span:

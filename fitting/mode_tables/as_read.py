@@ -28,9 +28,9 @@ READS: tuple[str, ...] = get_args(Read)
 _NEWTON = 40
 """Steps to a pole: a handful are taken."""
 _STILL = 1e-13
-"""A step that is the last."""
+"""A step to a pole that is smaller than this is the last one: rounding."""
 _OUT = 8.0
-"""In ln omega, from a peak: beyond it any mode has come down."""
+"""How far from a peak its half-power points are searched, in ln omega: within it any mode has come down."""
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,8 @@
-"""Resonances hardly wider than the model may have them off: where each lies is a number of the fit.
+"""Resonances hardly wider than the model's own error in their frequency: a fit has that as an unknown.
 
-What a resonance that lies elsewhere changes of a response is proportional to how far only while that is a
-small part of its width. Beyond, it is no error to be marginalised beside a fit but an unknown in it, of the
-model error's size; and so is how lossy it is. A stiffness (1 + kappa) times as large, of mode r alone, is
+What a shifted resonance changes of a response is proportional to its shift only while that is a small part of
+its width. Beyond, the shift is no error to be marginalised beside a fit but an unknown in it, of the model
+error's size; and so is its loss factor. A stiffness (1 + kappa) times as large, of mode r alone, is
 K_0 + kappa s s^T with s = omega_r M phi_r.
 """
 

@@ -10,7 +10,8 @@ from fitting.specimen import Specimen
 from fitting.stated.tolerances import NUMBERS, OF_CHANNELS, Unit
 
 _UNHEARD = 1e-6
-"""Share of a mode that the plate's motions carry, below which its ratio plays no part."""
+"""A mode whose motion on the reduced plate is below this share of the largest one's is not felt: its damping
+ratio is no unknown of a fit."""
 
 
 @dataclass(frozen=True)

@@ -66,7 +66,7 @@ class Nuisances:
 
     @property
     def masses(self) -> tuple[PlacedMass, ...]:
-        """That were put on it; a small structure has none apart."""
+        """Known masses placed on the plate; empty for beams and shear pairs, whose matrices hold them."""
         return self.specimen.masses if isinstance(self.specimen, Specimen) else ()
 
     @property
@@ -106,7 +106,7 @@ class Nuisances:
         return [(k, int(n.name.split("_")[1]) - 1) for k, n in enumerate(self.each) if n.kind == "damping"]
 
     def moved_specimen(self, z: Array) -> Specimen:
-        """The specimen whose plate is so."""
+        """The specimen, the numbers of its plate moved by `z` standard deviations. Shape (nuisances,)."""
         names = [self.each[k].name for k in self._of_plate]
         return moved(self.specimen, names, (self._sigma * z)[self._of_plate].tolist())
 

@@ -1,4 +1,4 @@
-"""A beam whose core is thicker towards one end, or in its middle: what is another one for that."""
+"""A beam whose core is thicker towards one end or in the middle: which of its matrices change."""
 
 import numpy as np
 from numpy.polynomial import Polynomial

@@ -36,7 +36,7 @@ class FollowUp(Result):
     """To be put on the plate."""
     mass_at_mm: tuple[Number, Number] | None = None
     seconds: Number
-    """Of rig time, and of hands where it needs them."""
+    """Rig time, and a person's time where it needs one."""
     separation: Number
     """Expected gain of what explains the data over the nearest rival: nats of log Bayes factor."""
     probability_resolved: Number

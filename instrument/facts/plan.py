@@ -126,12 +126,12 @@ class PlanResult(Result):
     reached: bool
     """Whether the plan meets the target by its own prediction."""
     worst_percent: Number
-    """What it leaves."""
+    """The largest standard error that the plan leaves, in the terms of `target_percent`."""
     limit_percent: Number
-    """What is left though every candidate were measured."""
+    """The largest standard error that would be left if every candidate step were measured."""
     limited_by: tuple[LimitingNumber, ...] = ()
     seconds: Number
-    """Of rig time for the steps; calibration, sentinels and hands come to it."""
+    """Rig time for the steps; calibration, sentinel points and what people do take time besides."""
     settling: SettlingForecast | None = None
     """Null where every step settles within the usual `most_s`."""
     level_g: Number

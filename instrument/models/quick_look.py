@@ -201,7 +201,10 @@ def _explains(distance: float, as_is: float) -> bool:
 
 
 def _likely(distance: float, as_is: float) -> bool:
-    """The same of what is common, on a beam as far as a core of one slope follows it over decades."""
+    """As `_explains`, with a looser limit for common mistakes.
+
+    Over decades of frequency a core of one slope follows a beam less closely.
+    """
     return distance < min(LIKELY, BETTER * as_is)
 
 

@@ -41,8 +41,8 @@ _CHECK_BLOCKS = 2.0
 _BOUND = 3.0
 """What may be left of a transient is bounded; a third of that counts as a standard deviation of each part."""
 _LOST = 0.55
-"""Share of its level under which the base is no matter of correction: known gains are right within a tenth,
-and the drive it takes would be nearly twice what was reckoned with. A choice."""
+"""Below this share of the wanted level the drive is not corrected, as the sensor or the loop is suspected:
+known gains are right within a tenth, and the drive would be nearly twice what was reckoned with. A choice."""
 _LOST_BLOCKS = 3
 """So many in a row, until the loop counts as lost: a build-up rises meanwhile. A choice."""
 _RISES = 1.1

@@ -74,7 +74,7 @@ def begin(
     model = SweepModel(problem.rational, every, sweep.commanded_m_s2, points.reads, points.at_rest)
     first = fit_direct(Residuals.of(sweep, noise, model), start)
     inside = within_search(first.law, sweep.omega)
-    # A law alone may end at its limits, where numbers that are not quite as stated keep it.
+    # A fit of the law alone may end at its limits because stated numbers are slightly wrong.
     at_limits = inside is not first.law
     laws = [_free_to_bend(problem, law) for law in ((first.law, inside) if at_limits else (first.law,))]
     problem = problem.with_narrow(laws[0])

@@ -5,8 +5,8 @@ What the words mean here:
     form          one variant of an effect: its name and the variant's number
     start         the unknowns that a fit begins from
     rough fit     some steps from a start; it may be followed to its end, or dismissed
-    wide valley   the same fit with readings taken for a few percent and stated numbers at their word: far
-                  starts find their way there (`inference/wide_valley.py`)
+    wide valley   a rough fit with the noise raised to 3 % of every reading and stated numbers held as stated,
+                  so that distant starts converge (`inference/wide_valley.py`)
     goal          chi-square that a rival must come down to, or it is given up
 """
 

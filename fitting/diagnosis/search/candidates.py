@@ -127,8 +127,8 @@ class CandidateFit:
     def _decades_off(self, followed: Sequence[Start]) -> list[Start]:
         """An effect's own first start, where none that is followed is near it.
 
-        Springs that a linear step makes hundreds of times stiffer are nothing any more, and all that a softer
-        root would do goes unheard.
+        A linear step may make a spring hundreds of times stiffer, so that it does nothing any more; then a
+        softer one is tried too.
         """
         if not is_over_decades(self.effect):
             return []
@@ -140,7 +140,8 @@ class CandidateFit:
     def _one_a_form(self) -> list[Start]:
         """The best start of each form; of an effect with a place, the best of all.
 
-        What moved stated numbers do already, a linear step cannot promise: every form has its say.
+        Stated numbers may already imitate the effect, and a linear step then promises too little: every form
+        is tried once.
         """
         best: dict[tuple[float, ...], Start] = {}
         for start in self.starts[:1] if has_place(self.effect) else self.starts:

@@ -134,7 +134,7 @@ class Search:
         return ScoredFit(fitted, self._cost(fitted), found, doubt, large, unsized(fitted))
 
     def _cost(self, fitted: Refitted, temper: float = 1.0) -> float:
-        """As `marginal.cost`; a law twice as free to bend as all began with is one of few materials."""
+        """`marginal.cost`, and a penalty for each doubling of how far the law may bend: few materials do."""
         doublings = np.log2(freedom_of(fitted.law) / freedom_of(self.stated))
         return cost(fitted, self.problem.plate, temper) + RARE * float(doublings)
 
@@ -225,7 +225,7 @@ class Search:
     def leading(self, singles: Sequence[ScoredFit], scale: float = 1.0) -> list[ScoredFit]:
         """The best of some, and those near it that are worth more than no effect.
 
-        What alone is worth no more leads nowhere that what it is combined with would not lead to.
+        One that is worth no more starts only pairs that its partner starts as well.
         """
         if not singles:
             return []
@@ -281,7 +281,7 @@ class Search:
         return [self.judged(f) for f in self.executor.each(self.work.fitted, begun)]
 
     def twofold(self, scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
-        """Two of what single effects are one of, from where each was found and a look for the other one."""
+        """Fits of two of a kind (two masses), from where a single one was found and a second place."""
         begun = [one for scored in scored_fits for one in self._doubled(scored.fitted)]
         found = self.executor.each(self.work.fitted, begun)
         return [self.judged(f) for f in found if self.determined(f)]

@@ -66,8 +66,8 @@ def promising(
 ) -> list[Start]:
     """The same of the last effect of `response`; `plain` is without it. Its own starts are the default.
 
-    Of its own starts a small step is looked at too where one of full size is almost the law's work: it bends,
-    and what nobody else does is then lost in the bend.
+    Where law and stated numbers could do most of a full step, its nonlinearity hides the rest, which only the
+    effect can do; then a small step from the effect's own starts is looked at too.
 
     Shapes: `points` (points,) each; `starts` (parameters,) each.
     """
@@ -87,10 +87,11 @@ def promising(
 
 
 def _apart(effect: Effect, starts: Sequence[Start]) -> list[Start]:
-    """Starts, best first, as they are followed: by turns one that leads its neighbours and one that is led.
+    """Starts, given best first, in the order in which they are followed.
 
-    Of frequencies next to each other most go where the one goes that promises most, not all. What has a
-    place too begins in another one each time: its frequency shows, its place is what valleys are of.
+    Of an effect with a frequency, by turns the best start of a cluster of close frequencies and one of the
+    others: from close frequencies most fits, but not all, end in the same place. Of an effect that has a
+    place too, each place once before any comes again: its frequency is easily seen, its place is not.
     """
     found = [q.neutral is None and not q.fixed for q in effect.parameters]
     frequency, place = (

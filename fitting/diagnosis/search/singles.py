@@ -136,9 +136,9 @@ class Singles:
         return enough and not scored.fails and not _may_stand_for_another(scored)
 
     def _leans(self, scored: ScoredFit) -> bool:
-        """Whether a fit, begun where no law will do, has kept stated numbers that were moved there.
+        """Whether a fit holds stated numbers implausibly far off, as it began from a law far off.
 
-        However much it explains: they are held against their tolerances alone.
+        They are held against their tolerances alone, however much the fit explains.
         """
         fitted = scored.fitted
         asked = chi2_above(float(fitted.z @ fitted.z), fitted.stated) if fitted.stated else 1.0

@@ -84,7 +84,7 @@ class OfFiles(Effect):
         return here > 0 and self.file in (EACH, ALIKE, here) and self.spot in (_ALL, place.pickup)
 
     def _of(self, file: int) -> int:
-        """By which number it goes in a file: that of its mounting where it comes of one; 0 for none."""
+        """Number of the mounting (or file) whose size applies in a file; 0 where the effect is absent."""
         mounted = self.mounted[file - 1]
         return mounted if self.needs_mounting or not mounted else file
 

@@ -231,8 +231,8 @@ def _beside_kin(
 ) -> _Weighed:
     """Explanations with the kin of some of them as one more.
 
-    It is worth what these are by their costs: what shares with one that may stand in for something has no
-    more for that.
+    Kin is weighted by the costs of their fits alone, without the correction that `shares_of` makes for
+    explanations that may stand in for something else.
     """
     asked = [t for t, _ in ranked if t in kin]
     shares = probabilities(np.array([t.cost for t in asked])).tolist()

@@ -45,8 +45,9 @@ plates were certain of another; at one in eight in 97, and a fiftieth (docs/evid
 SHARES = (0.03, 0.1, 0.3, 1.0)
 """Of what is explained, that kin may differ by: one as likely as another. A choice."""
 ANOTHER = 0.3
-"""A share from which on it is another thing, not the same by another formula. A choice: the base rolls or a
-piece is missing, a mass explains it nearly, and the law is off by 10 to 40 %, that of no effect by 4."""
+"""From this share on, kin counts as a different cause, not as the same one with a slightly different formula.
+A choice: where the base rolls or a piece is missing, a mass explains it nearly, and the law found with it is
+off by 10 to 40 %, the one found without any effect by 4."""
 FREQUENCY, LOSS, _GAIN = 0.01, 0.1, 0.03
 """What a cause does to a resonance, to its loss factor and to the gain of a segment, relative: where effects
 of the catalogue show, these go together. Only their proportions count."""

@@ -113,7 +113,7 @@ class PlateView(QWidget):
         painter.end()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Take the nearest mark."""
+        """Take hold of the mark nearest to the pointer, if any is near."""
         at = event.position()
         near = [
             (distance, k)
@@ -123,7 +123,7 @@ class PlateView(QWidget):
         self._held = min(near)[1] if near else None
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        """It follows."""
+        """Let the mark that is held follow the pointer."""
         if self._held is None or self._held >= len(self.marks):
             return
         mark, (x, y) = self.marks[self._held], self.from_screen(event.position())
@@ -131,7 +131,7 @@ class PlateView(QWidget):
         self.moved.emit(mark.file, mark.y, f"{y:.1f}")
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        """It stays."""
+        """Leave the mark where it is."""
         self._held = None
 
     @property
