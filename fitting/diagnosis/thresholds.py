@@ -1,8 +1,8 @@
 """Every number that a diagnosis is decided by, and why it is what it is.
 
-`VERDICT` decides what is said, `SEARCH` only what is looked at on the way: more of it costs time and finds no
-other verdict, unless the cause was missed. What each is for: docs/diagnosis-method.md; how often the verdicts
-are right: docs/evidence/diagnosis.md.
+`VERDICT` decides what is said, `SEARCH`, `STARTS`, `PAIRS`, `WIDE_VALLEYS` and `STOPPING` only what is looked
+at on the way: more of it costs time and finds no other verdict, unless the cause was missed. What each is
+for: docs/diagnosis-method.md; how often the verdicts are right: docs/evidence/diagnosis.md.
 """
 
 from dataclasses import dataclass
@@ -33,9 +33,11 @@ class VerdictThresholds:
     doubted: float = 0.01
     """Tail probability in that check below which an explanation is not certain: one true one in a hundred."""
     poor: float = 3.0
-    """Times the noise: a law that predicts held-out segments worse explains nothing ..."""
+    """Times the noise: another law whose error at held-out data is larger explains nothing, unless
+    `hardly_better` lets it."""
     hardly_better: float = 0.5
-    """... where that is not half the error without any effect either."""
+    """Another law explains all the same where that error is at most this share of the one without any effect:
+    it is half as large at least."""
     formula_share: float = 1e-4
     """Share of what an effect explains that any formula may leave: no channel's gain is one number to 1 %."""
     formula_shapes: float = 10.0
@@ -59,112 +61,142 @@ class VerdictThresholds:
     size: float = 1.35
     """Chi-square per degree of freedom above which a residual is more than noise: clean sweeps stay below."""
     runs_sigma: float = 5.0
-    """Of the runs test: clean sweeps of the solid plate stay below."""
+    """Standard deviations in the runs test above which a residual is more than noise: clean sweeps of the
+    solid plate stay below."""
     memory_sigma: float = 6.0
-    """Of Ljung-Box's test, the same; its tail is heavier."""
+    """The same in Ljung-Box's test, whose tail is heavier."""
     bent_by_chance: float = 1e-4
     """Chance that the model's own error is as large: one clean sweep in ten thousand is called structured."""
 
 
 @dataclass(frozen=True)
-class SearchThresholds:
-    """What is looked for, gone into twice, followed to the end."""
+class StartThresholds:
+    """How many starts and forms of one effect are tried, and what they have to promise for it."""
 
-    nothing_left: float = 0.5
-    """Chi-square per degree of freedom below which no second effect is looked for."""
-    clean_enough: float = 1.08
-    """Chi-square per degree of freedom above which a second effect is looked for beside all leading ones."""
-    numbers_a_parameter: int = 10
-    """Data per parameter below which no second effect is looked for."""
-    will_do: float = 1.25
-    """Chi-square per degree of freedom that strong effects may leave."""
-    least_expected: float = 12.0
-    """Chi-square that a second effect must promise where the first leaves little."""
-    near: float = 40.0
-    """In cost above the best: effects so near are gone into twice, where the law is no place to begin."""
-    nearer: float = 12.0
-    """The same, where it is."""
-    unclear: float = 1.1
-    """Chi-square per degree of freedom above which the first pass may have missed the cause."""
-    promising: float = 5.0
-    """In cost below none's: less explains nothing that all others could begin from."""
-    left_behind: float = 4.0
-    """Times the least chi-square: rough fits beyond, of one effect or of two, are not followed to the end."""
-    wrong: float = 2.0
-    """Chi-square per degree of freedom beyond which the law so far is no place to begin."""
-    hopeless: float = 30.0
-    """Chi-square per degree of freedom that finer grids will not mend."""
-    able: float = 0.2
-    """Of what the best explains: what another effect must promise, from where the best has got to."""
+    followed: int = 2
+    """Starts of an effect that are fitted roughly. A bound on time."""
+    followed_with_place: int = 4
+    """The same number for an effect whose place is to be found: places have valleys of their own."""
+    further: int = 36
+    """Further starts of an effect with a place that a thorough search tries for a few steps."""
+    further_continued: int = 8
+    """Of the further starts, how many go on after those steps: of 36 the best was among the first five."""
+    last: int = 30
+    """Starts beyond the further ones that are tried where every leading explanation fails a check
+    (`Singles._misplaced`)."""
+    forms: int = 2
+    """Forms of an effect that are fitted to the end where they do alike so far. A bound on time."""
+    finished: int = 2
+    """Rough fits of a kind that a thorough search follows to their end. A bound on time."""
+    laws_finished: int = 2
+    """Other laws that are fitted to the end, of those fitted roughly. A bound on time."""
     least_promise: float = 3.0
-    """Chi-square that a further start must promise ..."""
-    promise: float = 0.1
-    """... and its share of the best start's."""
+    """Chi-square that a start must promise to be followed, unless it is the first."""
+    least_share_of_best_promise: float = 0.1
+    """Share of what the best start promises that another one must promise too."""
+    least_share_of_best_gain: float = 0.2
+    """Share of the chi-square that an effect explaining everything gains, which another effect must promise
+    from its law to begin there. A place must promise the same share from the first law."""
     least_gain: float = 1.0
-    """Chi-square gained, or still to be made good, after a few steps: then a start is followed after all."""
+    """Change of chi-square in a few steps from which a start that promises little is followed after all."""
 
+
+@dataclass(frozen=True)
+class PairThresholds:
+    """When a second effect is looked for, beside which first ones, and how many pairs are fitted."""
+
+    nothing_left_chi2_per_dof: float = 0.5
+    """Chi-square per degree of freedom below which one effect leaves nothing to a second one."""
+    one_suffices_chi2_per_dof: float = 1.08
+    """Chi-square per degree of freedom up to which one effect suffices; above, a second one is looked for
+    beside every leading effect, not beside the best and those near it alone."""
+    data_per_parameter: int = 10
+    """Data per parameter below which no second effect is looked for."""
+    will_do_chi2_per_dof: float = 1.25
+    """Chi-square per degree of freedom up to which a pair that fails no check will do: strong effects may
+    leave so much."""
+    least_promise: float = 12.0
+    """Chi-square that a second effect must promise where the first one leaves little; another law that gains
+    so much is tried in its further forms."""
+    close_leaders: int = 8
+    """Effects beside which a second one is looked for where the best leaves little, of those that are near it
+    in cost: a pair of the campaign was led by the sixth. A bound on time."""
+    fitted: int = 16
+    """Pairs that are fitted in full."""
+    fitted_a_leader: int = 5
+    """Pairs of one leader among them, so that every leader has its say."""
+    exchanges: int = 6
+    """Effects of the best pairs that are kept, one after the other, while their partner is exchanged."""
+    exchanged: int = 4
+    """Partners that are fitted beside each effect that is kept."""
+
+
+@dataclass(frozen=True)
+class WideValleyThresholds:
+    """How pairs are looked for in wide valleys (`inference/wide_valley.py`), where no other pair will do."""
+
+    leaders: int = 2
+    """Leading effects beside which every other one is begun in a wide valley."""
+    followed: int = 32
+    """Pairs of those that are followed there, among them `PAIRS.fitted_a_leader` of each leader."""
+    measured: int = 3
+    """Best fits so far that are followed in wide valleys, to learn how much a good pair leaves there."""
+    times_least_left: float = 2.0
+    """A pair goes on only if its wide valley leaves at most so many times what the best of these leave, as of
+    what is really there only noise is left. A choice."""
+    falls_by: float = 2.0
+    """Factor by which a pair may still come down in its wide valley after a few steps: with stated numbers
+    held, none of 36 that were followed came down by more than 1.3."""
+    read: int = 16
+    """Pairs from wide valleys that are then followed with the noise as it is."""
+
+
+@dataclass(frozen=True)
+class StoppingThresholds:
+    """How far one fit is followed, and which fits are given up on the way."""
+
+    cost_near_best: float = 40.0
+    """Cost above the best one's up to which an effect may still come to matter and is followed."""
+    cost_near_best_settled: float = 12.0
+    """The same where little will change any more: the law is a good place to begin from, or fits have
+    converged, or two forms of one effect are compared."""
+    explained_chi2_per_dof: float = 1.1
+    """Chi-square per degree of freedom above which the first pass may have missed the cause."""
+    least_gain_in_cost: float = 5.0
+    """Cost below that of no effect that an effect must have for all others to begin from its law: less is a
+    chance find."""
+    rough_chi2_factor: float = 4.0
+    """Rough fits of one effect or of two that leave more than so many times the least chi-square are not
+    followed to the end."""
+    wrong_law_chi2_per_dof: float = 2.0
+    """Chi-square per degree of freedom above which the law so far is no place to begin."""
+    hopeless_chi2_per_dof: float = 30.0
+    """Chi-square per degree of freedom above which finer grids mend nothing."""
     least_owed: float = 0.1
-    """Chi-square that a fit good enough to compare must still gain to have been on its way: a tenth of what a
-    standard error is worth."""
-    more_than_owed: float = 2.0
-    """Times the chi-square that a linear step would gain: what the rest of its way may bring a rough fit. Of
-    140 that were followed, of sizes within a decade, two gained more than 1.7 times as much: 4 and 800, which
-    did not bring them near."""
-    reported: float = 12.0
-    """In cost above the best, tempered: up to there (one in 400) fits are followed to their very end."""
-
+    """A fit that may still gain more chi-square than this has not converged: it is a tenth of what a standard
+    error is worth."""
+    times_owed: float = 2.0
+    """Times the chi-square that a linear step would gain: so much the rest of its way may bring a rough fit.
+    Of 140 that were followed, of sizes within a decade, two gained more than 1.7 times as much: 4 and 800,
+    which did not bring them near."""
+    reported_cost: float = 12.0
+    """Cost above the best one's, tempered, up to which (one in 400) fits are followed to their very end."""
     past_help: float = 1e-12
     """Tail probability of a check that no further steps of a fit will mend. A choice."""
 
-    # How many
+
+@dataclass(frozen=True)
+class SearchThresholds:
+    """How many effects a search goes into."""
 
     leaders: int = 5
-    """Effects that are gone into twice, and that a second one is looked for beside."""
-    close_leaders: int = 8
-    """The latter where the best leaves little, of those `near` it: a pair of the campaign was led by the
-    sixth. A bound on time."""
-    forms: int = 2
-    """Forms of an effect that are followed to their end where they do alike so far. A bound on time."""
+    """Effects that are gone into twice, and beside which a second one is looked for."""
     first: int = 4
-    """Effects that are fitted before all others, where they promise most."""
+    """Effects that promise most and are fitted before all others: one may explain everything."""
     at_a_time: int = 2
     """Effects that are gone into twice together, until one explains everything."""
-    pairs: int = 16
-    """Pairs fitted in full ..."""
-    pairs_a_leader: int = 5
-    """... and of those, with one leader: each has its say."""
-    exchanges: int = 6
-    """Effects of pairs near the best that are kept while the other one is exchanged ..."""
-    exchanged: int = 4
-    """... and others that are fitted beside each that is kept."""
-    every_second: int = 2
-    """Leaders beside which every other effect is begun in wide valleys where no pair will do ..."""
-    wide: int = 32
-    """... pairs of those that are followed in wide valleys, `pairs_a_leader` of each among them ..."""
-    measured: int = 3
-    """... and of the best so far, how many say what may be left there: ..."""
-    leaves: float = 2.0
-    """... what leaves more than so many times as much there goes no further, as of what is really there noise
-    alone is left (a choice) ..."""
-    comes_down: float = 2.0
-    """... by which factor what has begun there may still come down: with what is stated taken at its word
-    none of 36 that were followed did by more than 1.3 ..."""
-    rough: int = 16
-    """... and fits of those that are then followed as the readings are."""
-    followed: int = 2
-    """Of an effect's starts, how many are fitted roughly ..."""
-    followed_places: int = 4
-    """... and of one with a place to be found."""
-    more_places: int = 36
-    """Further starts of the latter, in a thorough search ..."""
-    places_followed: int = 8
-    """... of those, how many go on after a few steps: of 36 the best was among the first five by then ..."""
-    most_places: int = 30
-    """... and of the rest, where every leading explanation fails a check (`Singles._misplaced`)."""
-    finished: int = 2
-    """Rough fits of a kind that are followed to the end by a thorough search."""
-    laws_finished: int = 2
-    """Other laws that are fitted to the end, of those fitted roughly."""
 
 
 VERDICT, SEARCH = VerdictThresholds(), SearchThresholds()
+STARTS, PAIRS, WIDE_VALLEYS = StartThresholds(), PairThresholds(), WideValleyThresholds()
+STOPPING = StoppingThresholds()

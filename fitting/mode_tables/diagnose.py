@@ -12,7 +12,7 @@ import numpy as np
 from fitting.diagnosis.checks.predictive import temper
 from fitting.diagnosis.inference.refit import kept
 from fitting.diagnosis.search.catalogue_search import ScoredFit, best_of_each
-from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.thresholds import PAIRS
 from fitting.diagnosis.verdict.confounded import hides
 from fitting.diagnosis.verdict.judgement import Judgement, judge
 from fitting.diagnosis.verdict.names import NONE
@@ -98,7 +98,7 @@ def _too_few(work: Explaining, judgement: Judgement) -> bool:
     """Whether two effects are named for certain by fewer numbers than a sweep would look for them with."""
     if judgement.verdict != "effect" or judgement.accepted is None or len(judgement.accepted.names) < 2:
         return False
-    needed = SEARCH.numbers_a_parameter * judgement.accepted.fitted.parameter_count
+    needed = PAIRS.data_per_parameter * judgement.accepted.fitted.parameter_count
     return work.begun.evidence.count < needed
 
 

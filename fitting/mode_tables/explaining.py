@@ -15,7 +15,7 @@ from fitting.diagnosis.search.catalogue_search import ScoredFit
 from fitting.diagnosis.search.looks import Start, promising
 from fitting.diagnosis.search.stand_in import too_large
 from fitting.diagnosis.several.of_files import OfFiles
-from fitting.diagnosis.thresholds import SEARCH, VERDICT
+from fitting.diagnosis.thresholds import STOPPING, VERDICT
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
@@ -63,7 +63,7 @@ class Explaining:
             return [f for law in laws if (f := self._tried(effects, law, before.u)) is not None]
         starts = self.starts(effect, before) if starts is None else starts
         has_place = any(q.neutral is None and not q.fixed for q in effect.parameters)
-        lost = not before.effects and before.chi2_per_dof > SEARCH.wrong
+        lost = not before.effects and before.chi2_per_dof > STOPPING.wrong_law_chi2_per_dof
         begins = [(before.law, before.u), *([(begun.start, 0 * before.u)] if lost else [])]
         found = [
             f

@@ -10,7 +10,7 @@ import numpy as np
 
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.search.catalogue_search import ScoredFit
-from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.thresholds import STOPPING
 from fitting.effects.base import Effect
 from fitting.mode_tables.explaining import Explaining
 from fitting.progress import Report
@@ -24,7 +24,7 @@ FOLLOWED, FOLLOWED_A_LEADER = 8, 4
 def called_for(work: Explaining, none: ScoredFit, singles: Sequence[ScoredFit]) -> bool:
     """Whether the best single effect is more than a chance find."""
     known = work.begun.evidence.scale_known
-    return known and bool(singles) and none.cost - singles[0].cost > SEARCH.promising
+    return known and bool(singles) and none.cost - singles[0].cost > STOPPING.least_gain_in_cost
 
 
 def best_pairs(

@@ -16,7 +16,7 @@ from fitting.arrays import Array
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refit import refit
 from fitting.diagnosis.inference.refitted import Refitted
-from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.thresholds import STOPPING
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
 from fitting.laws.bent_law import REACH, BentLaw
@@ -103,7 +103,7 @@ class TemperatureProblem:
         for _ in range(_ROUNDS):
             found = refit(response, self.evidence, law, z)
             law, z = found.law, found.u
-            if found.converged or found.chi2_per_dof > SEARCH.hopeless:
+            if found.converged or found.chi2_per_dof > STOPPING.hopeless_chi2_per_dof:
                 break
         return found
 

@@ -24,7 +24,7 @@ from fitting.diagnosis.search.singles import Singles
 from fitting.diagnosis.several.one_rig import alike_rows
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.several.several_problem import SeveralProblem
-from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.thresholds import STOPPING
 from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
@@ -54,7 +54,7 @@ class AloneSweep:
         b = self.begun
         search = Search(b.problem, b.evidence, b.none, effects, executor)
         singles = Singles(search, unheard).best()
-        near = [s for s in singles if s.cost < singles[0].cost + SEARCH.near]
+        near = [s for s in singles if s.cost < singles[0].cost + STOPPING.cost_near_best]
         return [s.fitted.effects[0] for s in near]
 
     def beside(self, effect: Effect) -> "AloneSweep":

@@ -15,7 +15,7 @@ from fitting.diagnosis.inference.refit import refit
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.diagnosis.search.looks import Start, promising
-from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.thresholds import STOPPING
 from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
@@ -54,7 +54,7 @@ class AloneTable:
         seen = [e for e in effects if visible(self.begun.problem, e)]
         scored = [work.scored(f) for e in seen for form in work.forms(e) for f in work.fits(form, none)]
         scored.sort(key=lambda one: one.cost)
-        near = [s for s in scored if s.cost < scored[0].cost + SEARCH.near]
+        near = [s for s in scored if s.cost < scored[0].cost + STOPPING.cost_near_best]
         return [s.fitted.effects[0] for s in near]
 
     def beside(self, effect: Effect) -> "AloneTable":

@@ -20,7 +20,7 @@ from fitting.diagnosis.inference.wide_valley import in_wide_valley, with_stated
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.model_error import model_error
 from fitting.diagnosis.several.responses import response_of
-from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.thresholds import STOPPING
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.identification.direct import fit_direct
 from fitting.identification.fit import Fit
@@ -91,8 +91,8 @@ def begin(
             best = min(fits, key=lambda f: f.chi2)
             law, u, laws, meets = best.law, best.u, [best.law], _are_one(fits)
         none = polished(here, (), evidence, law, u)
-        is_clear = meets and none.chi2_per_dof < SEARCH.unclear
-        if round == 0 and not is_clear and (at_limits or none.chi2_per_dof > SEARCH.wrong):
+        is_clear = meets and none.chi2_per_dof < STOPPING.explained_chi2_per_dof
+        if round == 0 and not is_clear and (at_limits or none.chi2_per_dof > STOPPING.wrong_law_chi2_per_dof):
             # The law alone did what tolerances might do, and led to a valley of its own.
             none = _from_elsewhere(here, evidence, _free_to_bend(problem, start), none, executor)
         omega = problem.coarse.nodes.omega
@@ -106,7 +106,11 @@ def begin(
     begun = Begun(here, problem.plate, evidence, none, first, is_clear)
     if to_its_end:
         return ended(begun, executor)
-    return replace(begun, none=at_rest(here, evidence, none)) if none.chi2_per_dof < SEARCH.wrong else begun
+    return (
+        replace(begun, none=at_rest(here, evidence, none))
+        if none.chi2_per_dof < STOPPING.wrong_law_chi2_per_dof
+        else begun
+    )
 
 
 def ended(begun: Begun, executor: Executor = ALONE) -> Begun:

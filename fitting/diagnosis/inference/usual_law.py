@@ -19,7 +19,7 @@ from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.inference.wide_valley import with_stated
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.several.responses import response_of
-from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.thresholds import STOPPING
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
 
@@ -68,7 +68,7 @@ class _Ways:
     def from_usual(self, fitted: Refitted) -> Refitted:
         """From the law of usual size; itself where that cannot come as far."""
         # What ends no lower is the same, or worse.
-        law, goal = self.usual(fitted), fitted.chi2 - SEARCH.least_owed
+        law, goal = self.usual(fitted), fitted.chi2 - STOPPING.least_owed
         again = polished(self.problem, fitted.effects, self.evidence, law, fitted.u, goal)
         if not again.may_reach(goal):
             return fitted
@@ -90,7 +90,7 @@ def polished(
     """
     for _ in range(_ROUNDS):
         fitted = refit(response_of(problem.around(law), effects), evidence, law, u, goal=goal)
-        if fitted.chi2_per_dof > SEARCH.hopeless or not fitted.may_reach(goal):
+        if fitted.chi2_per_dof > STOPPING.hopeless_chi2_per_dof or not fitted.may_reach(goal):
             break
         if _is_near(problem, law, fitted):
             break
@@ -132,12 +132,12 @@ def at_rest(
     What was followed far enough to compare may be on its way still, along a valley that winds: there
     chi-square hardly falls from step to step, and the law has far to go.
     """
-    if fitted.converged and fitted.owed < SEARCH.least_owed:
+    if fitted.converged and fitted.owed < STOPPING.least_owed:
         return fitted
     response = response_of(problem.around(fitted.law), fitted.effects)
-    least = SEARCH.least_owed
+    least = STOPPING.least_owed
     found = refit(response, evidence, fitted.law, fitted.u, tolerance=AT_REST, goal=goal, least=least)
-    if fitted.chi2 - found.chi2 < SEARCH.least_owed:
+    if fitted.chi2 - found.chi2 < STOPPING.least_owed:
         # Nothing is left to gain: one that was only cut short there has come to its end.
         return replace(fitted, converged=fitted.converged or found.converged)
     if _is_near(problem, fitted.law, found):

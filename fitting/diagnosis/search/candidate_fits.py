@@ -33,7 +33,7 @@ from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.search.candidates import CandidateFit, Known, is_over_decades
 from fitting.diagnosis.search.looks import Start, has_place, look
 from fitting.diagnosis.several.responses import response_of
-from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.thresholds import PAIRS, STARTS, STOPPING
 from fitting.effects.base import Effect
 from fitting.identification.validation import Validation
 from fitting.laws import CoreLaw
@@ -129,12 +129,12 @@ class CandidateFits:
         rough = [refit(coarse, self.evidence, law, before.u, tolerance=ROUGH) for law in laws]
         rough += begun
         nearest = min(rough, key=lambda f: f.chi2)
-        if before.chi2 - nearest.chi2 > SEARCH.least_expected:
+        if before.chi2 - nearest.chi2 > PAIRS.least_promise:
             further = effect.following(nearest.law, before.law, self.problem.points)
             rough += [refit(coarse, self.evidence, law, nearest.u, tolerance=ROUGH) for law in further]
         order = sorted(rough, key=lambda f: cost(f, self.problem.plate))
         worth = [f for f in order if f.chi2 < before.chi2]
-        best = worth[: SEARCH.laws_finished] or order[:1]
+        best = worth[: STARTS.laws_finished] or order[:1]
         return [refit(response, self.evidence, f.law, f.u) for f in best]
 
     def starts(self, name: str) -> State:
@@ -164,13 +164,12 @@ class CandidateFits:
         self.learn(name, state)
         bare, there = self._from_the_law_of(best, [c.effect for c in self.candidates[name]])
         # From a law far off a linear step says nothing of a stiffness anywhere within six decades.
-        astray = self.none.chi2_per_dof > SEARCH.wrong
+        astray = self.none.chi2_per_dof > STOPPING.wrong_law_chi2_per_dof
+        share = STARTS.least_share_of_best_gain
         for candidate, from_there in zip(self.candidates[name], there, strict=True):
-            able = from_there.is_open or from_there.promise > SEARCH.able * (bare.chi2 - best.chi2)
+            able = from_there.is_open or from_there.promise > share * (bare.chi2 - best.chi2)
             near = [*candidate.briefly(), *(from_there.near if able else [])]
-            placed = has_place(candidate.effect) and candidate.promise > SEARCH.able * (
-                self.none.chi2 - best.chi2
-            )
+            placed = has_place(candidate.effect) and candidate.promise > share * (self.none.chi2 - best.chi2)
             if astray and (placed or is_over_decades(candidate.effect)):
                 near += candidate.quick
             candidate.learn(Known(near=sorted(near, key=lambda f: f.chi2)))
@@ -204,7 +203,11 @@ class CandidateFits:
         """
         each = [((name, k), min(c.near, key=_chi2)) for k, c in enumerate(self.candidates[name]) if c.near]
         best = _best_first(each)
-        return [one for one in best[: SEARCH.forms] if one[1].chi2 < best[0][1].chi2 + SEARCH.nearer]
+        return [
+            one
+            for one in best[: STARTS.forms]
+            if one[1].chi2 < best[0][1].chi2 + STOPPING.cost_near_best_settled
+        ]
 
     def on_the_way(self, name: str) -> list[tuple[Form, Refitted]]:
         """The best of an effect's rough fits that had not come to their end, or none."""
@@ -215,7 +218,7 @@ class CandidateFits:
         """Chi-square that a rival must come near to, where a fit explains everything there is."""
         if not self.evidence.scale_known:
             return np.inf
-        return best.chi2 + SEARCH.near * temper(self.none, best)
+        return best.chi2 + STOPPING.cost_near_best * temper(self.none, best)
 
     def finished(self, one: tuple[Form, Refitted, float]) -> Refitted:
         """A rough fit followed to the end, or to where a chi-square is out of reach."""
@@ -227,8 +230,8 @@ class CandidateFits:
 
         With the chi-square that they must come below to be among the best few of its rough fits.
         """
-        rough = sorted(f.chi2 for c in self.candidates[name] for f in c.near)[: SEARCH.finished]
-        rival = rough[-1] if len(rough) == SEARCH.finished else np.inf
+        rough = sorted(f.chi2 for c in self.candidates[name] for f in c.near)[: STARTS.finished]
+        rival = rough[-1] if len(rough) == STARTS.finished else np.inf
         found = []
         for k, c in enumerate(self.candidates[name]):
             starts = [] if c.known.elsewhere is not None else [*c.further_starts]
@@ -261,13 +264,13 @@ class CandidateFits:
         forms = [((name, k), c) for k, c in enumerate(self.candidates[name])]
         gone = self.best_near(name)
         near = _best_first([(form, f) for form, c in forms for f in [*c.near, *c.elsewhere]])
-        near = [one for one in near[: SEARCH.finished] if one not in gone]
+        near = [one for one in near[: STARTS.finished] if one not in gone]
         return [*near, *(self.from_stated(name) if astray else [])]
 
     def from_stated(self, name: str) -> list[tuple[Form, Refitted]]:
         """The best of an effect's fits in wide valleys, begun from what is stated."""
         forms = [((name, k), c) for k, c in enumerate(self.candidates[name])]
-        return _best_first([(form, f) for form, c in forms for f in c.far])[: SEARCH.finished]
+        return _best_first([(form, f) for form, c in forms for f in c.far])[: STARTS.finished]
 
     def elsewhere(self, name: str) -> list[tuple[Form, Refitted]]:
         """Its rough fits from further starts, as far as they have been followed."""

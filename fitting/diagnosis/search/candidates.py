@@ -16,7 +16,7 @@ from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.diagnosis.search.looks import Start, has_place, look
 from fitting.diagnosis.several.responses import response_of
-from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.thresholds import STARTS
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
 from fitting.laws.bent_law import BentLaw
@@ -183,7 +183,7 @@ class CandidateFit:
     def last_starts(self) -> Sequence[Start]:
         """Those that are left."""
         followed = self._first + self._more
-        return self.starts[followed : followed + SEARCH.most_places]
+        return self.starts[followed : followed + STARTS.last]
 
     def _is_told_nothing(self, start: Start) -> bool:
         return start[0] == 0 and not has_place(self.effect)
@@ -191,15 +191,15 @@ class CandidateFit:
     @property
     def _least_promise(self) -> float:
         """Chi-square that a further start must promise to be followed."""
-        return max(SEARCH.least_promise, SEARCH.promise * self.starts[0][0])
+        return max(STARTS.least_promise, STARTS.least_share_of_best_promise * self.starts[0][0])
 
     @property
     def _first(self) -> int:
-        return SEARCH.followed_places if has_place(self.effect) else SEARCH.followed
+        return STARTS.followed_with_place if has_place(self.effect) else STARTS.followed
 
     @property
     def _more(self) -> int:
-        return SEARCH.more_places if has_place(self.effect) else 0
+        return STARTS.further if has_place(self.effect) else 0
 
     def _from(self, starts: Sequence[Start]) -> list[Refitted]:
         if not self._one:
@@ -215,9 +215,9 @@ class CandidateFit:
         `rival` as `refit` takes it.
         """
         promise, u = start
-        if 0 < promise < SEARCH.least_promise:
+        if 0 < promise < STARTS.least_promise:
             brief = self._rough(self._law, u, brief=True)
-            if brief.converged or abs(self.before.chi2 - brief.chi2) < SEARCH.least_gain:
+            if brief.converged or abs(self.before.chi2 - brief.chi2) < STARTS.least_gain:
                 return brief
         return self._rough(self._law, u, rival=rival)
 
@@ -269,12 +269,12 @@ class CandidateFit:
 
     @property
     def _promising_places(self) -> list[Array]:
-        return [u for _, u in self.starts[: SEARCH.followed_places]]
+        return [u for _, u in self.starts[: STARTS.followed_with_place]]
 
     def _wide_places(self, starts: Sequence[Array]) -> list[Refitted]:
         """In wide valleys, what has come furthest from some starts after a few steps; (parameters,) each."""
         brief = (self._in_wide_valley(law, u, brief=True) for law in self._laws for u in starts)
-        going = sorted(brief, key=_chi2)[: SEARCH.followed]
+        going = sorted(brief, key=_chi2)[: STARTS.followed]
         return [in_wide_valley(self.problem, f.effects, self.evidence, f.law, of_effects(f)) for f in going]
 
     @property

@@ -20,7 +20,7 @@ from fitting.diagnosis.search.candidates import CandidateFit
 from fitting.diagnosis.search.looks import has_place, look
 from fitting.diagnosis.search.stand_in import stands_in, too_large, unsized
 from fitting.diagnosis.several.responses import response_of
-from fitting.diagnosis.thresholds import SEARCH, VERDICT
+from fitting.diagnosis.thresholds import PAIRS, STARTS, STOPPING, VERDICT
 from fitting.effects.base import Effect
 from fitting.identification.validation import Validation
 from fitting.laws import CoreLaw
@@ -59,7 +59,7 @@ class ScoredFit:
     @property
     def past_help(self) -> bool:
         """Whether it is refused so plainly that no further steps of its fit will mend it."""
-        return any(p < SEARCH.past_help for p in self.checks.values())
+        return any(p < STOPPING.past_help for p in self.checks.values())
 
     @property
     def strains(self) -> float | None:
@@ -164,7 +164,7 @@ class Search:
     def suffices(self, scored: ScoredFit) -> bool:
         """Whether it leaves what noise leaves, fails no check, and its law is of the stated kind."""
         flexible = any(e.replaces_law for e in scored.fitted.effects)
-        return not (flexible or scored.fails or self.left_by(scored) > SEARCH.clean_enough)
+        return not (flexible or scored.fails or self.left_by(scored) > PAIRS.one_suffices_chi2_per_dof)
 
     def unrefused(self, effects: Sequence[Effect]) -> float:
         """Chi-square that these effects must come down to, for no check to refuse what they leave or ask."""
@@ -218,7 +218,7 @@ class Search:
         self.rested(moving, found[: len(moving)])
         self._learn_validations(new, found[len(moving) :])
         end = self._at_its_end(self.none)
-        if self.none.fitted.chi2 - end.fitted.chi2 > SEARCH.least_owed:
+        if self.none.fitted.chi2 - end.fitted.chi2 > STOPPING.least_owed:
             self.none = end
         return [self._at_its_end(t) for t in scored_fits]
 
@@ -230,12 +230,12 @@ class Search:
         if not singles:
             return []
         best, *others = singles
-        below = min(best.cost + SEARCH.near * scale, self.none.cost)
+        below = min(best.cost + STOPPING.cost_near_best * scale, self.none.cost)
         return [best, *(t for t in others if t.cost < below)]
 
     def reach(self, best: ScoredFit) -> float:
         """Cost up to which others may be in one group with it."""
-        return best.cost + SEARCH.reported * self.temper(best)
+        return best.cost + STOPPING.reported_cost * self.temper(best)
 
     def moving(self, scored_fits: Sequence[ScoredFit], best: ScoredFit) -> list[Refitted]:
         """What may be in one group with `best`, and nobody has followed to its very end.
@@ -291,7 +291,7 @@ class Search:
         wider = [] if more else [e for e in self.effects if e.twice and e.extends == one.name]
         if not wider:
             return []
-        others = look(self.problem, self.evidence, fitted, one)[: SEARCH.followed_places]
+        others = look(self.problem, self.evidence, fitted, one)[: STARTS.followed_with_place]
         known = np.concatenate([fitted.z, fitted.of(one)])
         return [([e], fitted.law, np.concatenate([known, u])) for e in wider for _, u in others]
 

@@ -13,7 +13,7 @@ from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.diagnosis.several.of_files import OfFiles
 from fitting.diagnosis.several.responses import response_of
-from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.thresholds import STARTS
 from fitting.effects.base import Effect
 from fitting.effects.given import Points
 from fitting.errors import OutsideModel
@@ -51,7 +51,7 @@ def look(
     found = promising(response, plain, problem.points, evidence, before)
     if not again or has_place(effect) or not effect.parameters:
         return found
-    told = [u for promise, u in found[: SEARCH.followed] if promise > 0]
+    told = [u for promise, u in found[: STARTS.followed] if promise > 0]
     steps = promising(response, plain, problem.points, evidence, before, told)
     return sorted([*found, *steps], key=lambda f: -f[0])
 
@@ -82,7 +82,7 @@ def promising(
         small = _directions(effect, [u for u, one in zip(each, felt, strict=True) if step.hides(one)])
         slope = slopes(response, before.law, before.u, small, v)
         told = [step.scaled(u, step.felt_of_slope(u, m)) for u, m in zip(small, slope, strict=True)]
-        found += [one for one in told if one is not None and one[0] > SEARCH.least_promise]
+        found += [one for one in told if one is not None and one[0] > STARTS.least_promise]
     return _apart(effect, sorted((one for one in found if one is not None), key=lambda f: -f[0]))
 
 

@@ -10,7 +10,7 @@ from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.search.candidate_fits import Form
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search, best_of_each
 from fitting.diagnosis.search.looks import Start, has_place
-from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.thresholds import PAIRS, SEARCH, STOPPING, WIDE_VALLEYS
 from fitting.effects.base import Effect
 from fitting.progress import Report, unheard
 
@@ -58,7 +58,7 @@ class Pairs:
         rough = _longest_first([f for f in begun if f is not None])
         best = search.judged(min(rough, key=_chi2)) if rough and wide else None
         if best:
-            rough = [f for f in rough if f.chi2 < SEARCH.left_behind * best.fitted.chi2]
+            rough = [f for f in rough if f.chi2 < STOPPING.rough_chi2_factor * best.fitted.chi2]
         goals = [self._goal(best, f.effects) if best else np.inf for f in rough]
         fits = each(work.ended, list(zip(rough, goals, strict=True)), lambda x: report(0.6 + 0.2 * x))
         found = sorted((search.judged(f) for f in fits), key=_cost)
@@ -77,12 +77,12 @@ class Pairs:
         """Beside the best what promises more than it costs, beside those near it what may come as far."""
         search = self._search
         scale = search.temper(singles[0])
-        best, *near = search.leading(singles, scale)[: SEARCH.close_leaders]
+        best, *near = search.leading(singles, scale)[: PAIRS.close_leaders]
         first = self._seen(
             [(best, self._others(best.names))], lambda x: report(0.5 * x), search.moving(singles, best)
         )
-        owed = {t: t.cost - best.cost + SEARCH.least_expected / 2 * scale for t in near}
-        owed[best] = SEARCH.least_expected * scale
+        owed = {t: t.cost - best.cost + PAIRS.least_promise / 2 * scale for t in near}
+        owed[best] = PAIRS.least_promise * scale
         promised = {form: _promise(starts) for _, form, starts in first}
         asked = []
         for t in near:
@@ -112,7 +112,7 @@ class Pairs:
         for one in sorted(seen, key=lambda one: one[0].fitted.chi2 - _promise(one[2])):
             scored, (name, _), _ = one
             # Each leader has its say: a linear step from a poor one promises too much.
-            if len(chosen) < SEARCH.pairs and beside.get(scored, 0) < SEARCH.pairs_a_leader:
+            if len(chosen) < PAIRS.fitted and beside.get(scored, 0) < PAIRS.fitted_a_leader:
                 beside[scored] = beside.get(scored, 0) + 1
                 chosen.setdefault(frozenset((*scored.names, name)), one)
         return list(chosen.values())
@@ -142,15 +142,17 @@ class Pairs:
     def _most_left(self, known: Sequence[ScoredFit]) -> float:
         """Chi-square that a pair may leave in its wide valley: twice what the best so far leave, or noise."""
         work = self._search.work
-        best = sorted((t for t in known if len(_plainly(t)) == len(t.names)), key=_cost)[: SEARCH.measured]
-        left = self._search.executor.each(work.left_in_wide_valley, [t.fitted for t in best])
-        return SEARCH.leaves * max(work.noise_in_wide_valleys, min(left, default=np.inf))
+        plain = sorted((t for t in known if len(_plainly(t)) == len(t.names)), key=_cost)
+        best = [t.fitted for t in plain[: WIDE_VALLEYS.measured]]
+        left = self._search.executor.each(work.left_in_wide_valley, best)
+        return WIDE_VALLEYS.times_least_left * max(work.noise_in_wide_valleys, min(left, default=np.inf))
 
     def _will_do(self, scored_fits: Sequence[ScoredFit]) -> bool:
         """Whether any, the law being of the stated kind, leaves little and fails no check."""
         plain = (t for t in scored_fits if len(_plainly(t)) == len(t.names))
         return any(
-            t.fitted.chi2_per_dof < SEARCH.will_do * self._search.allowed(t) and not t.fails for t in plain
+            t.fitted.chi2_per_dof < PAIRS.will_do_chi2_per_dof * self._search.allowed(t) and not t.fails
+            for t in plain
         )
 
     def _goal(self, best: ScoredFit, effects: Sequence[Effect]) -> float:
@@ -177,8 +179,8 @@ class Pairs:
         """
         search, work, each = self._search, self._search.work, self._search.executor.each
         order = [
-            *(t.names[0] for t in leaders[: SEARCH.every_second]),
-            *search.order_of_plain()[: SEARCH.every_second],
+            *(t.names[0] for t in leaders[: WIDE_VALLEYS.leaders]),
+            *search.order_of_plain()[: WIDE_VALLEYS.leaders],
         ]
         # Two of a kind and another one are three causes, which are never named (decision 57).
         single = {e.name: e.extends if e.twice and e.extends else e.name for e in search.effects}
@@ -188,13 +190,13 @@ class Pairs:
         starts = self._looks(work.look_wide, list(zip(before, others, strict=True)))
         beside = [(fitted, form) for fitted, forms in zip(before, others, strict=True) for form in forms]
         tasks = [(fitted, form, us) for (fitted, form), us in zip(beside, starts, strict=True)]
-        able = [fits for fits in each(work.begun_wide, tasks) if fits[0].chi2 < SEARCH.comes_down * most]
+        able = [fits for fits in each(work.begun_wide, tasks) if fits[0].chi2 < WIDE_VALLEYS.falls_by * most]
         begun = sorted(able, key=lambda fits: fits[0].chi2)
         wide = each(work.wide, [f for fits in _with_a_say(begun) for f in fits])
         brief = sorted(each(work.briefly, [f for f in wide if f.chi2 < most]), key=_chi2)
-        rough = sorted(each(work.roughly, brief[: SEARCH.rough]), key=_chi2)
+        rough = sorted(each(work.roughly, brief[: WIDE_VALLEYS.read]), key=_chi2)
         best = min([*leaders, *pairs], key=_cost)
-        left = _longest_first(rough[: SEARCH.pairs_a_leader])
+        left = _longest_first(rough[: PAIRS.fitted_a_leader])
         ended = each(work.ended, [(f, self._goal(best, f.effects)) for f in left])
         return [search.judged(f) for f in ended]
 
@@ -204,7 +206,7 @@ class Pairs:
         A wrong one may have led to the right other one, and stands where the right one would begin.
         """
         found, kept, simplified = list[ScoredFit](), set[str](), set[frozenset[str]]()
-        for _ in range(SEARCH.exchanges):
+        for _ in range(PAIRS.exchanges):
             pair = self._next([*pairs, *found], kept)
             # Where even the best will not do, neither will those that are as bad: two have been kept for it.
             if pair is None or (pair.fails and len(kept) >= len(pair.names)):
@@ -225,7 +227,7 @@ class Pairs:
         if not plain:
             return None
         best = next((t for t in plain if not t.fails), plain[0])
-        within = best.cost + SEARCH.nearer * self._search.temper(best)
+        within = best.cost + STOPPING.cost_near_best_settled * self._search.temper(best)
         near = [best, *(t for t in plain if t.cost < within)]
         return next((t for t in near if not kept >= set(t.names)), None)
 
@@ -236,7 +238,7 @@ class Pairs:
         gone = {*pair.names} - {kept.name}
         forms = [f for f in self._others([kept.name]) if f[0] not in gone or work.has_places(f[0])]
         looks = [one for one in zip(forms, self._looks(work.look, [(before, forms)]), strict=True) if one[1]]
-        promising = sorted(looks, key=lambda one: -one[1][0][0])[: SEARCH.exchanged]
+        promising = sorted(looks, key=lambda one: -one[1][0][0])[: PAIRS.exchanged]
         promising.sort(key=lambda one: not work.has_places(one[0][0]))
         goal = work.goal(pair.fitted)
         laws = [(before, e.name, goal) for e in self._search.effects if e.replaces_law]
@@ -255,8 +257,8 @@ def _with_a_say(begun: Sequence[list[Refitted]]) -> list[list[Refitted]]:
     for fits in begun:
         name = fits[0].effects[0].name
         beside[name] = beside.get(name, 0) + 1
-        (chosen if beside[name] <= SEARCH.pairs_a_leader else left).append(fits)
-    return chosen + left[: max(0, SEARCH.wide - len(chosen))]
+        (chosen if beside[name] <= PAIRS.fitted_a_leader else left).append(fits)
+    return chosen + left[: max(0, WIDE_VALLEYS.followed - len(chosen))]
 
 
 def _promise(starts: Sequence[Start]) -> float:

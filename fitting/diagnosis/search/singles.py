@@ -9,7 +9,7 @@ from fitting.diagnosis.search.candidate_fits import FirstLook, Form
 from fitting.diagnosis.search.candidates import Known, is_over_decades
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
 from fitting.diagnosis.search.looks import Start, has_place
-from fitting.diagnosis.thresholds import SEARCH, VERDICT
+from fitting.diagnosis.thresholds import SEARCH, STARTS, STOPPING, VERDICT
 from fitting.numerics.chances import chi2_above
 from fitting.progress import Report, unheard
 
@@ -84,7 +84,7 @@ class Singles:
         best = list[tuple[Form, Refitted]]()
         for name in names:
             mine = [*work.elsewhere(name), *(one for one in found if one[0][0] == name)]
-            best += sorted(mine, key=lambda one: one[1].chi2)[: SEARCH.finished]
+            best += sorted(mine, key=lambda one: one[1].chi2)[: STARTS.finished]
         self._to_the_end([(form, f, np.inf) for form, f in best], report)
 
     def _look_far(self, names: Sequence[str]) -> None:
@@ -101,7 +101,7 @@ class Singles:
         begun = list(self._each(work.set_out, asked))
         for k in sorted(range(len(asked)), key=lambda k: begun[k].chi2):
             order.setdefault(asked[k][0][0], []).append(k)
-        going = [k for places in order.values() for k in places[: SEARCH.places_followed]]
+        going = [k for places in order.values() for k in places[: STARTS.further_continued]]
         tasks = [(asked[k][0], begun[k], asked[k][2]) for k in going]
         for k, fitted in zip(going, self._each(work.gone_on, tasks), strict=True):
             begun[k] = fitted
@@ -122,7 +122,7 @@ class Singles:
     def _try_its_other_form(self, best: ScoredFit) -> None:
         """Where two forms did alike so far, both from the law of the one that explains everything."""
         work, alike = self._work, [form for form, _ in self._near(best)]
-        if len(alike) < SEARCH.forms:
+        if len(alike) < STARTS.forms:
             return
         each = self._each(work.another_form, [(form, best.fitted) for form in alike])
         found = [(form, rough) for form, fits in zip(alike, each, strict=True) for rough in fits[:1]]
@@ -131,7 +131,8 @@ class Singles:
     def _explains_all(self, scored: ScoredFit) -> bool:
         best = scored.fitted
         enough = (
-            self._search.none.cost - scored.cost > SEARCH.promising and best.chi2_per_dof < SEARCH.unclear
+            self._search.none.cost - scored.cost > STOPPING.least_gain_in_cost
+            and best.chi2_per_dof < STOPPING.explained_chi2_per_dof
         )
         return enough and not scored.fails and not _may_stand_for_another(scored)
 
@@ -166,7 +167,7 @@ class Singles:
         if not rough.may_reach(goal):
             return False
         winds = any(is_over_decades(e) for e in rough.effects)
-        return winds or rough.chi2 - SEARCH.more_than_owed * rough.owed < goal
+        return winds or rough.chi2 - STOPPING.times_owed * rough.owed < goal
 
     def _to_the_end(self, asked: Iterable[tuple[Form, Refitted, float]], report: Report = unheard) -> None:
         """Rough fits, each with its goal as `refit` takes it; none again that has gone as far."""
@@ -186,7 +187,7 @@ class Singles:
             return self._work.goal(order[0].fitted)
         if not self._astray or len(order) < SEARCH.leaders:
             return np.inf
-        near = order[SEARCH.leaders - 1].fitted.chi2 + SEARCH.near * search.temper(order[0])
+        near = order[SEARCH.leaders - 1].fitted.chi2 + STOPPING.cost_near_best * search.temper(order[0])
         return max(near, search.unrefused(rough.effects))
 
     def _begin(self, tasks: Iterable[FirstLook]) -> None:
@@ -209,7 +210,7 @@ class Singles:
     @property
     def _astray(self) -> bool:
         """Whether the law so far is no place to begin."""
-        return self._search.none.fitted.chi2_per_dof > SEARCH.wrong and not self._settled
+        return self._search.none.fitted.chi2_per_dof > STOPPING.wrong_law_chi2_per_dof and not self._settled
 
     def _leading(self) -> list[str]:
         """Where something is left to be explained, the effects that promise most of it."""
@@ -217,22 +218,18 @@ class Singles:
         for name, state in zip(names, self._each(work.starts, names, self._part(0.0, 0.1)), strict=True):
             work.learn(name, state)
         order = sorted(names, key=work.promise, reverse=True)[: SEARCH.first]
-        clean = self._search.none.fitted.chi2_per_dof < SEARCH.unclear
-        return [] if not order or (clean and work.promise(order[0]) < SEARCH.near) else order
+        clean = self._search.none.fitted.chi2_per_dof < STOPPING.explained_chi2_per_dof
+        return [] if not order or (clean and work.promise(order[0]) < STOPPING.cost_near_best) else order
 
     def _ahead(self) -> list[str]:
         """Effects whose rough fit is among the best or not far behind."""
         order = self._order()
         if self._astray:
             order.sort(key=lambda t: t.fitted.chi2)
-            near = [t for t in order if t.fitted.chi2 < SEARCH.left_behind * order[0].fitted.chi2]
+            near = [t for t in order if t.fitted.chi2 < STOPPING.rough_chi2_factor * order[0].fitted.chi2]
         else:
             # What was still on its way may have far to go.
-            near = [
-                t
-                for t in order
-                if t.cost < order[0].cost + (SEARCH.nearer if t.fitted.converged else SEARCH.near)
-            ]
+            near = [t for t in order if t.cost < order[0].cost + _near_best(t)]
         names = {t.names[0] for t in near[: 2 * SEARCH.leaders]}
         return [name for name in self._effects if name in names]
 
@@ -256,11 +253,12 @@ class Singles:
             near = {
                 t.names[0]
                 for t in order
-                if t.cost < min(order[0].cost + SEARCH.nearer, self._search.none.cost)
+                if t.cost < min(order[0].cost + STOPPING.cost_near_best_settled, self._search.none.cost)
             }
             return [name for name in sized if name in near and has_place(self._effects[name])]
-        names = [t.names[0] for t in order if t.cost < order[0].cost + SEARCH.near]
-        if not order[0].fitted.chi2_per_dof < SEARCH.unclear or _may_stand_for_another(order[0]):
+        names = [t.names[0] for t in order if t.cost < order[0].cost + STOPPING.cost_near_best]
+        explained = order[0].fitted.chi2_per_dof < STOPPING.explained_chi2_per_dof
+        if not explained or _may_stand_for_another(order[0]):
             plain = self._search.order_of_plain()[: SEARCH.leaders] if self._astray else []
             names = [*plain, *names, *(t.names[0] for t in order[: SEARCH.leaders])]
         return [name for name in dict.fromkeys(names) if name in sized]
@@ -270,10 +268,19 @@ class Singles:
         order = self._order()
         if not self._gains(order):
             return []
-        leading = [t for t in order if t.cost < order[0].cost + SEARCH.near and t.names[0] in self._effects]
+        leading = [
+            t
+            for t in order
+            if t.cost < order[0].cost + STOPPING.cost_near_best and t.names[0] in self._effects
+        ]
         if not all(t.fails for t in leading):
             return []
         return [t.names[0] for t in leading if has_place(self._effects[t.names[0]])]
+
+
+def _near_best(scored: ScoredFit) -> float:
+    """Cost above the best one's up to which a rough fit is followed to its end."""
+    return STOPPING.cost_near_best_settled if scored.fitted.converged else STOPPING.cost_near_best
 
 
 def _may_stand_for_another(scored: ScoredFit) -> bool:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search, best_of_each
 from fitting.diagnosis.search.pairs import Pairs
-from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.thresholds import PAIRS
 from fitting.progress import Report
 
 _ROUNDS = 2
@@ -31,12 +31,12 @@ def _pairs(search: Search, singles: Sequence[ScoredFit], report: Report) -> list
     if not singles or not search.evidence.scale_known:
         return []
     best = singles[0]
-    if search.evidence.count < SEARCH.numbers_a_parameter * (best.fitted.parameter_count + 2):
+    if search.evidence.count < PAIRS.data_per_parameter * (best.fitted.parameter_count + 2):
         return []
     if search.none.cost < best.cost:
         return []
     wide = not search.suffices(best)
-    if not wide and search.left_by(best) < SEARCH.nothing_left:
+    if not wide and search.left_by(best) < PAIRS.nothing_left_chi2_per_dof:
         return []
     return Pairs(search).best(singles, report, wide=wide)
 

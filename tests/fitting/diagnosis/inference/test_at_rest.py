@@ -12,7 +12,7 @@ from fitting.diagnosis.inference import usual_law
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refit import AT_REST, refit
 from fitting.diagnosis.inference.usual_law import at_rest
-from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.thresholds import STOPPING
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
 
@@ -43,7 +43,7 @@ def valley(monkeypatch):
 def test_what_is_on_its_way_along_a_winding_valley_owes_and_is_followed(valley):
     problem, evidence = valley
     on_the_way = refit(Winding(), evidence, BEGINNING, np.empty(0), brief=True)
-    assert on_the_way.owed > 10 * SEARCH.least_owed
+    assert on_the_way.owed > 10 * STOPPING.least_owed
     found = at_rest(problem, evidence, on_the_way)
     assert found.law.values == pytest.approx(END.values, rel=1e-3)
     assert found.owed < 1e-6
@@ -94,7 +94,7 @@ def test_it_is_told_how_far_it_must_come(valley, monkeypatch):
 
     monkeypatch.setattr(usual_law, "refit", follow)
     at_rest(problem, evidence, replace(there, converged=False), 3.0)
-    assert asked == [(3.0, SEARCH.least_owed)]
+    assert asked == [(3.0, STOPPING.least_owed)]
 
 
 OMEGA = 2 * np.pi * np.geomspace(15, 400, 20)
@@ -104,7 +104,7 @@ OMEGA = 2 * np.pi * np.geomspace(15, 400, 20)
 def test_a_law_far_from_what_cores_are_is_left_where_a_usual_one_does_better(monkeypatch, reached, chi2):
     """A drift's fit: in its own valley the law is G' 34 % off."""
     far = FractionalZener(3.2e5, 9.4e10, 3.3e-10, 0.76)
-    begun, matters = [], 516.2 - SEARCH.least_owed
+    begun, matters = [], 516.2 - STOPPING.least_owed
 
     def polished(problem, effects, evidence, law, u, goal):
         assert goal == matters

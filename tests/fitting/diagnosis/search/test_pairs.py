@@ -11,7 +11,7 @@ from fitting.diagnosis.executor import ALONE
 from fitting.diagnosis.search import catalogue_search as searching
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
 from fitting.diagnosis.search.pairs import Pairs
-from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.thresholds import PAIRS, SEARCH, WIDE_VALLEYS
 from fitting.effects.base import Effect, EffectParameter
 
 NOTHING = 1000.0
@@ -327,8 +327,13 @@ class Wanting(World):
 
 
 def wanting(monkeypatch, wide, names, **chi2):
-    few = replace(SEARCH, leaders=1, pairs=1, pairs_a_leader=1, wide=wide, every_second=3)
-    monkeypatch.setattr("fitting.diagnosis.search.pairs.SEARCH", few)
+    few = {
+        "SEARCH": replace(SEARCH, leaders=1),
+        "PAIRS": replace(PAIRS, fitted=1, fitted_a_leader=1),
+        "WIDE_VALLEYS": replace(WIDE_VALLEYS, followed=wide, leaders=3),
+    }
+    for name, thresholds in few.items():
+        monkeypatch.setattr(f"fitting.diagnosis.search.pairs.{name}", thresholds)
     return Wanting(names, **chi2)
 
 

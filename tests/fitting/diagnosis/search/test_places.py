@@ -6,9 +6,9 @@ import numpy as np
 
 from fitting.diagnosis.executor import ALONE
 from fitting.diagnosis.search.singles import Singles
-from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.thresholds import STARTS
 
-MANY = 3 * SEARCH.places_followed
+MANY = 3 * STARTS.further_continued
 
 
 class Work:
@@ -40,12 +40,12 @@ def asked_of(name, count, rival=np.inf):
 def test_the_best_of_many_places_go_on_and_all_are_told_in_order():
     fits, on = followed(asked_of("mass", MANY))
     assert [f.place for f in fits] == list(reversed(range(MANY)))
-    assert sorted(f.place for f in fits if f.gone_on) == list(range(SEARCH.places_followed))
-    assert len(on) == SEARCH.places_followed
+    assert sorted(f.place for f in fits if f.gone_on) == list(range(STARTS.further_continued))
+    assert len(on) == STARTS.further_continued
 
 
 def test_each_effect_has_its_own_best_and_its_rival():
     fits, on = followed([*asked_of("mass", MANY, 5.0), *asked_of("strip", 4, 7.0)])
-    assert sum(form == ("mass", 0) and rival == 5.0 for form, _, rival in on) == SEARCH.places_followed
+    assert sum(form == ("mass", 0) and rival == 5.0 for form, _, rival in on) == STARTS.further_continued
     assert sum(form == ("strip", 0) and rival == 7.0 for form, _, rival in on) == 4
     assert all(f.gone_on for f in fits[MANY:])
