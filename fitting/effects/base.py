@@ -27,7 +27,20 @@ from fitting.specimen import StatedSpecimen
 from fitting.sweep import Sweep
 
 Entry = Literal["stiffness", "mass", "load", "observation", "channel", "time", "level", "core law", "damping"]
+"""Where an effect enters. It decides, beside what people are told:
 
+* `stiffness`, `damping`, `core law`: of the plate itself. No file of one plate has it alone.
+* `mass`, `load`: on the plate, or of the rig that shakes it. Of files of one plate seldom one has it alone.
+* `observation`: of how the plate is read. It may be in the readings at one spot alone.
+* `channel`: what the electronics make of a reading. Seldom it is in the readings at one spot alone. A further
+  measurement may have it or not.
+* `time`: goes with the time of a reading. Where it may be there, a sweep in another order tells something. A
+  plate that is struck afterwards does not have it.
+* `level`: goes with the level of the drive. A file driven by a force lacks it where the base of another one
+  moves, and a plate that is struck afterwards lacks it too.
+
+Sweeps at several temperatures may share what enters by any but `core law`, `time` and `level`.
+"""
 
 PLATE_ONLY = frozenset({"plate"})
 BASE, CLAMP, FORCE = frozenset({"base"}), frozenset({"clamp"}), frozenset({"force"})
@@ -96,7 +109,9 @@ class Effect:
 
     name: ClassVar[str]
     enters: ClassVar[Entry]
+    """Where it enters: what follows from that, `Entry` says."""
     source: ClassVar[str]
+    """Literature that it follows, for people only: nothing is decided by it."""
     parameters: tuple[EffectParameter, ...] = ()
     spans: tuple[Span, ...] = ()
     discriminating_test: ClassVar[str] = ""

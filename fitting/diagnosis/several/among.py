@@ -7,11 +7,11 @@ from fitting.diagnosis.several.of_files import OfFiles
 from fitting.effects.base import Effect
 
 _OF_A_SPOT = ("observation", "channel")
-"""Where an effect enters that may be of one spot alone."""
+"""Entries of effects that may be in the readings at one spot alone: each spot is read by itself."""
 _OF_THE_PLATE = ("stiffness", "damping", "core law")
-"""Where it enters that is of the plate itself, however it is driven."""
+"""Entries of effects of the plate itself: one plate has them alike in all its files, however it is driven."""
 _STAYS = ("mass", "load")
-"""Where it enters that is on the plate, or of the rig that shakes it: seldom of one file alone."""
+"""Entries of effects that are on the plate or of its rig: of files of one plate seldom one alone has them."""
 
 
 def among(
