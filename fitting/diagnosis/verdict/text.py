@@ -130,7 +130,10 @@ def _percent(probability: float) -> str:
 def next_measurement(
     judgement: Judgement, catalogue: dict[str, Effect], *, with_hammer: bool, unknown: str = ""
 ) -> str:
-    """What would tell equivalent effects apart, or confirm a single one; `unknown` where there is none."""
+    """What would tell equivalent effects apart, or confirm a single one; `unknown` where there is none.
+
+    Empty where none of the effects says what would show it.
+    """
     if judgement.verdict == "none":
         return ""
     if judgement.accepted is None:
@@ -144,6 +147,8 @@ def next_measurement(
     }
     if with_hammer:
         ways = {w: n for w, n in ways.items() if "hammer" not in w} or ways
+    if not ways:
+        return ""
     if all(len(group) == 1 for group in judgement.equivalent.values()):
         return "To confirm: " + "; ".join(ways) + "."
     return "To tell them apart: " + "; ".join(f"{way} ({name})" for way, name in ways.items()) + "."

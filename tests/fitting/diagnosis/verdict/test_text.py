@@ -1,5 +1,7 @@
 """Words of a diagnosis that say no more than is known."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from shear_pair_cases import pair, sweep
@@ -16,6 +18,7 @@ from fitting.diagnosis.verdict.text import (
     next_measurement,
     where_nothing_explains,
 )
+from fitting.effects.base import Effect
 
 
 @pytest.mark.parametrize(("none", "words"), [(0.52, "If anything,"), (0.3, "Most likely")])
@@ -50,6 +53,16 @@ def test_where_nothing_explains_what_is_asked_for_is_what_the_specimen_has(kind,
     said = next_measurement(Judgement("unknown", None, {}), {}, with_hammer=False, unknown=unknown)
     assert all(words in said for words in asked)
     assert next_measurement(Judgement("none", None, {}), {}, with_hammer=False, unknown=unknown) == ""
+
+
+@pytest.mark.parametrize("group", [("odd",), ("odd", "other")])
+def test_effects_that_name_no_test_of_their_own_ask_for_no_measurement(group):
+    """Another package's effect need not say what would show it."""
+    catalogue = {name: Effect() for name in group}
+    judgement = Judgement("effect", SimpleNamespace(names=group), dict.fromkeys(group, group))
+    assert next_measurement(judgement, catalogue, with_hammer=True) == ""
+    catalogue["odd"].discriminating_test = "the odd thing taken off"
+    assert "the odd thing taken off" in next_measurement(judgement, catalogue, with_hammer=True)
 
 
 def moved(*places):
