@@ -4,8 +4,8 @@
 
 A public function that takes or returns an array states a shape, one that raises says so. An override of a
 documented method of the project needs neither, nor does what a Protocol of the project asks for; a class may
-state the shapes of its methods. A named number of `fitting` has a line with its reason below it. Exits 1
-where something is missing, a line each.
+state the shapes of its methods. A named number of `fitting` has a line with its reason below it, and shapes
+there call an element's degrees of freedom 4 dofs. Exits 1 where something is missing, a line each.
 """
 
 import ast
@@ -23,6 +23,7 @@ KEPT = {f"drivers/simulated/plant/{name}.py" for name in ("air", "grid", "specim
 _ARRAY = re.compile(r"\b(Array|Complex|Mask|Indices|Integers|Names|NDArray|ndarray)\b")
 _SHAPE = re.compile(r"\b[Ss]hapes?\b|\([\w ]+,\)|\(\w+(, [\w ]+)+\)|\bper (point|line|sample|mode)\b")
 _RAISES = re.compile(r"\b([Rr]aise|[Rr]efuse)")
+_OF_AN_ELEMENT = re.compile(r"\(([\w ]+, )*(28|36)(, [\w ]+)*,?\)")
 _NOT_REFUSALS = {"NotImplementedError", "AssertionError"}
 
 _NAMED = re.compile(r"[A-Z_0-9(), ]+")
@@ -76,7 +77,21 @@ def missing(root: Path) -> list[str]:
         if file.startswith("fitting/")
         for line, name in _bare_numbers(tree.body)
     ]
-    return functions + numbers
+    literal = [
+        f"{file}:{line}: states 28 or 36 for an element's degrees of freedom, expected 4 dofs (`Mesh.dofs`)"
+        for file, tree in trees.items()
+        if file.startswith("fitting/")
+        for line, text in _texts(tree)
+        if _OF_AN_ELEMENT.search(text)
+    ]
+    return functions + numbers + literal
+
+
+def _texts(tree: ast.Module) -> Iterator[tuple[int, str]]:
+    """Docstrings, those of fields and names too, each with its line."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            yield node.lineno, str(node.value.value)
 
 
 def _bare_numbers(body: list[ast.stmt]) -> Iterator[tuple[int, str]]:

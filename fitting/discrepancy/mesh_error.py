@@ -126,7 +126,7 @@ class _Node:
 
     mesh: Mesh
     faces: Complex
-    """Of both and of what slips. Shape (28, 28), as the next two; 36 with slip."""
+    """Of both and of what slips. Shape (4 dofs, 4 dofs), as the next two."""
     K_1: Array
     M: Array
     moves: tuple[int, ...]

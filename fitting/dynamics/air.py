@@ -75,7 +75,7 @@ def air_lowering(plate: Plate, modes: RealModes, density_kg_m3: float) -> Array:
 
 
 def _coupling(plate: Plate, counts: tuple[int, int]) -> Array:
-    """C: each degree of freedom's deflection times f_i, integrated; held ones too. Shape (7 nodes, r)."""
+    """C: each degree of freedom's deflection times f_i, integrated; held ones too. Shape (dofs nodes, r)."""
     mesh = plate.mesh
     a, b = mesh.sides_m
     shape = mesh.shape

@@ -62,7 +62,7 @@ def rim_springs(full: FullPlate, axis: Literal["across", "z"]) -> sp.csc_array:
 
 
 def face_springs(specimen: Specimen, axis: str, *, gripped: bool) -> Array:
-    """Unit springs per area along an axis on a node's motions, through all layers. Shape (7, 7).
+    """Unit springs per area along an axis on a node's motions, through all layers. Shape (DOFS, DOFS).
 
     `gripped`: whether core and constraining layers reach the clamp.
     """

@@ -58,7 +58,7 @@ def tilted(full: FullPlate, along: str) -> sp.csc_array:
 
 
 def _tilted_element(full: FullPlate, along: str) -> Array:
-    """An element's shear stiffness times s - 1/2, s from 0 to 1 within it. Shape (28, 28)."""
+    """An element's shear stiffness times s - 1/2, s from 0 to 1 within it. Shape (4 dofs, 4 dofs)."""
     s = full.specimen
     assert s.core is not None
     assert s.constraining is not None

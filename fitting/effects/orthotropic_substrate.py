@@ -32,7 +32,7 @@ class AnotherRatio(Span):
 
 
 def _differences(full: FullPlate) -> list[Array]:
-    """What an element's stiffness differs by. Shape (28, 28) each."""
+    """What an element's stiffness differs by. Shape (4 dofs, 4 dofs) each."""
 
     def make() -> list[Array]:
         shape, face = full.loose.mesh.shape, full.specimen.substrate

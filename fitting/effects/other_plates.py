@@ -16,9 +16,10 @@ from fitting.specimen import Specimen
 
 
 def differences(full: FullPlate, other: Specimen) -> tuple[Array, Array, Array]:
-    """What an element's K_0, K_1 and M of another plate differ by. Shape (28, 28) each, or (cells, 28, 28).
+    """What an element's K_0, K_1 and M of another plate differ by.
 
-    Its trial functions are the stated plate's, stretched with it: w(x / length, y / width) stays.
+    Shape (4 dofs, 4 dofs) each, or (cells, 4 dofs, 4 dofs). Its trial functions are the stated plate's,
+    stretched with it: w(x / length, y / width) stays.
     """
 
     def make() -> tuple[Array, Array, Array]:

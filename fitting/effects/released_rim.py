@@ -68,9 +68,9 @@ def released_rim(full: FullPlate, at: Snapshot, released: Released, answers: Com
 
 
 def on_edge(full: FullPlate, edge: ClampedEdge, local: Array, weight: Array | None = None) -> sp.csc_array:
-    """A stiffness per length of an edge, on the loose plate. `local` of a node's motions, at most (9, 9).
+    """A stiffness per length of an edge, on the loose plate, by a node's motions.
 
-    `weight` is given at the nodes, linear between them.
+    `local` of shape (dofs, dofs) at most. `weight` is given at the nodes, linear between them.
     """
     mesh = full.loose.mesh
     along = along_line(len(edge.nodes) - 1, edge.step_m, weight)

@@ -147,7 +147,10 @@ def along_line(count: int, step_m: float, weight: Array | None = None) -> sp.csr
 
 
 def on_root(full: FullPlate, along: sp.sparray, local: Array) -> sp.csc_array:
-    """A stiffness per area of the root, or per width, on the loose plate. `local` (7, 7) of a node's."""
+    """A stiffness per area of the root, or per width, on the loose plate, by a node's motions.
+
+    `local` of shape (dofs, dofs) at most.
+    """
     n, dofs = full.loose.mesh.size, full.loose.mesh.dofs
     block = sp.kron(along, np.pad(local, (0, dofs - len(local)))).tocoo()
     whole = sp.coo_array((block.data, (block.row, block.col)), (n, n)).tocsr()

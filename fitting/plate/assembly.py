@@ -22,9 +22,9 @@ class Assembly:
         self._cells = [cell.elements for cell in plate.cells]
 
     def forces(self, A: NDArray[Any], X: NDArray[Any]) -> NDArray[Any]:
-        """What the elements answer to motions X of the plate, (n, k), by a matrix A of all, (28, 28).
+        """What the elements answer to motions X of the plate, (n, k), by a matrix A of all, (4 dofs, 4 dofs).
 
-        Or by one of each of its cells, (cells, 28, 28).
+        Or by one of each of its cells, (cells, 4 dofs, 4 dofs).
         """
         each = times(self._give, X)
         of_elements = each.reshape(A.shape[-1], -1)

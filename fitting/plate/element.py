@@ -22,9 +22,9 @@ from fitting.stated.layers import Core, Face
 U_C, V_C, U_B, V_B, W, THETA_X, THETA_Y, G_X, G_Y = range(9)
 """Places of a node's degrees of freedom: both faces in their plane, w, its slopes, slip beside the core."""
 DOFS = 7
-"""Of a node."""
+"""Degrees of freedom of a node without slip."""
 WITH_SLIP = 9
-"""Of a node where glue or sheared faces slip."""
+"""Degrees of freedom of a node where glue or sheared faces slip."""
 GLUE_TURNS = 1 / 3
 """Of the glue's mass: mean square of what moves with one side from 0 to the slip of the other."""
 CORNERS = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
@@ -68,22 +68,22 @@ class Shape:
     """Shape function vectors of one element of sides `a_m`, `b_m`.
 
     Every method takes local coordinates from corner one and returns rows over the element's
-    28 degrees of freedom, 36 with slip. Shapes below are without.
+    4 `dofs` degrees of freedom, corner by corner.
     """
 
     a_m: float
     b_m: float
     dofs: int = DOFS
-    """Of a node."""
+    """Of a node: `Mesh.dofs`."""
 
     def inplane(self, dof: int, x: float, y: float, dx: int = 0, dy: int = 0) -> Array:
-        """N_1 to N_4: one of u_c, v_c, u_b, v_b (or its derivative). Shape (28,)."""
+        """N_1 to N_4: one of u_c, v_c, u_b, v_b (or its derivative). Shape (4 dofs,)."""
         row = np.zeros(4 * self.dofs)
         row[dof :: self.dofs] = _bilinear(self.a_m, self.b_m, x, y, dx, dy)
         return row
 
     def deflection(self, x: float, y: float, dx: int = 0, dy: int = 0) -> Array:
-        """N_5: w, or its derivative. Shape (28,)."""
+        """N_5: w, or its derivative. Shape (4 dofs,)."""
         row = np.zeros((4, self.dofs))
         row[:, W:DOFS] = self.deflection_by_corners(x, y, dx, dy)
         return row.ravel()
@@ -95,7 +95,7 @@ class Shape:
         return np.asarray(values.reshape(4, 3) * (1.0, b, a))
 
     def membrane(self, u: int, v: int, x: float, y: float) -> Array:
-        """B_b or B_c: strains (xx, yy, xy) of a face's neutral plane. Shape (3, 28)."""
+        """B_b or B_c: strains (xx, yy, xy) of a face's neutral plane. Shape (3, 4 dofs)."""
         return np.array(
             [
                 self.inplane(u, x, y, dx=1),
@@ -105,7 +105,7 @@ class Shape:
         )
 
     def bending(self, x: float, y: float) -> Array:
-        """B: curvatures (-w_xx, -w_yy, -2 w_xy), shared by all layers. Shape (3, 28)."""
+        """B: curvatures (-w_xx, -w_yy, -2 w_xy), shared by all layers. Shape (3, 4 dofs)."""
         w = self.deflection
         return -np.array([w(x, y, dx=2), w(x, y, dy=2), 2 * w(x, y, dx=1, dy=1)])
 
@@ -164,7 +164,7 @@ def _square(shape: Shape) -> Array:
 
 
 def face_stiffness(shape: Shape, face: Face, u: int, v: int, over: Rectangles | None = None) -> Array:
-    """Eq. (15a): stretching and bending of a face. Real, loss factor left out. Shape (28, 28)."""
+    """Eq. (15a): stretching and bending of a face. Real, loss factor left out. Shape (4 dofs, 4 dofs)."""
     D = face_plane_stress(face)
     H = face.thickness_m
     K = _square(shape)
@@ -175,7 +175,7 @@ def face_stiffness(shape: Shape, face: Face, u: int, v: int, over: Rectangles | 
 
 
 def pulled_stiffness(shape: Shape, along: str) -> Array:
-    """What a unit of force per width along x or y does to the deflection: of w_x or w_y. Shape (28, 28)."""
+    """What a unit of force per width along x or y adds for w_x or w_y. Shape (4 dofs, 4 dofs)."""
     K = _square(shape)
     for x, y, dA in gauss_points(shape):
         slope = shape.deflection(x, y, dx=1) if along == "x" else shape.deflection(x, y, dy=1)
@@ -186,7 +186,7 @@ def pulled_stiffness(shape: Shape, along: str) -> Array:
 def core_stiffness(
     shape: Shape, core: Core, substrate: Face, constraining: Face, over: Rectangles | None = None
 ) -> Array:
-    """Eq. (15b) for G* = 1: stretching, bending and transverse shear. Shape (28, 28)."""
+    """Eq. (15b) for G* = 1: stretching, bending and transverse shear. Shape (4 dofs, 4 dofs)."""
     D = plane_stress(2 / (1 - core.poisson), core.poisson)
     H = core.thickness_m
     K = core_shear_stiffness(shape, core, substrate, constraining, over)
@@ -199,7 +199,7 @@ def core_stiffness(
 def core_shear_stiffness(
     shape: Shape, core: Core, substrate: Face, constraining: Face, over: Rectangles | None = None
 ) -> Array:
-    """The transverse shear's part of `core_stiffness`. Shape (28, 28)."""
+    """The transverse shear's part of `core_stiffness`. Shape (4 dofs, 4 dofs)."""
     K = _square(shape)
     for x, y, dA in gauss_points(shape, over):
         N_10, N_11 = core_shear(shape, core, substrate, constraining, x, y)
@@ -210,7 +210,7 @@ def core_shear_stiffness(
 def core_shear(
     shape: Shape, core: Core, substrate: Face, constraining: Face, x: float, y: float
 ) -> tuple[Array, Array]:
-    """N_10, N_11: transverse shear strains, gamma_xz = (u_c - u_b + d w_x)/H_v. Shape (28,) each.
+    """N_10, N_11: transverse shear strains, gamma_xz = (u_c - u_b + d w_x)/H_v. Shape (4 dofs,) each.
 
     The slip of glue and sheared faces is taken off.
     """
@@ -224,7 +224,7 @@ def core_shear(
 
 
 def slip_stiffness(shape: Shape, over: Rectangles | None = None) -> Array:
-    """Of the slip beside the core, for a shear stiffness per area of one. Shape (36, 36)."""
+    """Of the slip beside the core, for a shear stiffness per area of one. Shape (4 dofs, 4 dofs)."""
     K = _square(shape)
     for x, y, dA in gauss_points(shape, over):
         for dof in (G_X, G_Y):
@@ -238,7 +238,7 @@ def turned_sections(shape: Shape, face: Face, turn: complex, over: Rectangles | 
 
     h^3/12 times the integral of (B + turn B_g)^T D (B + turn B_g) - B^T D B, B the curvatures -w'' and B_g
     the slip's derivatives g', as a face's strains are made of u and v. Loss factor left out. Of a face whose
-    own axes are turned, what couples shear to the rest is left out. Shape (36, 36).
+    own axes are turned, what couples shear to the rest is left out. Shape (4 dofs, 4 dofs).
     """
     D = face_plane_stress(face)
     D[2, :2] = D[:2, 2] = 0.0
@@ -260,14 +260,14 @@ def _core_displacement(
 
 
 def _core_membrane(shape: Shape, substrate: Face, constraining: Face, x: float, y: float) -> Array:
-    """B_v: strains of the core's neutral plane, derivatives of N_8 and N_9. Shape (3, 28)."""
+    """B_v: strains of the core's neutral plane, derivatives of N_8 and N_9. Shape (3, 4 dofs)."""
     e = (constraining.thickness_m - substrate.thickness_m) / 2
     faces = shape.membrane(U_C, V_C, x, y) + shape.membrane(U_B, V_B, x, y)
     return (faces - e * shape.bending(x, y)) / 2
 
 
 def face_mass(shape: Shape, face: Face, u: int, v: int, over: Rectangles | None = None) -> Array:
-    """Eq. (16a), (16c), times the thickness. Shape (28, 28)."""
+    """Eq. (16a), (16c), times the thickness. Shape (4 dofs, 4 dofs)."""
     M = _square(shape)
     for x, y, dA in gauss_points(shape, over):
         rows = np.array([shape.inplane(u, x, y), shape.inplane(v, x, y), shape.deflection(x, y)])
@@ -278,7 +278,7 @@ def face_mass(shape: Shape, face: Face, u: int, v: int, over: Rectangles | None 
 def core_mass(
     shape: Shape, core: Core, substrate: Face, constraining: Face, over: Rectangles | None = None
 ) -> Array:
-    """Eq. (16b), times the thickness; glue weighs up and down, and as it slips. Shape (28, 28)."""
+    """Eq. (16b), times the thickness; glue weighs up and down, and as it slips. Shape (4 dofs, 4 dofs)."""
     M = _square(shape)
     glue = core.glue_mass_kg_m2
     for x, y, dA in gauss_points(shape, over):

@@ -14,7 +14,7 @@ from fitting.specimen import Specimen
 
 @dataclass(frozen=True)
 class ElementMatrices:
-    """Matrices of one element, shape (28, 28); elements that are treated alike are alike."""
+    """Matrices of one element, shape (4 dofs, 4 dofs); elements that are treated alike are alike."""
 
     M: Array
     K_substrate: Array

@@ -26,7 +26,11 @@ class Mesh:
     n_x: int
     n_y: int
     dofs: int = DOFS
-    """Degrees of freedom of a node."""
+    """Degrees of freedom of a node: `DOFS`, or `WITH_SLIP` where glue slips or faces shear.
+
+    Shapes of the plate's arrays call it dofs: all nodes have (nodes, dofs), a matrix of an element, which has
+    four nodes, (4 dofs, 4 dofs).
+    """
 
     @property
     def nodes(self) -> int:
@@ -51,7 +55,7 @@ class Mesh:
     def element_dofs(self) -> Indices:
         """Degrees of freedom of every element, corners in the element's order.
 
-        Shape (elements, 28), 36 with slip.
+        Shape (elements, 4 dofs).
         """
         i, j = np.meshgrid(np.arange(self.n_x), np.arange(self.n_y), indexing="ij")
         stride = self.n_y + 1

@@ -51,7 +51,7 @@ _STRETCH_C_TURNED = tuple(name for name in OFF_AXIS if name.startswith("stretch 
 
 
 def element_parts(reference: Specimen, cell: Cell | None = None) -> tuple[Array, Array, Array]:
-    """Matrices of one element of the reference's mesh: of K_0, K_1 and M. Shape (parts, 28, 28) each."""
+    """Parts of K_0, K_1 and M of one element of the reference's mesh. Shape (parts, 4 dofs, 4 dofs) each."""
     shape, names = mesh_of(reference).shape, names_of(reference)
     over = cell.over if cell is not None else None
     K_0, K_1, M = (part.copy() for part in _all_over(shape, names, is_turned(reference)))
@@ -133,7 +133,10 @@ def _treated(shape: Shape, names: Names, rectangle: Rectangle) -> tuple[Array, A
 def _shifted(
     reference: Specimen, shape: Shape, names: Names, both: tuple[Rectangles, Rectangles]
 ) -> tuple[Array, Array, Array]:
-    """What moving a patch by a metre changes of K_0, K_1 and M, to first order. Shape (28, 28) each."""
+    """What moving a patch by a metre changes of K_0, K_1 and M, to first order.
+
+    Shape (4 dofs, 4 dofs) each.
+    """
     K_0, K_1, M = (np.zeros((count, 4 * shape.dofs, 4 * shape.dofs)) for count in names.counts)
     for over, sign in zip(both, (1, -1), strict=True):
         for rectangle in over:
@@ -146,9 +149,9 @@ def _shifted(
 
 
 def load_part(reference: Specimen) -> Array:
-    """The first part of M on w = 1 at all nodes, held ones too. Shape (nodes * 7,).
+    """The first part of M on w = 1 at all nodes, held ones too. Shape (nodes * dofs,).
 
-    Where not all of the plate is treated, of all parts that carry the load. Shape (loads, nodes * 7).
+    Where not all of the plate is treated, of all parts that carry the load. Shape (loads, nodes * dofs).
     """
     mesh, names = mesh_of(reference), names_of(reference)
     w = np.zeros((mesh.nodes, mesh.dofs))
@@ -221,7 +224,7 @@ def _projected(P: Array, full: Array, dofs: Indices, weight: Array) -> Array:
 def stated_steps(reference: Specimen, names: Sequence[str]) -> tuple[Complex, Array, Array]:
     """What a typical tolerance of some stated numbers changes of an element's K_0, K_1 and M, to first order.
 
-    Shape (names, 28, 28) each; of several cells (names, cells, 28, 28).
+    Shape (names, 4 dofs, 4 dofs) each; of several cells (names, cells, 4 dofs, 4 dofs).
     """
     found = []
     for name in names:

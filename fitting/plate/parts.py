@@ -336,7 +336,7 @@ def specimen_of(size: Array, layers: Array) -> Specimen:
 
 
 def stretched(specimen: Specimen, reference: Specimen) -> Array:
-    """Factors on the nodal degrees of freedom of the reference's shapes, on a stretched plate. Shape (7,)."""
+    """Factors on a node's motions in the reference's shapes, on a stretched plate. Shape (DOFS,)."""
     found = np.ones(DOFS)
     found[THETA_X] = reference.width_m / specimen.width_m
     found[THETA_Y] = reference.length_m / specimen.length_m

@@ -57,7 +57,7 @@ class Plate:
 
     @cached_property
     def _missing(self) -> NDArray[np.bool_]:
-        """Motions that nothing has: of a layer that is not there, or does not stretch. Shape (nodes, 7)."""
+        """Motions that nothing has: of a layer that is missing, or does not stretch. Shape (nodes, dofs)."""
         s, found = self.specimen, np.zeros((self.mesh.nodes, self.mesh.dofs), dtype=bool)
         if s.core is None:
             found[:, [U_C, V_C]] = True
@@ -175,7 +175,7 @@ class Plate:
         return sp.csr_array(each[1:] - each[:-1])
 
     def scatter(self, Ae: Array, elements: NDArray[np.intp] | slice = slice(None)) -> sp.csc_array:
-        """An element's matrix (28, 28) assembled over some elements. Shape (n, n)."""
+        """An element's matrix (4 dofs, 4 dofs) assembled over some elements. Shape (n, n)."""
         dofs = self.mesh.element_dofs()[elements]
         rows = np.repeat(dofs, dofs.shape[1], axis=1).ravel()
         columns = np.tile(dofs, (1, dofs.shape[1])).ravel()
@@ -223,13 +223,13 @@ class Plate:
         return row
 
     def on_nodes(self, V: Array) -> Array:
-        """Vectors over the free degrees of freedom, node by node, held ones zero. Shape (nodes, 7, k)."""
+        """Vectors over the free degrees of freedom, node by node, held ones zero. Shape (nodes, dofs, k)."""
         full = np.zeros((self.mesh.size, V.shape[1]))
         full[self.free] = V
         return full.reshape(self.mesh.nodes, self.mesh.dofs, -1)
 
     def on_elements(self, V: Array) -> Array:
-        """Vectors over the free degrees of freedom, gathered element by element. Shape (elements, 28, k)."""
+        """Vectors over the free degrees of freedom, by elements. Shape (elements, 4 dofs, k)."""
         full = self.on_nodes(V).reshape(-1, V.shape[1])
         return np.asarray(full[self.mesh.element_dofs()])
 

@@ -62,3 +62,16 @@ def _inner(x: Array) -> Array:
 def test_a_number_of_the_inference_has_a_reason(tmp_path):
     source = '_ROUNDS, _FAR = 3, -1e-3\nWORDS = "no number"\n_STEPS = 2 * 5\n"""A bound."""\n'
     assert looked_at(tmp_path, source) == (1, ["fitting/one.py:1: (_ROUNDS, _FAR) has no reason"])
+
+
+def test_shapes_of_an_element_count_no_degrees_of_freedom(tmp_path):
+    source = '''
+def stiffness() -> Array:
+    """One element's. Shape (parts, 28, 28)."""
+
+def mass() -> Array:
+    """One element's. Shape (4 dofs, 4 dofs); bending adds t^2 / (36 kappa^2)."""
+'''
+    status, said = looked_at(tmp_path, source)
+    assert status == 1
+    assert [line.split(":")[1] for line in said] == ["3"]
