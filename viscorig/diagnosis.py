@@ -43,7 +43,10 @@ class Diagnosis(Facts[DiagnosisResult]):
         return columns(self.result.after.law)
 
     def to_numpy(self) -> Columns:
-        """The candidates, best first: `delta_bic` to the best, `probability`, chi-square per degree."""
+        """The candidates, best first: `probability`, `delta_bic`, chi-square per degree of freedom.
+
+        `delta_bic` is -2 ln of prior times marginal likelihood, above the best one's; its name is an old one.
+        """
         candidates = self.result.candidates
         found: Columns = {"name": np.array([c.name for c in candidates], dtype=str)}
         return found | {key: np.array([getattr(c, key) for c in candidates], dtype=float) for key in _RANKING}

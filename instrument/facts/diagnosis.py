@@ -38,7 +38,7 @@ class CandidateFitted(Result):
     name: str
     """`none`, an effect's name, or two joined by " + "."""
     delta_bic: Number
-    """To the best one."""
+    """-2 ln of prior times marginal likelihood, above the best one's: no BIC, the key is an old name."""
     probability: Number = nan
     """One of all that were tried being right."""
     chi2_per_dof: MaybeNumber = None
