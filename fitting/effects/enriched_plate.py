@@ -52,18 +52,29 @@ _MADE_ANEW = ("_taken", "_stacks", "_rows", "roughly", "with_part")
 
 @dataclass(frozen=True)
 class EnrichedReducedPlate:
-    """Matrices on k columns. Inputs: unit heave and pitch of the base; output: w at the pickup."""
+    """Matrices on k columns. Inputs: unit heave and pitch of the base; output: w at the pickup.
+
+    A x = load a + pitch h a, w = observe x, A = -omega^2 M + i omega U diag(d) U^T + K_0 + G K_1.
+    """
 
     group: Names
     """Of every column: "plate" or a span's name, ending in "/odd" for motions odd in y."""
     M: Array
+    """Mass in kg. Shape (k, k)."""
     K_0: Complex
+    """Stiffness without the core's shear modulus in N/m, with the faces' loss. Shape (k, k)."""
     K_1: Array
+    """Stiffness for a core modulus of one, in N/m per Pa. Shape (k, k)."""
     U: Array
+    """Damped modes, times the mass: M Phi in kg^1/2; a narrow resonance's too. Shape (k, modes)."""
     d: Array
+    """2 zeta omega of each of these modes in rad/s, zero of a narrow resonance. Shape (modes,)."""
     load: Array
+    """Force in N for a base acceleration of 1 m/s^2, or for a force of 1 N. Shape (k,)."""
     pitch: Array
+    """Force in N for a base that pitches with 1 rad/s^2; zero where a force drives. Shape (k,)."""
     observe: Array
+    """The row that reads the deflection w at the pickup, m per m of each column. Shape (k,)."""
     gram: Array
     """Inner products of the columns."""
     names: Names

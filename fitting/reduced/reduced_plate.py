@@ -50,17 +50,27 @@ def _followed(specimen: Specimen) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class ReducedPlate:
-    """The plate on its basis of k vectors, for a unit of what drives it, read at the pickup."""
+    """The plate on its basis of k vectors, for a unit of what drives it, read at the pickup.
+
+    A x = load, w = observe x, with A as `matrices` has it and C_1 = U diag(d) U^T.
+    """
 
     M: Array
+    """Mass in kg. Shape (k, k)."""
     K_0: Complex
+    """Stiffness without the core's shear modulus in N/m, with the faces' loss. Shape (k, k)."""
     K_1: Array
+    """Stiffness for a core modulus of one, in N/m per Pa. Shape (k, k)."""
     U: Array
+    """Damped modes, times the mass: M Phi in kg^1/2. Shape (k, damped modes)."""
     d: Array
+    """2 zeta omega of each damped mode in rad/s. Shape (damped modes,)."""
     mode: NDArray[np.intp]
     """Which of the stated ratios each column of U has, from 0."""
     load: Array
+    """Force in N for a base acceleration of 1 m/s^2, or for a force of 1 N. Shape (k,)."""
     observe: Array
+    """The row that reads the deflection w at the pickup, m per m of each vector. Shape (k,)."""
     further: Array
     """Rows of the specimen's further spots, forces there too. Shape (spots, k)."""
     domain: Domain
