@@ -5,7 +5,7 @@ Frozen data only. Files and their units are translated at the border (`instrumen
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, Protocol
+from typing import Any, Literal, Protocol, get_args
 
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
@@ -14,6 +14,9 @@ from fitting.stated.layers import Core, Face, Glue, Orthotropy
 from fitting.stated.patches import OF_PATCHES, Patch, shift_of
 from fitting.stated.tolerances import OF_OWN_AXES, StatedNumber, StatedValue, number_of
 
+Kind = Literal["plate", "beam", "shear-pair"]
+"""Which structure a specimen is. What another one needs: CONTRIBUTING.md."""
+KINDS: tuple[Kind, ...] = get_args(Kind)
 Reading = Literal["relative", "absolute"]
 Drive = Literal["base", "force"]
 
@@ -38,8 +41,8 @@ class StatedSpecimen(Protocol):
     """What every specimen says, plate or not."""
 
     @property
-    def kind(self) -> str:
-        """Which structure it is: `plate`, `shear-pair`, `beam`."""
+    def kind(self) -> Kind:
+        """Which structure it is."""
 
     @property
     def core(self) -> Core | None:
@@ -161,7 +164,7 @@ class Specimen(Driven):
             object.__setattr__(self, "reads", "relative")
 
     @property
-    def kind(self) -> str:
+    def kind(self) -> Kind:
         """Which structure it is."""
         return "plate"
 

@@ -23,7 +23,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import BarePlateModes, ModulusAt, Points
 from fitting.effects.span import Span
 from fitting.laws import CoreLaw
-from fitting.specimen import StatedSpecimen
+from fitting.specimen import KINDS, Kind, StatedSpecimen
 from fitting.sweep import Sweep
 
 Entry = Literal["stiffness", "mass", "load", "observation", "channel", "time", "level", "core law", "damping"]
@@ -42,13 +42,13 @@ Entry = Literal["stiffness", "mass", "load", "observation", "channel", "time", "
 Sweeps at several temperatures may share what enters by any but `core law`, `time` and `level`.
 """
 
-PLATE_ONLY = frozenset({"plate"})
+PLATE_ONLY: frozenset[Kind] = frozenset({"plate"})
 BASE, CLAMP, FORCE = frozenset({"base"}), frozenset({"clamp"}), frozenset({"force"})
 ROOT = CLAMP | {"root"}
 WHOLE, ONE_SIDE = frozenset({"whole"}), frozenset({"one side"})
 CONSTRAINED, ONE_PIECE = frozenset({"constraining"}), frozenset({"one piece"})
-PLATE_AND_BEAM = frozenset({"plate", "beam"})
-EVERY_STRUCTURE = frozenset({"plate", "beam", "shear-pair"})
+PLATE_AND_BEAM: frozenset[Kind] = frozenset({"plate", "beam"})
+EVERY_STRUCTURE = frozenset(KINDS)
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,7 @@ class Effect:
     """Share of the chi-square it explains that its own formula may leave
     (`fitting.diagnosis.checks.predictive`)."""
 
-    structures: ClassVar[frozenset[str]] = PLATE_ONLY
+    structures: ClassVar[frozenset[Kind]] = PLATE_ONLY
     """Kinds of specimens on which it has a meaning as it is."""
 
     needs: ClassVar[frozenset[str]] = frozenset()

@@ -20,7 +20,7 @@ from numpy.polynomial import Legendre
 
 from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.specimen import BaseDriven, Reading
+from fitting.specimen import BaseDriven, Kind, Reading
 from fitting.stated.layers import Core
 from fitting.stated.tolerances import KG, STATED, StatedValue, number_of
 from fitting.structures.small import Parts, as_coefficients
@@ -59,7 +59,7 @@ class ShearPair(BaseDriven):
     tolerances: Mapping[str, float] = field(default_factory=dict, hash=False)
     exact: bool = False
 
-    kind = "shear-pair"
+    kind: ClassVar[Kind] = "shear-pair"
     numbers = NUMBERS
     places: ClassVar[Mapping[str, float]] = MappingProxyType({})
     modal_ratios: tuple[float, ...] = ()

@@ -2,12 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Literal, Self
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.specimen import Driven, PlacedMass, Reading, Specimen
+from fitting.specimen import Driven, Kind, PlacedMass, Reading, Specimen
 from fitting.stated.layers import Core, Face
 from fitting.structures.beam_error import shortened_m
 
@@ -49,7 +49,7 @@ class StatedBeam(Driven):
     temperature_c: float | None = None
     """That its faces have; None: the one their moduli are stated for."""
 
-    kind = "beam"
+    kind: ClassVar[Kind] = "beam"
     modal_ratios: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:

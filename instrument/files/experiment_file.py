@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
+from fitting.specimen import KINDS
 from instrument.errors import BadInput
 from instrument.files.text import read_text
 from instrument.files.toml import NotNegative, Positive, TomlTable, document_faults, read_document
@@ -19,10 +20,8 @@ Count = Annotated[int, Field(ge=1, le=1000)]
 Frequency = Annotated[float, Field(ge=0.5, le=1e5)]
 _LEAST_RATIO = 1.05
 """Of the ends of a band."""
-_SPECIMENS = ("plate", "beam", "shear-pair")
-"""Tables of a specimen's file."""
 _RIGS = ("shaker", "vibrometer", "front_end")
-"""Of a rig's."""
+"""Tables of a rig's file."""
 _CONTROL, _SETTLE, _DWELL = LevelControl(), Settle(), Dwell()
 
 
@@ -297,7 +296,7 @@ def other_kind(path: Path) -> Literal["a specimen", "a rig", ""]:
     except (BadInput, tomllib.TOMLDecodeError, RecursionError, ValueError):
         # What is wrong with it is said where it is read.
         return ""
-    if any(kind in tables for kind in _SPECIMENS) and "rig" not in tables:
+    if any(kind in tables for kind in KINDS) and "rig" not in tables:
         return "a specimen"
     if not isinstance(tables.get("rig"), str) and any(part in tables for part in _RIGS):
         return "a rig"

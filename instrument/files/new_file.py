@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from fitting.specimen import Kind
 from instrument.errors import BadInput
 from instrument.files.text import read_text
 
@@ -18,11 +19,15 @@ TEMPLATES = {
 """Kind of file, and where it is. A rig begins as the simulated one, which says how it becomes a real one."""
 EXPERIMENT = ("specimen.toml", "rig.toml", "experiment.toml")
 """Files of an experiment on a real rig."""
-SPECIMENS = {"plate": "experiment", "beam": "experiment-beam", "shear-pair": "experiment-beam"}
+SPECIMENS: dict[Kind, str] = {
+    "plate": "experiment",
+    "beam": "experiment-beam",
+    "shear-pair": "experiment-beam",
+}
 """Kinds of specimen, and the experiment that each begins with: only a plate is struck while it is bare."""
 
 
-def write_real(folder: Path, specimen: str = "plate") -> Path:
+def write_real(folder: Path, specimen: Kind = "plate") -> Path:
     """The files of an experiment on a real rig; the experiment's path. Raises `BadInput`."""
     for name, kind in zip(EXPERIMENT, (specimen, "real-rig", SPECIMENS[specimen]), strict=True):
         write_new(kind, folder / name)

@@ -85,6 +85,15 @@ _BASE = {
         1e-3, 500.0, f"1 g is {PUBLISHED_G_M_S2:g}, shakers up to 100 g", {"cm/s^2 or mm/s^2": 1e-2}
     )
 }
+_USUAL = {
+    **dict.fromkeys(_LAYERS, _FACE),
+    "core": _CORE,
+    "plate": _SIZE,
+    "beam": _SIZE,
+    "base": _BASE,
+    "shear-pair": _PAIR,
+}
+"""Limits of the numbers in every table of a specimen's file."""
 
 
 def question_specimen(path: Path, *, insist: bool = False) -> None:
@@ -97,10 +106,8 @@ def question_specimen(path: Path, *, insist: bool = False) -> None:
 
 def specimen_doubts(tables: dict[str, Any]) -> list[str]:
     """Everything in a specimen's tables that asks for a question; empty for a usual one."""
-    wanted = {**dict.fromkeys(_LAYERS, _FACE), "core": _CORE, "plate": _SIZE, "beam": _SIZE, "base": _BASE}
-    wanted["shear-pair"] = _PAIR
     found: list[str] = []
-    for name, usual in wanted.items():
+    for name, usual in _USUAL.items():
         found += outside(name, tables.get(name), usual)
     for name in _LAYERS:
         found += _metal(name, tables.get(name))

@@ -11,7 +11,7 @@ from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import LAWS, CoreLaw
 from fitting.laws.table import Tabulated
-from fitting.specimen import Drive, PlacedMass, Reading, Specimen
+from fitting.specimen import Drive, Kind, PlacedMass, Reading, Specimen
 from fitting.stated.edges import named
 from fitting.stated.layers import Core
 from fitting.stated.tolerances import OF_FEW, OF_TEMPERATURE, STATED
@@ -137,7 +137,7 @@ class TolerancesSection(TomlTable):
 
 
 _OF_LAYERS = tuple(name for name in STATED if name.startswith(("substrate", "constraining")))
-_NOT_OF = {
+_NOT_OF: dict[Kind, tuple[str, ...]] = {
     "plate": ("area", *OF_TEMPERATURE),
     "beam": ("area", *OF_FEW),
     "shear-pair": (*_OF_LAYERS, *OF_FEW, "length", "width", "pickup", "force", "place", "axial"),
@@ -282,7 +282,7 @@ def specimen_of(d: SpecimenDocument) -> Specimen:
     return for_its_core(plate)
 
 
-def typical_tolerances(kind: str) -> dict[str, float | None]:
+def typical_tolerances(kind: Kind) -> dict[str, float | None]:
     """Keys of `[tolerances]` that a kind of specimen has, and what counts where one is left out, in its unit.
 
     None where that depends on what else is stated.
@@ -298,7 +298,7 @@ def typical_tolerances(kind: str) -> dict[str, float | None]:
     return found
 
 
-def tolerances_of(table: TolerancesSection | None, kind: str = "plate") -> dict[str, float]:
+def tolerances_of(table: TolerancesSection | None, kind: Kind = "plate") -> dict[str, float]:
     """As named, in what `fitting.stated.tolerances` counts in; `kind` of specimen. Raises `OutsideModel`."""
     given = table.model_dump(exclude_none=True, exclude={"exact"}) if table is not None else {}
     found = {}

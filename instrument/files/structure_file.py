@@ -9,7 +9,7 @@ from pydantic import ConfigDict, Field, model_validator
 
 from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.specimen import Reading
+from fitting.specimen import Kind, Reading
 from fitting.stated.layers import Core
 from fitting.structures import AnySpecimen
 from fitting.structures.shear_pair import MOST_BY_EDGES, ShearPair, disc
@@ -134,7 +134,7 @@ class ShearPairDocument(TomlTable):
 AnyDocument = SpecimenDocument | BeamDocument | ShearPairDocument
 """What a specimen file may hold."""
 
-_DOCUMENTS: dict[str, type[ShearPairDocument] | type[BeamDocument]] = {
+_DOCUMENTS: dict[Kind, type[ShearPairDocument] | type[BeamDocument]] = {
     "shear-pair": ShearPairDocument,
     "beam": BeamDocument,
 }

@@ -2,6 +2,7 @@
 
 from datetime import date
 
+from fitting.specimen import Kind
 from instrument.files.acceleration import acceleration_unit
 from instrument.files.rig_file import ResponseSection, SensorSection
 from instrument.files.specimen_file import SpecimenDocument
@@ -18,7 +19,7 @@ from instrument.stream.raw import OperatorDid
 _ACCELEROMETERS = ("base", "response")
 _OTHERS = {"force": "mV/N", "temperature": "mV/°C"}
 _MOST_LISTED = 8
-_TITLES = {"plate": "Plate", "beam": "Beam", "shear-pair": "Shear pair"}
+_TITLES: dict[Kind, str] = {"plate": "Plate", "beam": "Beam", "shear-pair": "Shear pair"}
 _DONE = {
     ("mounted", "bare"): "bare {} mounted",
     ("mounted", "damped"): "damped {} mounted",

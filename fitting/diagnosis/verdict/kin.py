@@ -35,6 +35,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.nuisances.narrow import NarrowResonance, NarrowResonances
 from fitting.reduced.resonance_parts import RealMode, modes_between
+from fitting.specimen import Kind
 
 UNLISTED = "unlisted"
 """Its name beside those of effects."""
@@ -53,7 +54,7 @@ FREQUENCY, LOSS, _GAIN = 0.01, 0.1, 0.03
 of the catalogue show, these go together. Only their proportions count."""
 _LOOSE = 2.0
 """Times the error of an effect's own formula: within it kin is the effect itself. A choice."""
-HAVE_MODES = ("plate", "beam")
+HAVE_MODES: tuple[Kind, ...] = ("plate", "beam")
 """Kinds of specimens with resonances besides the one that the core's modulus places."""
 _STRETCH = np.log(2) / 3
 """In ln f: of a third of an octave, as wide as what a resonance of a fixture or of a mass's rocking disturbs

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from fitting.specimen import Kind
 from gui.asking import ask_open, ask_save, ask_unsaved, show
 from gui.background_task import BackgroundTask, Progress
 from gui.form.draft import Drafts
@@ -108,7 +109,7 @@ class FilesPanel(QWidget):
         self.save()
         self._after_saving = then
 
-    def make(self, folder: Path, effect: str | None, seed: int, specimen: str = "plate") -> None:
+    def make(self, folder: Path, effect: str | None, seed: int, specimen: Kind = "plate") -> None:
         """Write the files of a new experiment and open them; without an `effect` of a real rig."""
         self._begin(partial(_make, folder, effect, seed, specimen), self._made)
 
@@ -282,7 +283,7 @@ def _read(path: Path, _: Progress) -> Drafts:
     return drafts
 
 
-def _make(folder: Path, effect: str | None, seed: int, specimen: str, _: Progress) -> Path:
+def _make(folder: Path, effect: str | None, seed: int, specimen: Kind, _: Progress) -> Path:
     return write(folder, effect, seed, specimen)
 
 

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from fitting.specimen import Kind
 from gui.asking import ask_folder
 from gui.widgets import button
 from instrument.errors import BadInput
@@ -74,10 +75,10 @@ class NewCase(QDialog):
         form.addRow(self.buttons)
         self._rig_chosen()
 
-    def order(self) -> tuple[Path, str | None, int, str]:
+    def order(self) -> tuple[Path, str | None, int, Kind]:
         """Folder, effect, seed and kind of specimen; no effect for a real rig."""
         effect = self.effect.currentText() if self.rig.currentText() == SIMULATED else None
-        kind = str(self.specimen.currentData())
+        kind: Kind = self.specimen.currentData()
         return Path(self.folder.text()).expanduser(), effect, self.seed.value(), kind
 
     def _rig_chosen(self) -> None:
@@ -96,7 +97,7 @@ class NewCase(QDialog):
         self.folder.setText(str(folder))
 
 
-def write(folder: Path, effect: str | None, seed: int, specimen: str = "plate") -> Path:
+def write(folder: Path, effect: str | None, seed: int, specimen: Kind = "plate") -> Path:
     """The files; the experiment's path. Raises `BadInput`, also where there are such files already.
 
     Without an `effect` they are of a real rig and such a `specimen`: commented templates, to be filled in.
