@@ -13,7 +13,7 @@ from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.inference.evidence import BareModes
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.problem.base import DiagnosisProblem
-from fitting.diagnosis.search.catalogue_search import ScoredFit, Search, best_of_each
+from fitting.diagnosis.search.catalogue_search import ScoredFit, Search, best_of_each, by_cost
 from fitting.diagnosis.search.singles import Singles
 from fitting.diagnosis.search.with_pairs import with_pairs
 from fitting.diagnosis.verdict import text
@@ -189,7 +189,7 @@ def _diagnosis(
     absent, scored_fits = search.tempered(decided.scored_fits)
     if judgement.unlisted is not None:
         scored_fits.append(judgement.unlisted)
-    scored_fits = sorted([absent, *scored_fits], key=_cost)
+    scored_fits = sorted([absent, *scored_fits], key=by_cost)
     seen = tuple(text.story(catalogue[c.name], c) for c in channels)
     return Diagnosis(
         verdict=judgement.verdict,
@@ -236,8 +236,8 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
     singles = best_of_each([*singles, *search.twofold(leading)])
     singles, pairs = with_pairs(search, singles, lambda x: report(_OF_SINGLES + _OF_PAIRS * x))
     found = [*singles, *pairs]
-    best = min([search.none, *found], key=_cost)
-    scored_fits = sorted(search.at_rest(found, best, [search.none]), key=_cost)
+    best = min([search.none, *found], key=by_cost)
+    scored_fits = sorted(search.at_rest(found, best, [search.none]), key=by_cost)
     judgement = _judged(search, scored_fits)
     if judgement.is_doubted and search.none.cost > search.reach(scored_fits[0]):
         # A core that is off its formula bends its law far, as a cause in no catalogue does: both are weighed.
@@ -274,10 +274,6 @@ def _rivals(
     shares = [(t.fitted, judgement.probability.get(names, 0.0) / whole) for names, t in others.items()]
     beyond = tuple(sorted((one for one in shares if one[1] > _BEYOND), key=lambda one: -one[1]))
     return Rivals(problem, search.evidence, each, reduced, search.temper(judgement.group[0][0]), beyond)
-
-
-def _cost(scored: ScoredFit) -> float:
-    return scored.cost
 
 
 def _candidate(

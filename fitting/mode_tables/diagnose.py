@@ -11,7 +11,7 @@ import numpy as np
 
 from fitting.diagnosis.checks.predictive import temper
 from fitting.diagnosis.inference.refit import kept
-from fitting.diagnosis.search.catalogue_search import ScoredFit, best_of_each
+from fitting.diagnosis.search.catalogue_search import ScoredFit, best_of_each, by_cost
 from fitting.diagnosis.thresholds import PAIRS
 from fitting.diagnosis.verdict.confounded import hides
 from fitting.diagnosis.verdict.judgement import Judgement, judge
@@ -59,14 +59,14 @@ def diagnose_modes(
     for k, effect in enumerate(seen):
         fits = [f for form in work.forms(effect) for f in work.fits(form, begun.none)]
         scored = [work.scored(f) for f in fits if work.determined(f)]
-        found += sorted(scored, key=_cost)[:1]
+        found += sorted(scored, key=by_cost)[:1]
         report(_SINGLES * (k + 1) / len(seen))
-    found.sort(key=_cost)
+    found.sort(key=by_cost)
     if called_for(work, none, found):
         found = best_of_each(
             [*found, *best_pairs(work, found, seen, lambda x: report(_SINGLES + (1 - _SINGLES) * x))]
         )
-    best = min([none, *found], key=_cost)
+    best = min([none, *found], key=by_cost)
     alone = {name: one.fitted.chi2 for one in found for name in one.names if len(one.names) == 1}
     t = temper(begun.none, best.fitted, alone) if begun.evidence.scale_known else 1.0
     none, *found = (work.scored(one.fitted, t) for one in (none, *found))
@@ -80,18 +80,14 @@ def diagnose_modes(
     report(1.0)
     if _too_few(work, judgement):
         judgement = replace(judgement, verdict="ambiguous")
-    every = sorted([none, *found], key=_cost)
+    every = sorted([none, *found], key=by_cost)
     odd = misread(begun)
     if odd is not None and odd.says_more_than(every[0], begun.problem.response().plate):
         unknown = replace(judgement, verdict="unknown", accepted=None, equivalent={}, unlisted=None)
         return DiagnosedModes(begun, unknown, tuple(every), t, none, odd)
     if judgement.unlisted is not None:
-        every = sorted([*every, judgement.unlisted], key=_cost)
+        every = sorted([*every, judgement.unlisted], key=by_cost)
     return DiagnosedModes(begun, _in_light_of_the_law(work, seen, judgement), tuple(every), t, none)
-
-
-def _cost(scored: ScoredFit) -> float:
-    return scored.cost
 
 
 def _too_few(work: Explaining, judgement: Judgement) -> bool:

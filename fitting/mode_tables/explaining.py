@@ -10,7 +10,7 @@ from fitting.diagnosis.checks.predictive import TOLERANCES, form_error, of_state
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.marginal import cost
 from fitting.diagnosis.inference.refit import COMPARABLE, ROUGH, refit
-from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.inference.refitted import Refitted, by_chi2
 from fitting.diagnosis.search.catalogue_search import ScoredFit
 from fitting.diagnosis.search.looks import Start, promising
 from fitting.diagnosis.search.stand_in import too_large
@@ -73,7 +73,7 @@ class Explaining:
         ]
         if not found:
             return []
-        best = min(found, key=lambda f: f.chi2)
+        best = min(found, key=by_chi2)
         ended = self.ended(effects, best.law, best.u)
         return [] if ended is None else [ended]
 

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from fitting.diagnosis.inference.refitted import Refitted
-from fitting.diagnosis.search.catalogue_search import ScoredFit
+from fitting.diagnosis.search.catalogue_search import ScoredFit, by_cost
 from fitting.diagnosis.thresholds import STOPPING
 from fitting.effects.base import Effect
 from fitting.mode_tables.explaining import Explaining
@@ -62,7 +62,7 @@ def best_pairs(
             if work.determined(f) and (known is None or scored.cost < known.cost):
                 found[frozenset(scored.names)] = scored
         report((n + 1) / len(chosen))
-    ranked = sorted(found.values(), key=lambda t: t.cost)
+    ranked = sorted(found.values(), key=by_cost)
     return [*ranked, *(one for pair in ranked[:1] for one in _alone(work, pair))]
 
 

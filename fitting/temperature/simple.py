@@ -28,7 +28,6 @@ class Verdict:
     p_value: float
     wicket_percent: float
     """Largest distance of eta from the joint law's, at one G', over all temperatures."""
-    wicket_at_c: float
     words: str
     wrong: Misread | None = None
     """The one temperature that does not go with the others."""
@@ -64,7 +63,7 @@ def judge(
         said = (
             f"whether one shifted law serves cannot be told ({_gain(fit)}) before this is: {'; '.join(odd)}"
         )
-        return Verdict(None, fit.p_value, *_wicket(fit), said)
+        return Verdict(None, fit.p_value, _wicket(fit)[0], said)
     found = _judged(fit, causes, apart, names)
     if scale_known or found.simple is not False:
         return found
@@ -83,7 +82,7 @@ def _judged(
     off, at = _wicket(best)
 
     def told(simple: bool | None, words: str, p: float = best.p_value) -> Verdict:
-        return Verdict(simple, p, off, at, words)
+        return Verdict(simple, p, off, words)
 
     if not in_doubt(fit):
         return told(True, f"thermorheologically simple as far as these data tell: {_gain(fit)}")
@@ -107,7 +106,7 @@ def _judged(
     if apart is not None and not in_doubt(apart):
         wrong = misread(fit.shift, apart)
         words = _temperatures_refused(fit, apart, wrong, names)
-        return Verdict(False, best.p_value, *_wicket(apart), words, wrong)
+        return Verdict(False, best.p_value, _wicket(apart)[0], words, wrong)
     if apart is not None and explains(fit):
         off, at = _wicket(apart)
     if explains(fit):

@@ -14,7 +14,7 @@ from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.inference.begin import Begun
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refit import refit
-from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.inference.refitted import Refitted, by_chi2
 from fitting.diagnosis.problem.model_error import model_error
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.diagnosis.search.candidates import CandidateFit
@@ -61,7 +61,7 @@ class AloneSweep:
         """As `members.Alone`, the model's error made for what it then predicts."""
         b = self.begun
         candidate = CandidateFit(b.problem, b.evidence, b.none, effect)
-        rough = min([*candidate.near[:1], *candidate.far[:1]], key=lambda f: f.chi2)
+        rough = min([*candidate.near[:1], *candidate.far[:1]], key=by_chi2)
         found = candidate.finished(rough)
         problem, v = b.problem.around(found.law), found.velocity_m_s
         wrong = model_error(problem, self.reduced, found.law, v)

@@ -12,8 +12,9 @@ from fitting.arrays import Array, Complex
 from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refit import refit
-from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.inference.refitted import Refitted, by_chi2
 from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.search.catalogue_search import by_cost
 from fitting.diagnosis.search.looks import Start, promising
 from fitting.diagnosis.thresholds import STOPPING
 from fitting.effects.base import Effect
@@ -53,7 +54,7 @@ class AloneTable:
         work, none = Explaining(self.begun), self.begun.none
         seen = [e for e in effects if visible(self.begun.problem, e)]
         scored = [work.scored(f) for e in seen for form in work.forms(e) for f in work.fits(form, none)]
-        scored.sort(key=lambda one: one.cost)
+        scored.sort(key=by_cost)
         near = [s for s in scored if s.cost < scored[0].cost + STOPPING.cost_near_best]
         return [s.fitted.effects[0] for s in near]
 
@@ -63,9 +64,7 @@ class AloneTable:
         fits = Explaining(b).fits(effect, b.none)
         u = np.concatenate([b.none.u, effect.starts(b.problem.members[0].wide, b.problem.points)[0]])
         found = (
-            min(fits, key=lambda f: f.chi2)
-            if fits
-            else refit(b.problem.response([effect]), b.evidence, b.none.law, u)
+            min(fits, key=by_chi2) if fits else refit(b.problem.response([effect]), b.evidence, b.none.law, u)
         )
         return replace(self, begun=replace(b, none=found))
 

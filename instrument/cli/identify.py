@@ -2,11 +2,11 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import click
 
 from fitting.depth.posterior import SAMPLES
-from fitting.temperature.shifts import Kind
 from instrument.cli.identify_asked import Asked
 from instrument.cli.identify_modes import identify_modes
 from instrument.cli.identify_shifted import identify_shifted, identify_tables_shifted
@@ -16,8 +16,6 @@ from instrument.cli.options import NumberRange, figures_option, file_arguments, 
 from instrument.cli.output import Output
 from instrument.cli.reading import are_tables, read_each, reading_options, together
 from instrument.files.repeated import refuse_repeats
-from instrument.models.identification import Method
-from instrument.results.uncertainty_facts import Depth
 
 
 @click.command()
@@ -106,20 +104,7 @@ def identify(
     no_hammer: bool,
     insist: bool,
     json_path: str | None,
-    *,
-    method: Method,
-    no_viscous_damping: bool,
-    pointwise: bool,
-    dma: Path | None,
-    with_budget: bool,
-    depths: tuple[Depth, ...],
-    samples: int,
-    shift: Kind | None,
-    reference_c: float | None,
-    temperature_k: float | None,
-    vertical: bool,
-    bare: Path | None,
-    figures: Path | None,
+    **options: Any,
 ) -> None:
     """The core's complex shear modulus from DATA, with its uncertainty.
 
@@ -127,21 +112,7 @@ def identify(
     (.csv, .uff, .unv, .mat), or a table of modes (.csv: mode, frequency_hz, loss_factor). Several are fitted
     together: one law, each file its own specimen and channels.
     """
-    asked = Asked(
-        method=method,
-        no_viscous_damping=no_viscous_damping,
-        pointwise=pointwise,
-        dma=dma,
-        with_budget=with_budget,
-        depths=depths,
-        samples=samples,
-        shift=shift,
-        reference_c=reference_c,
-        temperature_k=temperature_k,
-        vertical=vertical,
-        bare=bare,
-        figures=figures,
-    )
+    asked = Asked(**options)
     asked.check()
     out = Output(json_path)
     refuse_repeats(data)

@@ -16,7 +16,6 @@ class HalfPowerMarks:
     """Where half power was read."""
 
     low_hz: float
-    peak_hz: float
     high_hz: float
     level: float
     """Of |H| at both crossings: the peak's over the root of two."""
@@ -27,9 +26,9 @@ def half_power_at(fine: Frf, mode: Mode) -> HalfPowerMarks | None:
     found = marks(fine, mode)
     if found is None:
         return None
-    low, peak, high = found
+    low, _, high = found
     level = np.interp([low, high], fine.frequency_hz, np.abs(fine.H)).mean()
-    return HalfPowerMarks(low, peak, high, float(level))
+    return HalfPowerMarks(low, high, float(level))
 
 
 def fit_curve(fit: RationalFit, frequency_hz: Array) -> Complex:

@@ -40,6 +40,10 @@ _DELAYS_S = np.linspace(-3e-3, 3e-3, 1201)
 """Of one channel beside the other: more than a decoder's, in steps that turn no phase below 2 kHz far."""
 _LOOKED_AT = 3
 """Mistakes that come nearest on the grid of cores: the best is among them."""
+_UNITS = {"rad/s": 1 / (2 * np.pi), "kHz": 1e3}
+"""Units that frequencies may be in, and how many Hz each is."""
+_MOST_KHZ = 20.0
+"""Readings beyond what is heard are not of such specimens."""
 
 
 def data_doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress = quiet) -> str:
@@ -170,12 +174,6 @@ def _stated_wrongly(look: _Look) -> str | None:
         if _explains(_distance_of(look.sweep, other, look.progress), look.distance):
             return words
     return None
-
-
-_UNITS = {"rad/s": 1 / (2 * np.pi), "kHz": 1e3}
-"""In which frequencies may be, and how many Hz each is."""
-_MOST_KHZ = 20.0
-"""Readings beyond what is heard are not of such specimens."""
 
 
 def _beside_effects(look: _Look) -> str | None:

@@ -14,7 +14,7 @@ from fitting.data.noise import Noise
 from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.inference.evidence import BareModes, Evidence
 from fitting.diagnosis.inference.refit import ROUGH, refit
-from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.inference.refitted import Refitted, by_chi2
 from fitting.diagnosis.inference.usual_law import at_rest, followed, polished, within_search
 from fitting.diagnosis.inference.wide_valley import in_wide_valley, with_stated
 from fitting.diagnosis.problem.base import DiagnosisProblem
@@ -88,7 +88,7 @@ def begin(
         if len(laws) > 1:
             rough = response_of(here, (), here.coarse)
             fits = [refit(rough, evidence, one, u, tolerance=ROUGH) for one in laws]
-            best = min(fits, key=lambda f: f.chi2)
+            best = min(fits, key=by_chi2)
             law, u, laws, meets = best.law, best.u, [best.law], _are_one(fits)
         none = polished(here, (), evidence, law, u)
         is_clear = meets and none.chi2_per_dof < STOPPING.explained_chi2_per_dof
@@ -148,7 +148,7 @@ def _from_elsewhere(
     wide = in_wide_valley(problem, (), evidence, none.law, np.zeros(0))
     starts = [(stated, problem.as_stated), (wide.law, with_stated(problem, wide))]
     found = executor.each(_Elsewhere(problem, evidence, none).polished, starts)
-    return min([none, *found], key=lambda f: f.chi2)
+    return min([none, *found], key=by_chi2)
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from fitting.arrays import Array
 from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refit import AT_REST, refit
-from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.inference.refitted import Refitted, by_chi2
 from fitting.diagnosis.inference.wide_valley import with_stated
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.several.responses import response_of
@@ -43,11 +43,11 @@ def followed(
     if ways.usual(fitted) is not fitted.law:
         # Neither way needs to know of the other: two processes go one each.
         both = executor.together([(ways.on, fitted), (ways.from_usual, fitted)])
-        return min(both, key=lambda f: f.chi2)
+        return min(both, key=by_chi2)
     found = ways.on(fitted)
     if ways.usual(found) is found.law:
         return found
-    return min(found, ways.from_usual(found), key=lambda f: f.chi2)
+    return min(found, ways.from_usual(found), key=by_chi2)
 
 
 @dataclass(frozen=True)

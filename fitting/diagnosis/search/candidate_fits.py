@@ -26,7 +26,7 @@ from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.freer_law import as_free_as_asked
 from fitting.diagnosis.inference.marginal import cost
 from fitting.diagnosis.inference.refit import ROUGH, kept, refit
-from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.inference.refitted import Refitted, by_chi2
 from fitting.diagnosis.inference.usual_law import finished, followed, polished
 from fitting.diagnosis.inference.wide_valley import in_wide_valley, of_effects, whole, with_stated
 from fitting.diagnosis.problem.base import DiagnosisProblem
@@ -201,7 +201,7 @@ class CandidateFits:
 
         What two forms leave after some steps does not say which of them is the likelier in the end.
         """
-        each = [((name, k), min(c.near, key=_chi2)) for k, c in enumerate(self.candidates[name]) if c.near]
+        each = [((name, k), min(c.near, key=by_chi2)) for k, c in enumerate(self.candidates[name]) if c.near]
         best = _best_first(each)
         return [
             one
@@ -388,7 +388,3 @@ class CandidateFits:
 
 def _best_first(fits: list[tuple[A, Refitted]]) -> list[tuple[A, Refitted]]:
     return sorted(fits, key=lambda one: one[1].chi2)
-
-
-def _chi2(fitted: Refitted) -> float:
-    return fitted.chi2

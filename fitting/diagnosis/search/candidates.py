@@ -9,7 +9,7 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refit import ROUGH, refit
-from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.inference.refitted import Refitted, by_chi2
 from fitting.diagnosis.inference.usual_law import finished, within_search
 from fitting.diagnosis.inference.wide_valley import in_wide_valley, of_effects, with_stated
 from fitting.diagnosis.problem.base import DiagnosisProblem
@@ -120,7 +120,7 @@ class CandidateFit:
             promising += [s for s in self._one_a_form() if self._form(s[1]) not in heard]
             near = self._from([*promising, *self._decades_off(promising)])
             if self.effect.from_afar:
-                near = sorted([*near, *self.quick], key=_chi2)
+                near = sorted([*near, *self.quick], key=by_chi2)
             self._known.near = near
         return self._known.near
 
@@ -203,11 +203,11 @@ class CandidateFit:
 
     def _from(self, starts: Sequence[Start]) -> list[Refitted]:
         if not self._one:
-            return sorted((self.followed(start) for start in starts), key=_chi2)
+            return sorted((self.followed(start) for start in starts), key=by_chi2)
         found = list[Refitted]()
         for start in starts:
             found.append(self.followed(start, min((f.chi2 for f in found), default=np.inf)))
-        return sorted(found, key=_chi2)
+        return sorted(found, key=by_chi2)
 
     def followed(self, start: Start, rival: float = np.inf) -> Refitted:
         """A rough fit from one start, a few steps of it where little is promised and no more gained.
@@ -245,10 +245,10 @@ class CandidateFit:
         Of an effect with a place, from the best of the most promising ones.
         """
         if has_place(self.effect):
-            wide = min(self._wide_places(self._promising_places or [self._first_start]), key=_chi2)
+            wide = min(self._wide_places(self._promising_places or [self._first_start]), key=by_chi2)
         else:
             starts = [self._first_start, *self._promising_elsewhere]
-            wide = min((self._in_wide_valley(self._law, u) for u in starts), key=_chi2)
+            wide = min((self._in_wide_valley(self._law, u) for u in starts), key=by_chi2)
         u = with_stated(self.problem, wide)
         return [refit(self._response, self.evidence, wide.law, u, tolerance=ROUGH)]
 
@@ -264,7 +264,7 @@ class CandidateFit:
                 begun = self._wide_places(places)
             else:
                 begun = [f for u in self._promising_elsewhere for f in self._wide(u)]
-            self._known.far = sorted([*self.plain, *begun], key=_chi2)
+            self._known.far = sorted([*self.plain, *begun], key=by_chi2)
         return self._known.far
 
     @property
@@ -274,7 +274,7 @@ class CandidateFit:
     def _wide_places(self, starts: Sequence[Array]) -> list[Refitted]:
         """In wide valleys, what has come furthest from some starts after a few steps; (parameters,) each."""
         brief = (self._in_wide_valley(law, u, brief=True) for law in self._laws for u in starts)
-        going = sorted(brief, key=_chi2)[: STARTS.followed]
+        going = sorted(brief, key=by_chi2)[: STARTS.followed]
         return [in_wide_valley(self.problem, f.effects, self.evidence, f.law, of_effects(f)) for f in going]
 
     @property
@@ -287,7 +287,7 @@ class CandidateFit:
         return [u for _, u in self.starts[:1] if not np.array_equal(u, self._first_start)]
 
     def _wide(self, u: Array) -> list[Refitted]:
-        return sorted((self._in_wide_valley(law, u) for law in self._laws), key=_chi2)
+        return sorted((self._in_wide_valley(law, u) for law in self._laws), key=by_chi2)
 
     @property
     def _laws(self) -> tuple[CoreLaw, CoreLaw]:
@@ -308,10 +308,6 @@ class CandidateFit:
 def bent_as(law: CoreLaw, other: CoreLaw) -> CoreLaw:
     """Another law, as free to bend as one is."""
     return BentLaw.over(other, np.array(law.knots_hz), law.freedom) if isinstance(law, BentLaw) else other
-
-
-def _chi2(fitted: Refitted) -> float:
-    return fitted.chi2
 
 
 def is_over_decades(effect: Effect) -> bool:

@@ -13,7 +13,7 @@ from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.freer_law import RARE, freedom_of
 from fitting.diagnosis.inference.marginal import cost
 from fitting.diagnosis.inference.refit import refit
-from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.inference.refitted import Refitted, by_chi2
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.search.candidate_fits import CandidateFits
 from fitting.diagnosis.search.candidates import CandidateFit
@@ -68,10 +68,15 @@ class ScoredFit:
         return p if p < VERDICT.doubted else None
 
 
+def by_cost(scored: ScoredFit) -> float:
+    """Order of explanations: the likeliest comes first."""
+    return scored.cost
+
+
 def best_of_each(scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
     """The cheapest fit of each set of effects, best first."""
     best: dict[frozenset[str], ScoredFit] = {}
-    for scored in sorted(scored_fits, key=lambda t: t.cost):
+    for scored in sorted(scored_fits, key=by_cost):
         best.setdefault(frozenset(scored.names), scored)
     return list(best.values())
 
@@ -146,7 +151,7 @@ class Search:
 
     def temper_of(self, scored_fits: Sequence[ScoredFit]) -> float:
         """`temper` by the best of them, or by none."""
-        return self.temper(min([self.none, *scored_fits], key=lambda one: one.cost))
+        return self.temper(min([self.none, *scored_fits], key=by_cost))
 
     def temper(self, best: ScoredFit) -> float:
         """How much less a difference of costs says, where the best explains far more than noise."""
@@ -337,5 +342,5 @@ class Search:
             forms = effect.forms(self.problem.points, self.problem.plate)
             candidates = [CandidateFit(self.problem, self.evidence, fitted, form) for form in forms]
             fits = [c.finished(f) for c in candidates for f in [*c.near[:1], *c.far[:1]]]
-            fitted = min(fits, key=lambda f: f.chi2)
+            fitted = min(fits, key=by_chi2)
         return self.judged(fitted)

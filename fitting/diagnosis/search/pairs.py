@@ -6,9 +6,9 @@ from typing import TypeVar
 import numpy as np
 
 from fitting.diagnosis.executor import Call
-from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.inference.refitted import Refitted, by_chi2
 from fitting.diagnosis.search.candidate_fits import Form
-from fitting.diagnosis.search.catalogue_search import ScoredFit, Search, best_of_each
+from fitting.diagnosis.search.catalogue_search import ScoredFit, Search, best_of_each, by_cost
 from fitting.diagnosis.search.looks import Start, has_place
 from fitting.diagnosis.thresholds import PAIRS, SEARCH, STOPPING, WIDE_VALLEYS
 from fitting.effects.base import Effect
@@ -38,13 +38,13 @@ class Pairs:
         report(0.9)
         if not found:
             return []
-        pair = min(found, key=_cost)
+        pair = min(found, key=by_cost)
         alone = search.alone(pair)
         # One of the two was only to be found: what may be beside it is asked there.
         led = any(search.suffices(t) and t.cost < pair.cost for t in alone)
         if pair.cost < singles[0].cost and not led:
             found += self._improved(found)
-            last = min(found, key=_cost)
+            last = min(found, key=by_cost)
             alone += search.alone(last) if last is not pair else []
         return best_of_each([*found, *alone])
 
@@ -56,12 +56,12 @@ class Pairs:
         full = [(t.fitted, form, starts, np.inf) for t, form, starts in chosen]
         begun = each(work.near, full, lambda x: report(0.4 + 0.2 * x))
         rough = _longest_first([f for f in begun if f is not None])
-        best = search.judged(min(rough, key=_chi2)) if rough and wide else None
+        best = search.judged(min(rough, key=by_chi2)) if rough and wide else None
         if best:
             rough = [f for f in rough if f.chi2 < STOPPING.rough_chi2_factor * best.fitted.chi2]
         goals = [self._goal(best, f.effects) if best else np.inf for f in rough]
         fits = each(work.ended, list(zip(rough, goals, strict=True)), lambda x: report(0.6 + 0.2 * x))
-        found = sorted((search.judged(f) for f in fits), key=_cost)
+        found = sorted((search.judged(f) for f in fits), key=by_cost)
         if wide and found and not self._will_do([*singles[:1], *found]):
             # The best may only have begun from the wrong place, or not have looked promising.
             plain = [t for t in singles if _plainly(t)]
@@ -142,7 +142,7 @@ class Pairs:
     def _most_left(self, known: Sequence[ScoredFit]) -> float:
         """Chi-square that a pair may leave in its wide valley: twice what the best so far leave, or noise."""
         work = self._search.work
-        plain = sorted((t for t in known if len(_plainly(t)) == len(t.names)), key=_cost)
+        plain = sorted((t for t in known if len(_plainly(t)) == len(t.names)), key=by_cost)
         best = [t.fitted for t in plain[: WIDE_VALLEYS.measured]]
         left = self._search.executor.each(work.left_in_wide_valley, best)
         return WIDE_VALLEYS.times_least_left * max(work.noise_in_wide_valleys, min(left, default=np.inf))
@@ -193,9 +193,9 @@ class Pairs:
         able = [fits for fits in each(work.begun_wide, tasks) if fits[0].chi2 < WIDE_VALLEYS.falls_by * most]
         begun = sorted(able, key=lambda fits: fits[0].chi2)
         wide = each(work.wide, [f for fits in _with_a_say(begun) for f in fits])
-        brief = sorted(each(work.briefly, [f for f in wide if f.chi2 < most]), key=_chi2)
-        rough = sorted(each(work.roughly, brief[: WIDE_VALLEYS.read]), key=_chi2)
-        best = min([*leaders, *pairs], key=_cost)
+        brief = sorted(each(work.briefly, [f for f in wide if f.chi2 < most]), key=by_chi2)
+        rough = sorted(each(work.roughly, brief[: WIDE_VALLEYS.read]), key=by_chi2)
+        best = min([*leaders, *pairs], key=by_cost)
         left = _longest_first(rough[: PAIRS.fitted_a_leader])
         ended = each(work.ended, [(f, self._goal(best, f.effects)) for f in left])
         return [search.judged(f) for f in ended]
@@ -218,12 +218,12 @@ class Pairs:
                 simplified.add(frozenset(pair.names))
                 new += self._search.simpler([pair])
             # One that a winding valley leads to would be dismissed on its way.
-            found += self._search.at_rest(new, min([pair, *new], key=_cost))
+            found += self._search.at_rest(new, min([pair, *new], key=by_cost))
         return found
 
     def _next(self, pairs: Sequence[ScoredFit], kept: set[str]) -> ScoredFit | None:
         """The best pair that has an effect which was not kept so far, if it is near the best of all."""
-        plain = [t for t in sorted(pairs, key=_cost) if len(_plainly(t)) == 2]
+        plain = [t for t in sorted(pairs, key=by_cost) if len(_plainly(t)) == 2]
         if not plain:
             return None
         best = next((t for t in plain if not t.fails), plain[0])
@@ -278,14 +278,6 @@ def _most_beside(fitted: Refitted, best: Refitted, promised: float) -> float:
 def _longest_first(rough: Sequence[Refitted]) -> list[Refitted]:
     """Rough fits in the order in which they are best followed: hands then end at the same time."""
     return sorted(rough, key=lambda f: (f.converged, -sum(has_place(e) for e in f.effects)))
-
-
-def _cost(scored: ScoredFit) -> float:
-    return scored.cost
-
-
-def _chi2(fitted: Refitted) -> float:
-    return fitted.chi2
 
 
 def _plainly(scored: ScoredFit) -> list[str]:

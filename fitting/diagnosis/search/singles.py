@@ -4,10 +4,10 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.inference.refitted import Refitted, by_chi2
 from fitting.diagnosis.search.candidate_fits import FirstLook, Form
 from fitting.diagnosis.search.candidates import Known, is_over_decades
-from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
+from fitting.diagnosis.search.catalogue_search import ScoredFit, Search, by_cost
 from fitting.diagnosis.search.looks import Start, has_place
 from fitting.diagnosis.thresholds import SEARCH, STARTS, STOPPING, VERDICT
 from fitting.numerics.chances import chi2_above
@@ -72,7 +72,7 @@ class Singles:
         for (form, *_), fitted in zip(asked, self._followed(asked), strict=True):
             found.setdefault(form, []).append(fitted)
         for (name, number), fits in found.items():
-            work.candidates[name][number].learn(Known(elsewhere=sorted(fits, key=lambda f: f.chi2)))
+            work.candidates[name][number].learn(Known(elsewhere=sorted(fits, key=by_chi2)))
         if astray:
             self._look_far(names)
 
@@ -197,7 +197,7 @@ class Singles:
             self._keep(begun.fits)
 
     def _order(self) -> list[ScoredFit]:
-        return sorted(self._found.values(), key=lambda t: t.cost)
+        return sorted(self._found.values(), key=by_cost)
 
     def _near(self, scored: ScoredFit) -> list[tuple[tuple[str, int], Refitted]]:
         return self._work.best_near(scored.names[0])

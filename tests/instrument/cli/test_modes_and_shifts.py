@@ -157,7 +157,7 @@ def found(monkeypatch):
     asked, told = [], []
 
     def make(simple=True, softens=True):
-        verdict = Verdict(simple, 0.4, 1.2, 30.0, "one law serves" if simple else "no one law serves")
+        verdict = Verdict(simple, 0.4, 1.2, "one law serves" if simple else "no one law serves")
 
         def identify(sweeps, specimens, kind, reference_c, progress, *, vertical, hammer, temperature_k):
             asked.append(([s.name for s in sweeps], kind, reference_c, vertical, hammer))

@@ -50,6 +50,6 @@ def test_half_power_is_marked_where_the_response_is_down_by_3_db(found):
     mode = found.modes[1]
     fine = found.fine[mode.channel]
     marks = half_power_at(fine, mode)
-    assert marks.low_hz < marks.peak_hz < marks.high_hz
+    assert marks.low_hz < mode.frequency_hz < marks.high_hz
     peak = np.abs(fine.between(marks.low_hz, marks.high_hz).H).max()
     assert marks.level == pytest.approx(peak / np.sqrt(2), rel=0.02)

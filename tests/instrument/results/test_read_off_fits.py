@@ -82,7 +82,7 @@ def test_causality_is_said_with_its_sentence_where_it_could_be_judged():
 def at_temperatures(*, vertical=False, cause=None):
     _, fit, each = fitted(shifted((1.1, 1.0, 0.95)) if vertical else shifted(), vertical=vertical)
     band = LawBand(*(np.array([50.0, 4000.0]) for _ in range(5)))
-    verdict = Verdict(True, 0.4, 1.2, 30.0, "simple")
+    verdict = Verdict(True, 0.4, 1.2, "simple")
     sweeps = [AtTemperature(b.problem.sweep, t, f"{t:g}.csv") for b, t in zip(each, T.tolist(), strict=True)]
     found = Shifted(fit, verdict, band, alone(each), cause, 2.0)
     return fit, shifted_from(found, sweeps)
