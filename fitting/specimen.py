@@ -66,7 +66,7 @@ class StatedSpecimen(Protocol):
 
     @property
     def tolerances(self) -> Mapping[str, float]:
-        """As named (`fitting.stated.tolerances`)."""
+        """Stated tolerances by the names of `fitting.stated.tolerances`."""
 
     @property
     def exact(self) -> bool:
@@ -102,7 +102,7 @@ class Driven:
 
     @property
     def drive(self) -> Drive:
-        """What moves it."""
+        """What moves the specimen: its base, or a force at a point."""
         return "base" if self.force_m is None else "force"
 
     @property

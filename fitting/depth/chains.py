@@ -11,7 +11,7 @@ from fitting.arrays import Array
 
 
 def r_hat(chains: Array) -> float:
-    """Of one quantity. Shape (chains, steps)."""
+    """How far the chains of one quantity are from agreeing: 1 where they do. Shape (chains, steps)."""
     # Loaded where it is needed, as in data/hum.py: a sixth of the start of every process.
     from scipy.stats import rankdata
 

@@ -83,7 +83,10 @@ class ManyResiduals:
         return np.asarray((1 + by("gain")) * np.exp(1j * (by("phase") - omega * by("delay"))))
 
     def velocity(self, X: Array) -> Complex:
-        """As read. Shapes (any, kept) to (any, points)."""
+        """Velocities as the sweep reads them, of many sets of unknowns.
+
+        Shapes (any, kept) to (any, points).
+        """
         whole, G, off = self._moved(X)
         x = self._plate.displacement(G + off @ self._stated[0]) + off @ self._stated[1]
         return self._read(x, whole)

@@ -24,7 +24,7 @@ class MarginalLaw:
 
     @property
     def task(self) -> DepthTask:
-        """The joint fit."""
+        """The joint fit that is marginalised."""
         return self.many.task
 
     @cached_property

@@ -56,7 +56,7 @@ class DepthTask:
 
     @cached_property
     def limits(self) -> tuple[Array, Array]:
-        """Of what may move. Shape (kept,) each."""
+        """Least and largest values of the unknowns that may move. Shape (kept,) each."""
         low, high = self.problem.limits
         return low[self.kept], high[self.kept]
 

@@ -47,7 +47,7 @@ class HalfPlate:
 
     @cached_property
     def K_0(self) -> Array | Complex:
-        """The faces' stiffness. Shape (values,)."""
+        """Stiffness of the faces on this half's motions. Shape (values,)."""
         return self.blocks(self.plate.K_0)
 
     @cached_property

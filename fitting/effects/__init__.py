@@ -43,7 +43,7 @@ def _claim(effect: Effect) -> None:
 
 
 def spans_of(effect: Effect) -> list[Span]:
-    """Of all its variants."""
+    """The spans that an effect needs, of all its variants."""
     return [span for variant in effect.variants() for span in variant.spans]
 
 

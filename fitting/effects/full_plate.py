@@ -61,12 +61,12 @@ class FullPlate:
 
     @property
     def elements(self) -> Assembly:
-        """Of the loose plate."""
+        """The elements of the loose plate, for products with their matrices."""
         return self.once("elements", lambda: Assembly(self.loose))
 
     @property
     def specimen(self) -> Specimen:
-        """As stated."""
+        """The plate as its file states it."""
         return self.held.specimen
 
     @cached_property
@@ -129,7 +129,7 @@ class FullPlate:
 
     @property
     def pickup_m(self) -> tuple[float, float]:
-        """Of the specimen."""
+        """Where the specimen is read, in m."""
         assert self.specimen.pickup_m is not None
         return self.specimen.pickup_m
 

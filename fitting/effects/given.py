@@ -96,4 +96,4 @@ class BarePlateModes(Protocol):
 
     @property
     def substrate(self) -> Face:
-        """As stated."""
+        """The substrate as its file states it."""

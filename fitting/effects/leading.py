@@ -28,7 +28,7 @@ class Motions:
         self.groups: dict[str, Array] = {}
 
     def of(self, motions: Array) -> Array:
-        """The part of these. Shape (half, any)."""
+        """The part of some motions that belongs to this half. Shape (half, any)."""
         return np.asarray(self.half.down @ motions)
 
     def stirred(self, responses: Sequence[Complex]) -> list[Stirred]:

@@ -59,7 +59,10 @@ def rim_forces(full: FullPlate, at: Snapshot, released: Released) -> Complex:
 
 
 def released_rim(full: FullPlate, at: Snapshot, released: Released, answers: Complex) -> ReleasedRoot:
-    """The rim released. `answers` are those of the held plate to `rim_forces`. Shape (n, any)."""
+    """The reduced rim of a plate whose edge is released there.
+
+    `answers` are those of the held plate to `rim_forces`. Shape (n, any).
+    """
     E = _moved(full, released)
     follow, held = answers[:, : E.shape[1]], answers[:, E.shape[1] :]
     T = E - follow

@@ -70,7 +70,7 @@ class TetherEffect(Effect):
 
 
 class TetherOfBeamEffect(AlongABeam, TetherEffect):
-    """Of a beam."""
+    """A tether that is fastened to a beam."""
 
     parameters = TetherEffect.parameters[:3]
     spans = ()

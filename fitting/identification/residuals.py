@@ -27,7 +27,7 @@ class Residuals:
 
     @property
     def weights(self) -> Array:
-        """Of every residual. Shape (count,)."""
+        """Relative weight of every residual, as the sweep states it for its points. Shape (count,)."""
         return self.readings.each(self.weight)
 
     @property

@@ -28,7 +28,7 @@ class Uncertainty:
 
     @property
     def standard_errors(self) -> Array:
-        """Of the log parameters. Shape (parameters,)."""
+        """Standard errors of the log parameters. Shape (parameters,)."""
         return np.sqrt(np.diag(self.covariance))
 
     @property

@@ -65,7 +65,7 @@ class Member:
 
     @property
     def kappa(self) -> Array:
-        """Of ln eta. Shape (modes,)."""
+        """Factor on ln eta by which it is as uncertain as ln f. Shape (modes,)."""
         f, eta = self.std
         return np.asarray(f / eta)
 

@@ -37,7 +37,7 @@ _RIGID = 1e-6
 
 @dataclass(frozen=True)
 class ModalMatrices:
-    """Of one equation. Shape (k, k) each."""
+    """The matrices of one specimen's equation of motion. Shape (k, k) each."""
 
     K_0: Complex
     K_1: Array

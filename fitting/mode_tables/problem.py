@@ -69,7 +69,7 @@ class ModalProblem:
 
     @property
     def frequency_hz(self) -> Array:
-        """Of all modes. Shape (modes,)."""
+        """Frequencies of the modes of all members, one member after another. Shape (modes,)."""
         return np.concatenate([m.table.frequency_hz for m in self.members])
 
     @property

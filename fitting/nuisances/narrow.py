@@ -56,7 +56,7 @@ class NarrowResonances:
 
     @property
     def numbers(self) -> tuple[Nuisance, ...]:
-        """Of the fit."""
+        """The unknowns that they add to a fit."""
         if not self.each:
             return ()
         return (*(number for one in self.each for number in one.numbers), Nuisance(THEORY, THEORY, 1.0, 0.0))
@@ -72,7 +72,10 @@ class NarrowResonances:
         return found
 
     def stiffer(self, z: Array) -> Complex:
-        """The kappa of each. Shape (resonances,), of its `numbers` (numbers,)."""
+        """By what share kappa each resonance is stiffer than the model has it.
+
+        Shape (resonances,), of its `numbers` (numbers,).
+        """
         return np.asarray(np.exp(z @ self.steps) - 1)
 
     def by(self, z: Array) -> Complex:

@@ -29,7 +29,7 @@ class Nuisance:
 
     @property
     def unit(self) -> Unit:
-        """Of `sigma`."""
+        """The unit of `sigma`."""
         return NUMBERS[self.kind].unit
 
 

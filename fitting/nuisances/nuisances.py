@@ -47,7 +47,10 @@ def nuisances_of(
 
 @dataclass(frozen=True)
 class Nuisances:
-    """Of one specimen. `z` has shape (count,) throughout, in standard deviations."""
+    """The stated numbers of one specimen that a fit may move, and what they change.
+
+    `z` has shape (count,) throughout, in standard deviations.
+    """
 
     specimen: Specimen
     each: tuple[Nuisance, ...] = ()

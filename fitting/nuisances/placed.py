@@ -19,7 +19,10 @@ Placed = list[tuple[float, dict[int, float]]]
 
 @dataclass(frozen=True)
 class PlacedPoints:
-    """Of a specimen. `z` has shape (numbers,), in standard deviations."""
+    """The points of a specimen whose places are stated numbers of a fit.
+
+    `z` has shape (numbers,), in standard deviations.
+    """
 
     specimen: Specimen
     reference: Specimen

@@ -36,7 +36,7 @@ class ReadingNoise:
     """Of the reading, each part: what repeats do not agree in."""
 
     def std_m_s(self, velocity_m_s: Complex | Array, dwell_s: Array) -> Array:
-        """Of each part. Shape (points,)."""
+        """Standard deviation of each part of a reading. Shape (points,)."""
         return np.asarray(
             np.hypot(self.floor_m_s / np.sqrt(dwell_s), self.share * np.abs(velocity_m_s)), dtype=float
         )

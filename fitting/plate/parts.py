@@ -94,7 +94,7 @@ def names_of(specimen: Specimen) -> Names:
 
 @dataclass(frozen=True)
 class Coefficients:
-    """Of one specimen. Shapes as `names_of` has them."""
+    """What one specimen's stated numbers make of the parts of its matrices. Shapes as `names_of` has them."""
 
     K_0: NDArray[np.complex128]
     K_1: Array

@@ -100,7 +100,7 @@ class Moving(Protocol):
 
     @property
     def K_1(self) -> Array:
-        """By the core's modulus."""
+        """Stiffness that goes with the core's modulus."""
 
     @property
     def M(self) -> Array:

@@ -87,7 +87,10 @@ def as_isotropic(face: Face) -> Face:
 
 @dataclass(frozen=True)
 class Core:
-    """The viscoelastic layer. Its law gives G*(omega) and is where identification starts."""
+    """The viscoelastic layer between the faces.
+
+    Its law gives G*(omega) and is where identification starts.
+    """
 
     thickness_m: float
     poisson: float

@@ -54,7 +54,7 @@ class Shift:
 
     @property
     def name(self) -> str:
-        """As results list it."""
+        """Its name in lists of results."""
         return f"{self.kind}_{self.patch + 1}_{'xy'[self.axis]}"
 
     def of(

@@ -31,7 +31,7 @@ def bending_stiffness(mode: int, frequency_hz: float, mass_kg_m: float, length_m
 
 
 def mass_per_length(beam: Beam) -> float:
-    """Of all layers, kg/m."""
+    """Mass per length of all layers of a beam, kg/m."""
     sides = 2 if beam.both_sides else 1
     core = sides * beam.core.thickness_m * beam.core.density_kg_m3 if beam.core is not None else 0.0
     faces = sum(

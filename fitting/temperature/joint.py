@@ -60,12 +60,12 @@ class TemperatureProblem:
 
     @property
     def points(self) -> tuple[int, ...]:
-        """Of each member."""
+        """How many points each member has."""
         return self.joined.lengths
 
     @property
     def bands_hz(self) -> list[tuple[float, float]]:
-        """Of each member."""
+        """Lowest and highest frequency of each member."""
         return self.joined.bands_hz
 
     def near(self, laws: Sequence[CoreLaw]) -> "TemperatureProblem":
@@ -98,7 +98,10 @@ class TemperatureProblem:
         return OneLaw(law, shift, tuple(shift.positive(p).tolist()), self.points, b, as_stated)
 
     def fitted(self, law: CoreLaw, z: Array, effects: Sequence[Effect] = ()) -> Refitted:
-        """The best from here. `z` of shape (unknowns,): the stated numbers, then those of the effects."""
+        """The best fit that is found from a law and its unknowns.
+
+        `z` of shape (unknowns,): the stated numbers, then those of the effects.
+        """
         response = self.joined.around(law).response(effects)
         for _ in range(_ROUNDS):
             found = refit(response, self.evidence, law, z)

@@ -170,7 +170,7 @@ class OwnLaws(MemberLaws):
 
     @property
     def bend_count(self) -> int:
-        """Of all of them."""
+        """Number of coefficients by which all the laws may bend."""
         return sum(law.bend_count for law in self.laws)
 
     def _places(self) -> list[tuple[NDArray[np.intp], NDArray[np.intp]]]:
@@ -226,7 +226,7 @@ class OwnLaws(MemberLaws):
         return replace(self, laws=tuple(laws))
 
     def at(self, member: int) -> CoreLaw:
-        """Of one sweep."""
+        """The law of one sweep."""
         return self.laws[member]
 
     def chain(self, member: int) -> Array:

@@ -43,7 +43,7 @@ class ShiftedFit:
 
     @property
     def parameters(self) -> Array:
-        """Of the shift. Shape (parameters,)."""
+        """Parameters of the temperature shift. Shape (parameters,)."""
         return self.joint.parameters
 
     @cached_property

@@ -46,7 +46,7 @@ class AloneSweep:
 
     @property
     def frequency_hz(self) -> Array:
-        """Of its points. Shape (points,)."""
+        """Frequencies of the sweep's points. Shape (points,)."""
         return self.begun.problem.sweep.frequency_hz
 
     def leading(self, effects: Sequence[Effect], executor: Executor) -> list[Effect]:
@@ -92,13 +92,13 @@ class Sweeps:
 
     @property
     def bands_hz(self) -> list[tuple[float, float]]:
-        """Of each sweep."""
+        """Lowest and highest frequency of each sweep."""
         f = [m.sweep.frequency_hz for m in self.problem.members]
         return [(float(one.min()), float(one.max())) for one in f]
 
     @property
     def exact(self) -> bool:
-        """Of all specimens alike."""
+        """Whether everything stated of the specimens, which are alike, is exact."""
         return self.problem.specimen.exact
 
     @property
@@ -118,7 +118,7 @@ class Sweeps:
 
     @property
     def plate(self) -> EnrichedReducedPlate:
-        """Of the first sweep."""
+        """The reduced plate of the first sweep."""
         return self.problem.plate
 
     def around(self, law: CoreLaw) -> Self:

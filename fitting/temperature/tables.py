@@ -46,7 +46,7 @@ class AloneTable:
 
     @property
     def frequency_hz(self) -> Array:
-        """Of its modes. Shape (modes,)."""
+        """Frequencies of the table's modes. Shape (modes,)."""
         return self.begun.problem.frequency_hz
 
     def leading(self, effects: Sequence[Effect], executor: Executor) -> list[Effect]:
@@ -128,7 +128,7 @@ class Tables:
 
     @property
     def exact(self) -> bool:
-        """Of all specimens."""
+        """Whether everything stated of all specimens is exact."""
         return all(m.specimen.exact for m in self.problem.members)
 
     @property
@@ -177,7 +177,7 @@ class Tables:
 
     @property
     def plate(self) -> EnrichedReducedPlate:
-        """Of the first member."""
+        """The reduced plate of the first member."""
         return self.problem.members[0].wide
 
     def around(self, law: CoreLaw) -> Self:

@@ -120,7 +120,7 @@ class Evidence:
 
     @property
     def measured_m_s(self) -> Complex | Array:
-        """What was read. Shape (points,)."""
+        """The readings: phasors, or amplitudes where no phase is known. Shape (points,)."""
         return self.readings.measured_m_s
 
     @property

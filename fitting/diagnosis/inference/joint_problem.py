@@ -102,7 +102,7 @@ class JointProblem:
         return self._at(x).r
 
     def jacobian(self, x: Array) -> Array:
-        """Of `residuals`. Shape (residuals, unknowns)."""
+        """Derivatives of `residuals` to the unknowns. Shape (residuals, unknowns)."""
         at = self._at(x)
         if self._with_slopes is None or self._with_slopes[0] is not at:
             J = self._jacobian(at.law, at.u, *self.response.with_derivatives(at.law, at.u))

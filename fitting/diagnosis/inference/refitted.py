@@ -57,7 +57,7 @@ class Refitted:
 
     @property
     def chi2_per_dof(self) -> float:
-        """Of the sweep alone."""
+        """Chi-square per degree of freedom, of the sweep's data alone."""
         dof = self.data - self.parameter_count
         return float(np.sum(self.residuals[: self.data] ** 2) / dof) if dof > 0 else float("nan")
 

@@ -38,7 +38,7 @@ class Asked:
 
     @cached_property
     def matrices(self) -> Matrices:
-        """As changed."""
+        """The plate's matrices with everything that is changed of them."""
         plate, change = self.plate, self.change
         C_1 = plate.viscous(change.damping) + change.C
         return stacked(plate.K_0 + change.K, plate.K_1 + change.K_1, plate.M + change.M, C_1)

@@ -12,7 +12,10 @@ _SMALL = 1e-6
 
 
 class Channels:
-    """Of a problem. `u` has shape (unknowns,), velocities (points,) where nothing else is said."""
+    """What the channels make of a problem's velocities.
+
+    `u` has shape (unknowns,), velocities (points,) where nothing else is said.
+    """
 
     def __init__(self, problem: DiagnosisProblem, unknowns: Unknowns) -> None:
         self._problem, self._unknowns = problem, unknowns

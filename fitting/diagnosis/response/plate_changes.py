@@ -11,7 +11,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 
 class PlateChanges:
-    """Of one problem's `plate`. `u` has shape (unknowns,)."""
+    """What stated numbers and effects change of one problem's `plate`. `u` has shape (unknowns,)."""
 
     def __init__(self, problem: DiagnosisProblem, unknowns: Unknowns, plate: EnrichedReducedPlate) -> None:
         self.plate, self._unknowns, self._nuisances = plate, unknowns, problem.nuisances

@@ -176,7 +176,7 @@ class CandidateFit:
 
     @property
     def further_starts(self) -> Sequence[Start]:
-        """What `elsewhere` begins from."""
+        """The starts that the fits of `elsewhere` begin from."""
         return self.starts[self._first : self._first + self._more]
 
     @property

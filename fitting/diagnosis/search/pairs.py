@@ -23,7 +23,7 @@ _LOOKED_AT = 6
 
 
 class Pairs:
-    """Of one search."""
+    """The pairs of effects that one search tries."""
 
     def __init__(self, search: Search) -> None:
         self._search = search

@@ -15,7 +15,7 @@ from fitting.progress import Report, unheard
 
 
 class Singles:
-    """Of one search."""
+    """The single effects that one search tries."""
 
     def __init__(self, search: Search, report: Report) -> None:
         self._search, self._work, self._report = search, search.work, report

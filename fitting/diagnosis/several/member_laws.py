@@ -13,7 +13,7 @@ class MemberLaws(CoreLaw):
     """What a `SeveralProblem` is fitted with where its members do not share one law."""
 
     def at(self, member: int) -> CoreLaw:
-        """Of one member."""
+        """The law that holds for one member."""
         raise NotImplementedError
 
     def chain(self, member: int) -> Array:

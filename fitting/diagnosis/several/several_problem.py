@@ -131,7 +131,7 @@ class SeveralProblem(DiagnosisProblem):
 
     @property
     def resonances(self) -> Complex:
-        """Of all members. Shape (poles,)."""
+        """Poles of all members, one member after another. Shape (poles,)."""
         return np.concatenate([m.resonances for m in self.members])
 
     @property

@@ -28,7 +28,10 @@ class Wandering:
         return np.asarray(self.common_slow**2 * np.exp(-d / SLOW) + self.common_fine**2 * np.exp(-d / FINE))
 
     def covariance(self, t: Array, file: NDArray[np.intp]) -> Array:
-        """Of all. Shapes (points,) to (points, points)."""
+        """Covariance at all points, of what is common and of what each file has by itself.
+
+        Shapes (points,) to (points, points).
+        """
         own = Wandering(self.own_slow, self.own_fine, 0.0, 0.0).common(t, t)
         return np.asarray(self.common(t, t) + own * (file[:, None] == file))
 

@@ -71,7 +71,7 @@ _TINY = 1e-12
 
 @dataclass(frozen=True, eq=False)
 class Kin:
-    """Of one explanation."""
+    """The kin of one explanation, and how likely it is."""
 
     odds: float
     """Over the explanation itself, chances counted in."""

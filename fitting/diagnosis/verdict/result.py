@@ -60,7 +60,7 @@ class Candidate:
 
     @property
     def name(self) -> str:
-        """Of the explanation."""
+        """Name of the explanation: its effects joined, or none."""
         return joined(e.name for e in self.effects)
 
 
@@ -112,7 +112,7 @@ class Rivals:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the explanations."""
+        """Names of the explanations that are left."""
         return tuple(name_of(f) for f, _ in self.each)
 
 
@@ -123,7 +123,7 @@ def name_of(fitted: Refitted) -> str:
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """The whole answer."""
+    """A diagnosis as it is reported: verdict, effects, fits and candidates."""
 
     verdict: Verdict
     effects: tuple[FoundEffect, ...]
