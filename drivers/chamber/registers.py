@@ -61,7 +61,10 @@ class TemperatureRegisters:
 
 
 def refuse_senseless(temperature_c: float, came: str) -> float:
-    """The temperature again. Raises `Garbled` for one that cannot be; `came` is what the device said."""
+    """The temperature again, if a chamber can have it.
+
+    Raises `Garbled` for one that cannot be; `came` is what the device said.
+    """
     low, high = RANGE_C
     if not low <= temperature_c <= high:
         raise Garbled(f"{came}: a temperature of {low:g} to {high:g} °C expected: is the sensor broken?")

@@ -41,7 +41,7 @@ _HEADER_LENGTH = 20
 
 
 class MessageType(IntEnum):
-    """Of the header."""
+    """Kinds of messages, as a message's header numbers them."""
 
     DATA = 1
     QUALITY = 2
@@ -49,7 +49,7 @@ class MessageType(IntEnum):
 
 
 class Flags(IntFlag):
-    """Of a quality message."""
+    """Bits of a quality message."""
 
     NONE = 0
     UNKNOWN = 1
@@ -62,7 +62,7 @@ class Flags(IntFlag):
 
 
 class DescriptorType(IntEnum):
-    """Of an interpretation message."""
+    """Numbers of what an interpretation message describes."""
 
     DATA_TYPE = 1
     SCALE_FACTOR = 2
@@ -157,7 +157,7 @@ class Decoder:
         self._buffer = bytearray()
 
     def feed(self, received: bytes) -> list[Message]:
-        """The messages now complete. Raises `Garbled`."""
+        """Take in received bytes: the messages that are now complete. Raises `Garbled`."""
         self._buffer += received
         messages: list[Message] = []
         done = 0

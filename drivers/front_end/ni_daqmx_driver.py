@@ -20,7 +20,7 @@ class NiDaqmxDriver(FrontEndDriver[NiDaqmxOptions]):
     options = NiDaqmxOptions
 
     def open(self, options: NiDaqmxOptions) -> FrontEnd:
-        """By its name."""
+        """Open the device by its name."""
         from drivers.front_end.ni_daqmx import NiDaqmxFrontEnd
 
         return NiDaqmxFrontEnd(options.address)

@@ -70,7 +70,7 @@ class Shaker(Protocol):
         ...
 
     def beat(self) -> None:
-        """The heartbeat. Without one within the device's time-out it goes silent by itself."""
+        """Send the heartbeat. Without one within the device's time-out it goes silent by itself."""
         ...
 
     def set_heartbeat_timeout_s(self, timeout_s: float) -> None:

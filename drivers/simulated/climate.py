@@ -33,7 +33,7 @@ class Climate:
 
     @property
     def set_point_c(self) -> float:
-        """The last one."""
+        """The last temperature that was asked for."""
         return self._pieces[-1].set_point_c
 
     def go_to(self, now_s: float, set_point_c: float) -> None:

@@ -54,7 +54,7 @@ class Source(Protocol):
         ...
 
     def acquire(self, samples: int) -> Acquired:
-        """The next samples."""
+        """The next samples of every input."""
         ...
 
     def stop(self) -> None:

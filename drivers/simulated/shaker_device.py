@@ -129,7 +129,7 @@ class ShakerDevice:
         self._heartbeat_timeout_s = timeout_s
 
     def status(self, now_s: float, wall_s: float | None = None) -> ShakerStatus:
-        """As of this moment."""
+        """What the device reports at this moment."""
         self.advance(now_s, wall_s)
         return ShakerStatus(
             running=self._running,
@@ -200,7 +200,7 @@ class ShakerDevice:
         self._silence(self._sine.amplitude_at(now_s) / STOP_RAMP_S, now_s, wall_s)
 
     def beat(self, wall_s: float) -> None:
-        """The program lives."""
+        """Take note of a heartbeat: the program is alive."""
         self._last_beat_s = wall_s
         self._beaten_since_alarm = True
 

@@ -51,7 +51,7 @@ class DeviceRegisters:
         return [RegisterBlock(r.address, r.width, r.writable) for r in self._registers]
 
     def watch(self) -> None:
-        """The heartbeat."""
+        """Have the device see whether the heartbeat still comes."""
         self._device.check_heartbeat(self._wall(), self._clock()[1])
 
     def words(self) -> dict[int, int]:

@@ -46,7 +46,7 @@ class Head:
 
     @property
     def range(self) -> Range:
-        """The one in use."""
+        """The measuring range that is set."""
         return MODELS[self.model].range_named(self.range_name)
 
     def signal_delay_s(self) -> float | None:

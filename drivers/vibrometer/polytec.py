@@ -71,7 +71,7 @@ def put(device: str, index: int, item: str, value: str) -> PolytecCommand:
 
 
 def encode(command: PolytecCommand) -> bytes:
-    """The line as sent."""
+    """A command as the line that is sent."""
     return f"{command}\r\n".encode("ascii")
 
 

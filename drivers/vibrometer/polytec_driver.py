@@ -20,7 +20,7 @@ class PolytecOptions(VibrometerOptions):
 
     @property
     def model_name(self) -> str:
-        """As in `drivers.vibrometer.models`."""
+        """The model as the tables of models name it."""
         return self.model
 
 
@@ -30,7 +30,7 @@ class PolytecDriver(VibrometerDriver[PolytecOptions]):
     options = PolytecOptions
 
     def ranges(self, options: PolytecOptions) -> tuple[Range, ...]:
-        """Of the model."""
+        """Measuring ranges of the chosen model."""
         return model_named(options.model).ranges
 
     def open(self, options: PolytecOptions) -> Vibrometer:

@@ -165,7 +165,7 @@ class ByHand:
 
 @dataclass(frozen=True)
 class Effects:
-    """What is present. Fields are named as a diagnosis names the effects."""
+    """Effects that are present on a simulated specimen. Fields are named as a diagnosis names the effects."""
 
     clamp_compliance: ClampCompliance | None = None
     clamp_friction: ClampFriction | None = None

@@ -27,7 +27,7 @@ class Sheet:
 
 
 class LayeredSolid:
-    """The unreduced model."""
+    """A layered solid with all its degrees of freedom, before it is reduced."""
 
     def __init__(
         self, sheets: Sequence[Sheet], x: Line, y: Line, *, order: int = 2, times: float = 1.0

@@ -117,7 +117,7 @@ class Motion:
 
     @property
     def system(self) -> Diagonal:
-        """As it is now."""
+        """The system that moves now."""
         return self._stretches[-1].system
 
     def drive(self, piece: DrivePiece) -> None:

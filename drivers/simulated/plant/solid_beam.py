@@ -31,7 +31,7 @@ _GONE = 1e-5
 
 @dataclass(frozen=True)
 class BeamStated:
-    """What the beam is."""
+    """Size, ends and layers of a beam that is built as a solid."""
 
     length_m: float
     """Free length; of both halves where it is driven in its centre."""
@@ -91,7 +91,7 @@ class BeamBuild:
 
 
 class SolidBeam(LayeredSolid):
-    """The unreduced model."""
+    """A beam as a solid with all its degrees of freedom, before it is reduced."""
 
     def __init__(self, stated: BeamStated, pieces: int = PIECES, build: BeamBuild | None = None) -> None:
         self.stated, self.build = stated, build or BeamBuild()

@@ -21,7 +21,7 @@ POISSON = 0.499
 
 @dataclass(frozen=True)
 class PairStated:
-    """What the pair is."""
+    """Mass and discs of a shear pair that is built as a solid."""
 
     mass_kg: float
     discs: int
@@ -34,7 +34,7 @@ class PairStated:
 
     @property
     def volume_m3(self) -> float:
-        """Of all discs."""
+        """Volume of all discs together."""
         return self.discs * float(np.pi / 4) * (self.outer_m**2 - self.inner_m**2) * self.thickness_m
 
 

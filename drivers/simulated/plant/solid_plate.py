@@ -42,7 +42,7 @@ class PlateStated:
 
 
 class SolidPlate(LayeredSolid):
-    """The unreduced model."""
+    """A plate as a solid with all its degrees of freedom, before it is reduced."""
 
     def __init__(
         self, stated: PlateStated, pieces: tuple[int, int] = PIECES, loose: PartialDebond | None = None
