@@ -42,7 +42,7 @@ class Between:
 
     @property
     def result(self) -> BatchSpread:
-        """As JSON has it."""
+        """The spread between specimens as the JSON of a result has it."""
         without = self.spread.without
         return BatchSpread(
             material=self.material,

@@ -45,7 +45,7 @@ class Keys:
 
 
 def digest_of(path: str) -> str:
-    """Of a file's content. Raises `BadInput`, `OSError`."""
+    """SHA-256 of a file's content. Raises `BadInput`, `OSError`."""
     refuse_endless(Path(path))
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()

@@ -39,7 +39,7 @@ _SHOWN: Sequence[tuple[str, str, float]] = (
 
 
 def write_page(rows: Rows, counted: Counted, between: Sequence[Between], folder: Path) -> Path:
-    """The page's path."""
+    """Write the page of a batch; its path."""
     title = f"{counted.rows} rows"
     head = [
         ("done", f"{counted.done} of {counted.rows}"),

@@ -31,7 +31,7 @@ _WHETHER = ("converged", "borrowed_model")
 
 
 def write_tables(rows: Iterable[BatchRow], folder: Path, marks: Marks | None = None) -> list[Path]:
-    """The files written. `rows` is gone through several times."""
+    """Write the table of a batch in each format; the files written. `rows` is gone through several times."""
     columns = columns_of(rows)
     marks = marks or {}
     written = [_write_csv(rows, columns, marks, folder / CSV)]

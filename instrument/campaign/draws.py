@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 
 def either_sign(rng: np.random.Generator, low: float, high: float) -> float:
-    """Of a size between."""
+    """A number of either sign whose size lies between two."""
     return float(rng.choice([-1.0, 1.0]) * rng.uniform(low, high))
 
 

@@ -57,7 +57,7 @@ class Schedule:
 
     @property
     def middles_hz(self) -> tuple[float, ...]:
-        """Of the segments, ascending."""
+        """Middle frequencies of the segments, ascending."""
         f, k = self.frequency_hz, self.segment
         return tuple(sorted(float((f[k == n].min() + f[k == n].max()) / 2) for n in np.unique(k)))
 

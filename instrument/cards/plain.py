@@ -52,5 +52,5 @@ def card_result(card: Card) -> CardResult:
 
 
 def as_json(card: Card) -> str:
-    """The same as text."""
+    """The card's result as JSON text."""
     return json.dumps(card_result(card).as_json(), indent=1, allow_nan=False) + "\n"

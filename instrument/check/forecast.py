@@ -47,7 +47,7 @@ OWN_RATIO = 1e-3
 
 @dataclass(frozen=True)
 class Forecast:
-    """Of one specimen."""
+    """What an experiment with one specimen is expected to do."""
 
     specimen: AnySpecimen
     mode_hz: Array
@@ -119,7 +119,7 @@ class Forecast:
         return replace(whole, U=self._half.down @ whole.U)
 
     def frequencies_hz(self, segment: SegmentSection) -> tuple[float, ...]:
-        """Of a segment's steps. Raises `BadInput`."""
+        """Frequencies of a segment's steps. Raises `BadInput`."""
         if segment.frequencies_hz is not None:
             return tuple(segment.frequencies_hz)
         low, high = segment.low_hz, segment.high_hz

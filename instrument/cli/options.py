@@ -77,7 +77,7 @@ class NumberRange(click.FloatRange):
     """A range that NaN, which no comparison keeps out, is not in."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """As given."""
+        """The number that was given, if it is one in the range."""
         found = float(super().convert(value, param, ctx))
         if math.isnan(found):
             self.fail(f"{value!r} is not a number", param, ctx)

@@ -70,7 +70,7 @@ def print_found(
 
 
 def print_result(out: Output, result: SessionResult) -> None:
-    """The law to sign."""
+    """Print the law that a session ends with."""
     out.say(f"result: {result.words}")
 
 

@@ -119,23 +119,23 @@ class HelpedOperator:
         self._acting, self._deciding, self._in_virtual_time = acting, deciding, in_virtual_time
 
     def mount(self, plate: str) -> OperatorDid:
-        """The rig does it."""
+        """Have the rig mount a plate."""
         return self._acting.mount(plate)
 
     def aim(self, point: str) -> OperatorDid:
-        """The rig does it."""
+        """Have the rig point the laser."""
         return self._acting.aim(point)
 
     def agree(self, offer: FollowUp) -> bool:
-        """The client decides."""
+        """Ask the client whether an offer is taken."""
         return self._deciding.agree(offer)
 
     def change(self, offer: FollowUp) -> OperatorDid:
-        """The rig does it."""
+        """Have the rig change what an offer asks for."""
         return self._acting.change(offer)
 
     def hit(self, good: int, wanted: int) -> None:
-        """The rig strikes."""
+        """Have the rig strike the plate."""
         self._deciding.forget_content()
         self._acting.hit(good, wanted)
 

@@ -45,7 +45,7 @@ _AGAIN_S = 0.1
 
 @dataclass(frozen=True)
 class Stopped:
-    """What `Engine.stop` achieved."""
+    """How a stop by `Engine.stop` has ended."""
 
     silent: bool
     """The shaker says that its drive is zero. False also where no rig was open; `message` tells."""
@@ -107,7 +107,7 @@ class Engine:
 
     @property
     def pid(self) -> int:
-        """Of the engine's process."""
+        """Number of the engine's process."""
         return self._process.pid
 
     def poll(self, most: int | None = None) -> list[Message]:

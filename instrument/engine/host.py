@@ -58,7 +58,7 @@ _ORPHAN_S = 180.0
 
 
 class Host(Companion):
-    """Of one run."""
+    """Goes along with one run and tells its client of it."""
 
     def __init__(self, *, ask_content: bool) -> None:
         self.control, self.interruption, self.mailbox = RunControl(), Interruption(), Mailbox()

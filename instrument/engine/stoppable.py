@@ -43,7 +43,7 @@ class StoppableShaker:
         self._shaker.stop()
 
     def beat(self) -> None:
-        """The heartbeat."""
+        """Send the heartbeat."""
         self._shaker.beat()
 
     def set_heartbeat_timeout_s(self, timeout_s: float) -> None:

@@ -39,7 +39,7 @@ class ModeFound(Result):
     why: str = ""
 
     def by(self, method: Method) -> RatioFound | None:
-        """What one method says."""
+        """The damping ratio that one method gives; None where it gives none."""
         found: RatioFound | None = getattr(self, method)
         return found
 
@@ -73,5 +73,5 @@ class DampingResult(Result):
 
     @property
     def accepted(self) -> tuple[ModeFound, ...]:
-        """The modes that count."""
+        """The modes that are accepted."""
         return tuple(mode for mode in self.modes if mode.accepted)

@@ -103,7 +103,7 @@ class PointLeft(Result):
     """From 0, of several."""
 
     def stage(self, name: StageName) -> Residual:
-        """Of one fit."""
+        """What one stage's fit leaves of the point."""
         return self.before if name == "before" else self.after
 
 

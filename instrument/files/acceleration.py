@@ -58,7 +58,7 @@ def show_acceleration_in(name: str) -> None:
 
 
 def acceleration_unit() -> AccelerationUnit:
-    """The one chosen."""
+    """The unit of acceleration that is chosen."""
     return UNITS[_chosen]
 
 

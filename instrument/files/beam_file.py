@@ -152,7 +152,7 @@ class BeamDocument(TomlTable):
         return self.beam.model_dump() | places
 
     def specimen(self) -> Beam:
-        """What it describes. Raises `OutsideModel`."""
+        """The beam that the file describes. Raises `OutsideModel`."""
         core, c = None, self.core
         if c is not None:
             core = Core(c.thickness_mm * 1e-3, c.poisson, c.density_kg_m3, law_of(c.law))

@@ -77,7 +77,7 @@ class Layout:
         )
 
     def fields(self, line: str) -> list[str]:
-        """Of a row."""
+        """The fields of a row."""
         return line.split(self.separator)
 
     def column(self, channel: int) -> int:
@@ -85,7 +85,7 @@ class Layout:
         return self.first + self.stride * channel
 
     def number(self, text: str) -> float:
-        """Of a field. Raises `ValueError` where it is none."""
+        """The number in a field. Raises `ValueError` where it is none."""
         value = float(text.replace(",", ".") if self.decimal_comma or "." not in text else text)
         if not np.isfinite(value):
             raise ValueError(text)

@@ -16,7 +16,7 @@ _NO_ARRAYS = ("struct", "cell", "object", "function", "opaque")
 
 
 def read_mat_variables(path: Path) -> dict[str, Any]:
-    """By name. Raises `BadInput`."""
+    """The variables of a .mat file by name. Raises `BadInput`."""
     try:
         if is_mat73(path):
             return read_mat73_variables(path)

@@ -97,7 +97,7 @@ class ShearPairDocument(TomlTable):
         return self.pair.model_dump(exclude_none=True)
 
     def specimen(self) -> ShearPair:
-        """What it describes. Raises `OutsideModel`."""
+        """The shear pair that the file describes. Raises `OutsideModel`."""
         p = self.pair
         if p.outer_diameter_mm is not None:
             area, gyration = disc(p.outer_diameter_mm * 1e-3, (p.inner_diameter_mm or 0.0) * 1e-3)

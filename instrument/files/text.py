@@ -15,7 +15,7 @@ def refuse_endless(path: Path) -> None:
 
 
 def read_content(path: Path) -> bytes:
-    """The file's bytes. Raises `BadInput`."""
+    """The bytes of a file that is not too large. Raises `BadInput`."""
     refuse_endless(path)
     try:
         if path.stat().st_size > LARGEST_BYTES:

@@ -12,7 +12,7 @@ from instrument.impact.mode import Mode
 
 
 def damping_from(found: Damping) -> DampingResult:
-    """The result of `damping`."""
+    """The result of the command `damping`."""
     return DampingResult(
         modes=tuple(
             ModeFound(

@@ -40,7 +40,7 @@ def export_csv(contents: Contents, folder: Path) -> list[Path]:
 
 
 def sweep_text(contents: Contents) -> str:
-    """The sweep CSV. Floats are written so that they come back to the bit."""
+    """The text of a sweep's CSV file. Floats are written so that they come back to the bit."""
     reference, table = contents.specimen.base_acceleration_m_s2, columns(contents)
     said = [
         *provenance(contents),

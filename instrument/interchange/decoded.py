@@ -19,7 +19,10 @@ these are alike in it and in Latin-1."""
 
 
 def decoded(path: Path) -> str:
-    """The file as text. Raises `BadInput` for an empty file and for one that is none."""
+    """The text of a file, whatever its encoding.
+
+    Raises `BadInput` for an empty file and for one that is none.
+    """
     content = read_content(path)
     named = next((encoding for mark, encoding in _MARKED.items() if content.startswith(mark)), "")
     for encoding in (named,) if named else _UNMARKED:

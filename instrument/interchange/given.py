@@ -33,7 +33,7 @@ SESSION_ENDINGS = (".h5", ".hdf5")
 
 @dataclass(frozen=True)
 class Given:
-    """What the files gave."""
+    """What the files of a command describe together."""
 
     specimen: AnySpecimen
     sweep: Sweep
@@ -75,7 +75,7 @@ class Given:
 
 
 def is_session(data: Path) -> bool:
-    """By the ending."""
+    """Whether a file is a session, by its ending."""
     return data.suffix.lower() in SESSION_ENDINGS
 
 

@@ -10,7 +10,7 @@ from instrument.stream.derived import StruckFound
 
 
 def specimen_toml(contents: Contents) -> str:
-    """The file's text. `[pickup] reads` is the rig's."""
+    """The text of a specimen file as the session has it. `[pickup] reads` is the rig's."""
     tables = _tables_of(contents)
     if "pickup" in tables:
         tables["pickup"]["reads"] = contents.configuration.rig.vibrometer.reads

@@ -160,10 +160,10 @@ class Spread:
 
 
 def spread_of(laws: Sequence[MaterialLaw], between: Between = "specimens") -> Spread:
-    """By restricted maximum likelihood. Raises `BadInput`, also for two laws of one mount.
+    """The spread of laws beyond their errors, by restricted maximum likelihood.
 
-    Laws whose verdict is `unknown`, or whose fit says so itself, are left out: they may be biased by more
-    than any spread.
+    Raises `BadInput`, also for two laws of one mount. Laws whose verdict is `unknown`, or whose fit says so
+    itself, are left out: they may be biased by more than any spread.
     """
     if between == "mounts":
         _check_mounts(laws)

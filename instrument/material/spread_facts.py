@@ -5,7 +5,7 @@ from instrument.material.spread import Size, Spread
 
 
 def spread_result(found: Spread) -> SpreadResult:
-    """As JSON has it."""
+    """The spread as the JSON of a result has it."""
     return SpreadResult(
         specimens=found.names,
         frequencies=spread_rows(found),

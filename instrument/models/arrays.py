@@ -25,7 +25,10 @@ def pack(value: Any, prefix: str = "") -> dict[str, NDArray[Any]]:
 
 
 def unpack(cls: type[T], packed: dict[str, NDArray[Any]], prefix: str = "") -> T:
-    """The inverse of `pack`. Raises `KeyError` where an array is missing. Shapes as `pack` gives them."""
+    """The object that `pack` has taken apart.
+
+    Raises `KeyError` where an array is missing. Shapes as `pack` gives them.
+    """
     hints = get_type_hints(cls)
     values: dict[str, Any] = {}
     for field in _given(cls):

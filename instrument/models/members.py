@@ -74,7 +74,7 @@ class Members:
 
     @property
     def numbers(self) -> list[int]:
-        """Of each member's specimen."""
+        """The number of each member's specimen."""
         return [one.specimen for one in self.every]
 
     def specimen(self, one: AtTemperature) -> AnySpecimen:

@@ -59,17 +59,17 @@ class Models:
 
     @cached_property
     def plate(self) -> Plate:
-        """The assembled plate."""
+        """The specimen as an assembled plate."""
         return Plate(self.specimen)
 
     @cached_property
     def damping(self) -> LowRankDamping:
-        """The remaining viscous damping."""
+        """The viscous damping that remains beside the core's."""
         return viscous_damping(self.plate)
 
     @cached_property
     def reduced(self) -> ReducedPlate:
-        """The reduced plate."""
+        """The plate reduced to a few motions."""
 
         def build() -> ReducedPlate:
             with self.progress("reducing the plate model") as report:

@@ -69,7 +69,7 @@ def choose_steps(
     ground: Ground,
     goal: Goal,
 ) -> StepsChosen:
-    """What comes next. The same for the same arguments, to the bit."""
+    """The steps that are to be measured next. The same for the same arguments, to the bit."""
     used = [p for p in points if p.purpose == "step" and p.step <= started.last_step]
     if not used or before is None:
         return _first_pass(started, ground)

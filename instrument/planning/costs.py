@@ -15,7 +15,7 @@ _REACH = 1.3
 
 
 def dwell_seconds(frequency_hz: Array, settings: SweepSettings) -> Array:
-    """Of the readings alone. Shape (points,)."""
+    """Seconds of the readings alone, without settling. Shape (points,)."""
     return np.array([settings.dwell_s(f) for f in frequency_hz])
 
 

@@ -92,7 +92,7 @@ class Ground:
     def problem(
         self, frequency_hz: Array, time_s: Array | None = None, *, effects: bool = False
     ) -> DiagnosisProblem:
-        """Of distinct, ascending frequencies. Shape (points,)."""
+        """The problem of readings at distinct, ascending frequencies. Shape (points,)."""
         plate = self.carries_effects if effects else self.plate
         return exact_problem(
             frequency_hz,

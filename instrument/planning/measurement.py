@@ -46,7 +46,7 @@ class Measurable:
     """While it does."""
 
     def follow_up(self, separation: float, resolved: float, between: tuple[str, ...]) -> FollowUp:
-        """As it is offered."""
+        """The measurement as it is offered to people."""
         given = {
             "kind": self.kind,
             "needs_hands": self.needs_hands,

@@ -59,7 +59,7 @@ class Outlook:
         return At(self.setup.problem.plate, self.setup.reduced, self.specimen.pickup_m)
 
     def problem(self, level_m_s2: float, at: "At") -> DiagnosisProblem:
-        """Of all candidates."""
+        """The problem of readings at all candidate frequencies."""
         c = self.candidates
         return exact_problem(
             c.frequency_hz,

@@ -35,7 +35,7 @@ LEAST_A_REGION = 5
 
 @dataclass(frozen=True)
 class Plan:
-    """What is proposed."""
+    """A proposed sweep, and what it is expected to teach."""
 
     outlook: Outlook
     settings: SweepSettings

@@ -23,7 +23,7 @@ def patient() -> SweepSettings:
 
 @dataclass(frozen=True)
 class Wish:
-    """Of one plan."""
+    """What somebody wants of a plan."""
 
     target: float = TARGET
     """Relative standard error of G' and of eta, anywhere in the band."""

@@ -40,7 +40,7 @@ class Conditions:
 
     @classmethod
     def of_sweep(cls, sweep: Sweep, temperature_c: float | None = None) -> "Conditions":
-        """Of a sweep's file."""
+        """The conditions that a sweep's file tells of."""
         read = [] if temperature_c is None else [temperature_c]
         return cls(len(sweep), _range([float(a) for a in sweep.commanded_m_s2]), _range(read))
 

@@ -23,7 +23,7 @@ Depth = Literal["profile", "posterior", "bootstrap"]
 
 @dataclass(frozen=True)
 class InDepth:
-    """What one method gave."""
+    """Intervals that one method gave, with the posterior where it was sampled."""
 
     intervals: tuple[Intervals, ...]
     """The bootstrap's are two: of points and of segments."""

@@ -37,7 +37,7 @@ Watch = Callable[[list[Event]], None]
 
 @dataclass(frozen=True)
 class Finished:
-    """What a run left."""
+    """What a run has left when it ends."""
 
     session: Path
     damping: DampingFound | None

@@ -56,7 +56,7 @@ class Earlier:
 
 @dataclass
 class Following:
-    """Of one run."""
+    """Measurements of one run that follow its diagnosis."""
 
     table: DiagnosisTable
     limits: Limits

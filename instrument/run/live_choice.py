@@ -55,7 +55,7 @@ class Chooser:
 
 
 class LiveChoice:
-    """Of one run. Use as a context around the sweep."""
+    """Chooses the next steps of one run while the rig measures. Use as a context around the sweep."""
 
     def __init__(self, chooser: Chooser, record: Callable[[StepsChosen], object]) -> None:
         self._chooser, self._record = chooser, record

@@ -91,7 +91,7 @@ class SessionRun:
 
     @property
     def fit(self) -> FitUpdated | None:
-        """Of all points."""
+        """The last fit of all points; None before there is one."""
         return self._sweep.fit if self._sweep is not None else None
 
     def run(self, recorder: Recorder) -> None:

@@ -33,7 +33,9 @@ _ADAPTIVE_PASSES = 2
 
 
 class SweepPart:
-    """Of one run. `happened` has to be told of every event after it was analysed.
+    """The sweep of one run, with its live fit and choice of steps.
+
+    `happened` has to be told of every event after it was analysed.
 
     Parameters
     ----------
@@ -75,7 +77,7 @@ class SweepPart:
 
     @property
     def table(self) -> SweepTable:
-        """Of the experiment."""
+        """The table `[sweep]` of the experiment's file."""
         found = self._experiment.document.sweep
         assert found is not None
         return found

@@ -59,7 +59,7 @@ class Damage:
 
 
 class SessionJournal:
-    """Of one session folder."""
+    """The journal of one session folder."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder

@@ -70,7 +70,7 @@ _LAST_PATIENCE_S = 120.0
 
 
 class Recorder:
-    """Of one session. Use as a context: leaving it seals what is left."""
+    """Records the events and samples of one session. Use as a context: leaving it seals what is left."""
 
     def __init__(
         self, journal: SessionJournal, parts: list[Entry], sealed: Callable[[list[Event]], None] | None = None

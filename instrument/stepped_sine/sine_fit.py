@@ -33,7 +33,7 @@ class SineFit:
 
     @property
     def phasor(self) -> Complex:
-        """The fundamental. Shape (channels,)."""
+        """The phasor of the fundamental. Shape (channels,)."""
         return np.asarray(self.harmonics[:, 0])
 
     @property

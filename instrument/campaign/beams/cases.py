@@ -46,7 +46,7 @@ _LEAST_LOSS, _LEAST_OF_FREE_LAYER = 0.02, 0.005
 
 @dataclass(frozen=True)
 class BeamTruth:
-    """What was hidden."""
+    """The truth that a beam's case hides from the diagnosis."""
 
     beam: TrueBeam
     """As it really is, but for the effects."""
@@ -59,12 +59,12 @@ class BeamTruth:
 
     @property
     def specimen_name(self) -> str:
-        """Of the beam."""
+        """Name of the beam."""
         return self.beam.name
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the effects."""
+        """Names of the hidden effects."""
         return tuple(h.name for h in self.effects)
 
     @property
@@ -74,7 +74,7 @@ class BeamTruth:
 
     @property
     def facts(self) -> dict[str, Any]:
-        """As JSON has it."""
+        """The truth as JSON has it."""
         G = self.modulus_pa
         return {
             "beam": self.beam.name,

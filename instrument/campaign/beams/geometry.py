@@ -47,7 +47,7 @@ class TrueBeam:
 
     @property
     def mass_kg(self) -> float:
-        """Of all layers."""
+        """Mass of all layers."""
         sides = 2 if self.both_sides else 1
         above: list[DampingLayer | Metal] = [self.core, *([self.constraining] if self.constraining else [])]
         areal = sum(k.thickness_m * k.density_kg_m3 for k in above)

@@ -47,9 +47,10 @@ def draw_stated(
 def toml(
     beam: TrueBeam, tolerances: CampaignTolerances | None, middle_hz: float, *, held_width: bool = False
 ) -> str:
-    """The specimen file. No tolerances: all is exact. The law is where a fit starts, not the answer.
+    """The text of the specimen's file.
 
-    `held_width`: that clamps hold the width is said, as they do.
+    No tolerances: all is exact. The law is where a fit starts, not the answer. `held_width`: that clamps hold
+    the width is said, as they do.
     """
     lines = [
         "[beam]",

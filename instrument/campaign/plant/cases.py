@@ -62,7 +62,7 @@ _PLANT: dict[str, Any] = {
 
 @dataclass(frozen=True)
 class Truth:
-    """What was hidden."""
+    """The truth that a case hides from the diagnosis."""
 
     effects: dict[str, Severity]
     """By name; none, one or two."""
@@ -71,7 +71,7 @@ class Truth:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the effects."""
+        """Names of the hidden effects."""
         return tuple(self.effects)
 
 

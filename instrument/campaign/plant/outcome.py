@@ -34,7 +34,7 @@ class StageFacts:
 
 @dataclass(frozen=True)
 class Said:
-    """What one diagnosis said."""
+    """What one diagnosis concluded, as it is scored."""
 
     verdict: str
     effects: tuple[str, ...]
@@ -114,13 +114,13 @@ def _off(ratio: NDArray[np.float64]) -> tuple[float, ...]:
 
 
 def line_of(outcome: Outcome) -> dict[str, Any]:
-    """As JSON knows it."""
+    """The outcome as JSON has it."""
     facts: dict[str, Any] = to_jsonable(asdict(outcome))
     return facts
 
 
 def outcome_of(line: dict[str, Any]) -> Outcome:
-    """The inverse of `line_of`."""
+    """The outcome that `line_of` has written."""
     said, without = (_said(line[key]) for key in ("said", "without"))
     known = {**line, "truth": tuple(line["truth"]), "visible_chi2": _number(line["visible_chi2"])}
     return Outcome(**{**known, "said": said, "without": without})

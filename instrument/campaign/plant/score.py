@@ -26,7 +26,7 @@ class LawErrors:
 
 @dataclass(frozen=True)
 class Score:
-    """Of some cases. Counts are out of `cases`, those of `taken_out` out of that."""
+    """How diagnoses of some cases did. Counts are out of `cases`, those of `taken_out` out of that."""
 
     name: str
     cases: int
@@ -69,7 +69,7 @@ def scores(outcomes: Sequence[Outcome]) -> list[Score]:
 
 
 def score(name: str, outcomes: Sequence[Outcome]) -> Score:
-    """Of these cases together."""
+    """The score of some cases together."""
     said = [o.said for o in outcomes if o.said is not None]
     again = [o.without for o in outcomes if o.without is not None]
     return Score(

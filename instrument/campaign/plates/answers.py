@@ -64,7 +64,7 @@ def _number(value: float | None) -> float:
 
 @dataclass(frozen=True)
 class Answer:
-    """What a diagnosis said."""
+    """What a diagnosis concluded, as it is scored."""
 
     verdict: str
     effects: tuple[str, ...]
@@ -85,7 +85,7 @@ class Answer:
 
 
 def answer_from(found: DiagnosisResult) -> Answer:
-    """Of a diagnosis."""
+    """The answer of a diagnosis."""
     return Answer(
         verdict=found.verdict,
         effects=tuple(e.name for e in found.effects),
@@ -107,7 +107,7 @@ class CaseTruth(Protocol):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the effects."""
+        """Names of the hidden effects."""
 
     @property
     def effects(self) -> Collection[Any]:
@@ -115,7 +115,7 @@ class CaseTruth(Protocol):
 
     @property
     def law(self) -> TrueLaw:
-        """Of the core."""
+        """True law of the core's material."""
 
     @property
     def modulus_pa(self) -> Complex:
@@ -131,11 +131,11 @@ class JudgedCase(Protocol):
 
     @property
     def kind(self) -> str:
-        """Of case."""
+        """Which kind of case it is."""
 
     @property
     def seed(self) -> int:
-        """It was drawn with."""
+        """The seed it was drawn with."""
 
     @property
     def exact(self) -> bool:
@@ -143,7 +143,7 @@ class JudgedCase(Protocol):
 
     @property
     def sweep(self) -> Sweep:
-        """What was measured."""
+        """The sweep that was measured."""
 
     @property
     def hammer(self) -> object | None:
@@ -151,7 +151,7 @@ class JudgedCase(Protocol):
 
     @property
     def truth(self) -> CaseTruth:
-        """What was hidden."""
+        """The truth that was hidden from the diagnosis."""
 
 
 @dataclass(frozen=True)
@@ -231,13 +231,13 @@ def explains(outcome: PlateOutcome, names: Sequence[str]) -> bool:
 
 
 def line_of(outcome: PlateOutcome) -> dict[str, Any]:
-    """As JSON knows it."""
+    """The outcome as JSON has it."""
     facts: dict[str, Any] = to_jsonable(asdict(outcome))
     return facts
 
 
 def outcome_from(line: Facts) -> PlateOutcome:
-    """The inverse of `line_of`."""
+    """The outcome that `line_of` has written."""
     tuples = {k: tuple(line[k]) for k in ("truth", "frequency_hz", "storage_pa", "loss")}
     said = line["said"]
     if said is not None:

@@ -26,7 +26,7 @@ class Asked(Generic[_Case]):
 
     @property
     def options(self) -> dict[str, Any]:
-        """By which outcomes differ."""
+        """The options by which outcomes differ."""
         return {
             "least": self.least,
             "by": [f.__name__ for f in (self.identify, self.diagnose) if f is not None],

@@ -43,7 +43,7 @@ _HAMMER_SHARE = 0.5
 
 @dataclass(frozen=True)
 class PlateTruth:
-    """What was hidden."""
+    """The truth that a plate's case hides from the diagnosis."""
 
     plate: TruePlate
     """As it really is, but for the effects."""
@@ -58,7 +58,7 @@ class PlateTruth:
 
     @property
     def specimen_name(self) -> str:
-        """Of the plate."""
+        """Name of the plate."""
         return self.plate.name
 
     @property
@@ -68,12 +68,12 @@ class PlateTruth:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the effects."""
+        """Names of the hidden effects."""
         return tuple(h.name for h in self.effects)
 
     @property
     def facts(self) -> dict[str, Any]:
-        """As JSON has it."""
+        """The truth as JSON has it."""
         G = self.modulus_pa
         return {
             "plate": self.plate.name,

@@ -73,7 +73,7 @@ class RemeasuredPlate:
 
     @property
     def plate(self) -> ReducedSolid:
-        """As built."""
+        """The reduced solid as it was built."""
         return self._built(self.truth)
 
     def diagnosed(self) -> Diagnosed:

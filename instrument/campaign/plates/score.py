@@ -36,7 +36,7 @@ class Coverage:
 
 @dataclass(frozen=True)
 class PlateScore:
-    """Of some cases. Counts are out of `cases`."""
+    """How diagnoses of some cases did. Counts are out of `cases`."""
 
     name: str
     cases: int
@@ -121,7 +121,7 @@ def _any(outcomes: Sequence[PlateOutcome], kind: str) -> bool:
 
 
 def score(name: str, outcomes: Sequence[PlateOutcome]) -> PlateScore:
-    """Of these cases together."""
+    """The score of some cases together."""
     said = [o for o in outcomes if o.said is not None]
 
     def count(holds: Callable[[PlateOutcome], bool]) -> int:

@@ -35,7 +35,7 @@ class CampaignTolerances:
     phase_rad: float = radians(0.1)
 
     def lines(self) -> list[str]:
-        """Of `[tolerances]`."""
+        """Lines of the table `[tolerances]`."""
         percent = {}
         for face in ("substrate", "constraining"):
             percent[f"{face}_young"] = self.young
@@ -127,13 +127,16 @@ def plate_lines(plate: TruePlate, boundary: str, middle_hz: float) -> list[str]:
 
 
 def damping_lines(plate: TruePlate) -> list[str]:
-    """Of `[damping]`."""
+    """Lines of the table `[damping]`."""
     ratios = ", ".join(digits(100 * r) for r in plate.ratios)
     return ["[damping]", f"modal_percent = [{ratios}]", ""]
 
 
 def toml(plate: TruePlate, tolerances: CampaignTolerances | None, middle_hz: float) -> str:
-    """The specimen file. No tolerances: all is exact. The law is where a fit starts, not the answer."""
+    """The text of the specimen's file.
+
+    No tolerances: all is exact. The law is where a fit starts, not the answer.
+    """
     lines = [*plate_lines(plate, "cantilever", middle_hz), *damping_lines(plate), "[pickup]"]
     lines += [f"x_mm = {digits(1e3 * plate.spot_m[0])}", f"y_mm = {digits(1e3 * plate.spot_m[1])}", ""]
     lines += ["[base]", f"acceleration_m_s2 = {PUBLISHED_G_M_S2}", "", "[tolerances]"]

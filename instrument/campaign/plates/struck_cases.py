@@ -87,7 +87,7 @@ class StruckTruth:
 
     @property
     def specimen_name(self) -> str:
-        """Of the plate."""
+        """Name of the plate, and how it is held."""
         return f"{self.plate.name} {'free' if self.free else 'clamped'}"
 
     @property
@@ -97,7 +97,7 @@ class StruckTruth:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the effects."""
+        """Names of the hidden effects."""
         return tuple(h.name for h in self.effects)
 
 

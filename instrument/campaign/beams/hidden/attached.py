@@ -142,7 +142,7 @@ class HiddenAirAddedMass(HiddenInBeam):
 
 @dataclass(frozen=True)
 class HiddenSpotOffset(HiddenInBeam):
-    """The spot is elsewhere."""
+    """The laser's spot is beside the stated place."""
 
     name: ClassVar[str] = "spot_offset"
 

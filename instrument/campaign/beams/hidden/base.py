@@ -89,7 +89,7 @@ class HiddenInBeam:
         return ()
 
     def hung(self, omega: Array, pitch: Complex, force_driven: bool) -> tuple[Hung, ...]:
-        """What hangs there. `omega` of shape (points,), as `pitch`, in rad/m."""
+        """Things that hang on the beam and move with it. `omega` of shape (points,), as `pitch`, in rad/m."""
         return ()
 
     def paused(self, schedule: Schedule) -> Schedule:

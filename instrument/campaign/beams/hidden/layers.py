@@ -34,7 +34,7 @@ class _ScaledInBeam(ScaledLayer, HiddenInBeam):
 
 @dataclass(frozen=True)
 class HiddenSubstrateStiffness(SubstrateStiffness, _ScaledInBeam):
-    """Of a beam."""
+    """A beam's substrate is stiffer or softer than stated."""
 
 
 @dataclass(frozen=True)

@@ -37,7 +37,7 @@ _CABLE = (0.005, 0.04)
 
 
 def plate_mass_kg(true: TruePlate) -> float:
-    """Of all layers."""
+    """Mass of all layers of a plate."""
     layers = (true.substrate, true.core, true.constraining)
     return (
         true.length_m * true.width_m * sum(k.thickness_m * k.density_kg_m3 for k in layers if k is not None)

@@ -145,7 +145,7 @@ class Hidden:
         return ()
 
     def attached(self, omega: Array, motion: BaseMotion, width_m: float) -> tuple[Attachment, ...]:
-        """What hangs there. `omega` of shape (points,)."""
+        """Things that hang on the plate and move with it. `omega` of shape (points,)."""
         return ()
 
     def ratios(self, ratios: Array) -> Array:

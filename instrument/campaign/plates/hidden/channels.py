@@ -28,7 +28,7 @@ _MORE_DAMPING = (1.5, 3.0)
 
 @dataclass(frozen=True)
 class HiddenSpotOffset(Hidden):
-    """The spot is elsewhere."""
+    """The laser's spot is beside the stated place."""
 
     name: ClassVar[str] = "spot_offset"
     place: ClassVar[str] = "spot"
@@ -63,7 +63,7 @@ class HiddenAbsoluteVelocity(Hidden):
 
 @dataclass(frozen=True)
 class HiddenChannelDelay(Hidden):
-    """The velocity comes late."""
+    """The velocity channel is late by a constant time."""
 
     name: ClassVar[str] = "channel_delay"
     place: ClassVar[str] = "velocity channel"
@@ -80,7 +80,7 @@ class HiddenChannelDelay(Hidden):
 
 @dataclass(frozen=True)
 class HiddenGainError(Hidden):
-    """The velocity channel's scale."""
+    """The velocity channel's scale is off by a factor."""
 
     name: ClassVar[str] = "gain_error"
     place: ClassVar[str] = "velocity channel"
