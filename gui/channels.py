@@ -46,7 +46,7 @@ class ClipLights(QLabel):
         self.setMinimumWidth(1)
 
     def show_feed(self, feed: Feed | None) -> None:
-        """As they are now."""
+        """Show the lights as the feed has them now."""
         rows = _rows(feed)
         self.said = {channel.name: words_of(channel, clipped) for channel, clipped in rows}
         theme, lights = current_theme(), []

@@ -20,7 +20,7 @@ class Mark(QLabel):
 
     @property
     def said(self) -> str:
-        """What it says."""
+        """The text beside the mark."""
         return self._said[0]
 
     def say(self, text: str, role: Role, *, bold: bool = False) -> None:

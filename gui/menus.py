@@ -43,7 +43,7 @@ right mouse button, menu key\ta plot's menu: ranges, cursors, export
 
 
 class Menus(QObject):
-    """Of one window."""
+    """The menus of one window."""
 
     def __init__(self, window: Shell) -> None:
         super().__init__(window)

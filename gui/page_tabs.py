@@ -8,7 +8,7 @@ _REST_PX, _REST_LINES = 200, 2
 
 
 class PageTabs(QTabWidget):
-    """As Qt's. A page that asks for more than the screen has is cut."""
+    """Qt's tabs, no larger than the screen. A page that asks for more than the screen has is cut."""
 
     def minimumSizeHint(self) -> QSize:
         """No more than the screen has beside what is always seen."""

@@ -54,7 +54,7 @@ class DiagnosisAsked:
 
     @property
     def arguments(self) -> list[str]:
-        """Of the command line."""
+        """Arguments of the command line that asks for it."""
         said = ["diagnose", *arguments_of(self.files, self.hammer)]
         if self.accept is not None:
             said += [f"--accept={name}" for name in self.accept or ("none",)]

@@ -44,7 +44,7 @@ class RunGauges(QObject):
 
     @property
     def drive(self) -> Gauge:
-        """Of the shaker's output."""
+        """The gauge of the shaker's drive."""
         return self.by_name["drive"]
 
     def refresh(self) -> None:

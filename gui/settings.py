@@ -38,7 +38,7 @@ class Settings:
 
     @property
     def scale(self) -> float:
-        """Of type."""
+        """Factor on the size of type."""
         try:
             return min(2.0, max(0.5, float(str(self._kept.value("scale", 1.0)))))
         except ValueError:

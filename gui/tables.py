@@ -117,11 +117,11 @@ class ReadTable(QTableView):
         return rows[0].row() if rows else None
 
     def cell(self, row: int, column: int) -> Cell:
-        """As it is shown."""
+        """A cell as it is shown."""
         return self._rows.rows[row][column]
 
     def texts(self, column: int) -> list[str]:
-        """Of every row."""
+        """The texts of one column, row by row."""
         return [row[column].text for row in self._rows.rows]
 
     @property

@@ -57,7 +57,7 @@ class Theme:
         return color
 
     def palette(self) -> QPalette:
-        """Of every widget."""
+        """The colours of every widget."""
         roles = QPalette.ColorRole
         palette = QPalette()
         for role, color in {

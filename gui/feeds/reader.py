@@ -19,7 +19,7 @@ _MOST_SAMPLES = 4_000_000
 
 @dataclass(frozen=True)
 class Loaded:
-    """The session is open."""
+    """Says that the session is open."""
 
     index: SessionIndex
 

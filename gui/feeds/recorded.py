@@ -53,7 +53,7 @@ class RecordedFeed(Feed):
 
     @property
     def left_s(self) -> float | None:
-        """Of the recording."""
+        """How much of the recording is left."""
         return self.length_s - self.position_s
 
     def play(self, speed: float | None = 1.0) -> None:

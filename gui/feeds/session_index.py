@@ -87,7 +87,7 @@ class SessionIndex:
 
     @property
     def length_s(self) -> float:
-        """Of the timeline."""
+        """Length of the timeline."""
         return self.time_s[-1] if self.time_s else 0.0
 
     def count_at(self, time_s: float) -> int:

@@ -85,7 +85,7 @@ class FormSection:
 
     @property
     def label(self) -> str:
-        """The key in words."""
+        """Its key in words."""
         return self.key.replace("_", " ")
 
 

@@ -37,7 +37,7 @@ _FAULTY = "\u2716 "
 
 
 class Form(KeyedRows):
-    """Of one file.
+    """The form of one file.
 
     Signals
     -------

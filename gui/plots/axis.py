@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Axis:
-    """What an axis shows."""
+    """The quantity on an axis, and how it is drawn."""
 
     label: str
     unit: str = ""

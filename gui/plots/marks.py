@@ -29,7 +29,7 @@ _NONE = _Group("faint", (), ())
 
 
 class Marks:
-    """Of one plot."""
+    """The marks of points in one plot."""
 
     def __init__(self, plot: Any) -> None:
         self._plot = plot

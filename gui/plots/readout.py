@@ -37,7 +37,7 @@ class Readout(QObject):
         self._text.setColor(theme.text)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """The mouse has left."""
+        """Hide the readout when the mouse leaves the plot."""
         if event.type() == QEvent.Type.Leave:
             self._show(False)
         return False

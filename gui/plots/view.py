@@ -12,7 +12,10 @@ Fill = Callable[[QMenu], None]
 
 
 class View(pg.ViewBox):  # type: ignore[misc]
-    """As the library's. `fills` put in their entries, in their order, once there is a menu."""
+    """The plot library's view with a context menu of our own.
+
+    `fills` put in their entries, in their order, once there is a menu.
+    """
 
     def __init__(self) -> None:
         super().__init__(enableMenu=False)

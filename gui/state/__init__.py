@@ -120,7 +120,7 @@ _TOPICS: dict[type[Event], tuple[Topic, ...]] = {
 
 
 class SessionState:
-    """Of one session.
+    """What is known so far of one session.
 
     Attributes
     ----------

@@ -37,7 +37,7 @@ class ChannelNow:
 
     @property
     def share(self) -> float:
-        """Of the full scale."""
+        """The peak as a share of the full scale."""
         return self.peak_v / self.full_scale_v if self.full_scale_v > 0 else 0.0
 
 

@@ -146,7 +146,7 @@ class Run:
                 self._segments_ended += event.sweep > 0
 
     def end(self, why: str, message: str) -> None:
-        """It is over."""
+        """Take note that the run is over."""
         self.state = "done" if why == "done" else "stopped"
         self.why, self.message, self.question, self.work = why, message, "", None
 

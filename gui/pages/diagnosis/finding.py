@@ -103,11 +103,11 @@ class Advice(QFrame):
 
     @property
     def text(self) -> str:
-        """What it says."""
+        """The text that is shown."""
         return self._label.text()
 
     def say(self, next_measurement: str) -> None:
-        """What to measure next."""
+        """Show what to measure next; hidden where there is nothing."""
         self._label.setText(f"Measure next. {next_measurement}" if next_measurement else "")
         self.setVisible(bool(next_measurement))
         self._tint()

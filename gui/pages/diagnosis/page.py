@@ -47,7 +47,7 @@ _WHAT_TO_DO = (
 
 
 class DiagnosisPage(Page):
-    """What the model lacks."""
+    """The page that shows what the model lacks."""
 
     title = "Diagnosis"
     hint = "What the model lacks: residual, candidates, before and after"

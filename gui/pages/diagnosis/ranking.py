@@ -38,7 +38,7 @@ class CandidateRow:
 
     @property
     def gain_words(self) -> str:
-        """What the bar means."""
+        """The meaning of the row's bar in words."""
         if self.gain is None:
             return "not among the candidates of this search"
         if self.gain < 0:
@@ -145,7 +145,7 @@ class Decisions:
 
     @property
     def words(self) -> str:
-        """What will be computed."""
+        """What is computed when a person asks for it, in words."""
         if self.nothing:
             return "fit without any effect"
         if self.accepted:

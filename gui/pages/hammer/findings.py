@@ -44,7 +44,7 @@ class Averaged:
 
     @property
     def usable_hz(self) -> float | None:
-        """Of the average."""
+        """Up to which frequency the average is of use; None without an average."""
         return rolloff_hz(self.average) if self.average is not None else None
 
     @property
@@ -55,7 +55,7 @@ class Averaged:
 
 @dataclass(frozen=True)
 class ModesFound:
-    """What the average gives."""
+    """The modes that the average of the hits gives."""
 
     hits: Hits
     found: Damping | None

@@ -36,7 +36,7 @@ class Traces:
 
     @classmethod
     def of(cls, judged: Judged) -> "Traces":
-        """Of a judged hit."""
+        """The traces of a hit that has been judged."""
         hit, pulse = judged.hit, judged.pulse
         t = (np.arange(len(hit.force_n)) - int(np.argmax(hit.force_n))) / hit.sample_rate_hz
         width = pulse.stop - pulse.start
@@ -74,7 +74,7 @@ class Surroundings:
 
     @classmethod
     def of(cls, found: Damping, mode: Mode) -> "Surroundings":
-        """The mode's own channel."""
+        """The surroundings of a mode, in its own channel."""
         plain, fine = found.plain[mode.channel], found.fine[mode.channel]
         step = float(plain.frequency_hz[1] - plain.frequency_hz[0])
         ratio = mode.damping_ratio if mode.damping_ratio > 0 else _UNKNOWN_RATIO

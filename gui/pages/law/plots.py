@@ -68,7 +68,7 @@ class LawPlots(QWidget):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the lines shown."""
+        """Names of the lines that are shown."""
         return tuple(line.name for line in self._lines)
 
     def _draw(self) -> None:

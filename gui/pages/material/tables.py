@@ -49,7 +49,7 @@ class Places(ReadTable):
 
 
 class Parameters(ReadTable):
-    """The law's parameters."""
+    """The table of a law's parameters."""
 
     def __init__(self) -> None:
         super().__init__(_PARAMETERS)

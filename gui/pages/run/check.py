@@ -90,7 +90,7 @@ class CheckPane(QWidget):
         self.warnings.clear()
 
     def wait(self) -> None:
-        """It goes on."""
+        """Show that the check goes on."""
         self._say("checking ...", faint=True)
         self.table.hide()
         self.warnings.clear()
@@ -107,7 +107,7 @@ class CheckPane(QWidget):
         self._warn(found.warnings, "fair", "\u26a0")
 
     def show_objections(self, objections: list[str]) -> None:
-        """It cannot be run."""
+        """Show why the experiment cannot be run."""
         count = len(objections)
         self._say(f"{count} objection{'s' if count != 1 else ''}: nothing can be run.")
         self.table.hide()

@@ -91,7 +91,7 @@ class FilesPanel(QWidget):
 
     @property
     def path(self) -> Path | None:
-        """Of the experiment."""
+        """Path of the experiment's file; None while none is open."""
         return self.drafts.experiment.path if self.drafts is not None else None
 
     def open(self, path: Path) -> None:

@@ -33,7 +33,7 @@ class OverruleRow(QWidget):
         self.hide()
 
     def show_state(self, state: SessionState) -> None:
-        """As it stands now."""
+        """Show what may be overruled as the run stands now."""
         table = state.configuration.experiment.sweep
         wish = table.adaptive if table is not None else None
         goes_on = self._controller.running and state.run.state == "sweep" and state.run.choice is not None

@@ -93,7 +93,7 @@ class StartPanel(QWidget):
 
     @property
     def folder(self) -> Path:
-        """Of the session."""
+        """Folder that the session is to be kept in."""
         return Path(self.out.text()).expanduser()
 
     def show_broken_off(self, folders: list[Path]) -> None:

@@ -66,7 +66,7 @@ class StructureView(QWidget):
         painter.end()
 
     def rooms(self) -> Sequence[QRectF]:
-        """Of every view."""
+        """The rectangle that each view has."""
         height = self.height() / max(len(self.views), 1)
         return [QRectF(0, k * height, self.width(), height) for k in range(len(self.views))]
 
@@ -149,7 +149,7 @@ class Drawing(QStackedWidget):
             self.show_specimen(described_now)
 
     def show_specimen(self, specimen: AnySpecimen | None) -> None:
-        """Of a session."""
+        """Draw the specimen of a session."""
         self.structure.show_specimen(specimen)
         self.setCurrentWidget(self.structure)
 

@@ -10,7 +10,7 @@ from instrument.session.storage import SessionFile
 
 
 class Dwells(QObject):
-    """The last wish counts.
+    """Reads the samples of a step's dwell; only the last wish counts.
 
     Signals
     -------

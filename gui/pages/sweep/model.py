@@ -90,7 +90,7 @@ class ResponseCurve(QObject):
 
 
 class ModelCurve(ResponseCurve):
-    """Of the latest fit."""
+    """The model's curve by the latest fit."""
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)

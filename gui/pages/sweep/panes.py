@@ -122,7 +122,7 @@ class Key(QLabel):
         self.setWordWrap(True)
 
     def show_groups(self, groups: Iterable[Group]) -> None:
-        """As plots draw them."""
+        """Show a sign and a name for each group, as the plots draw it."""
         self.show_key((g.name, g.role, SIGNS[g.symbol]) for g in groups)
 
 

@@ -97,7 +97,7 @@ class PointsMeasured:
 
     @property
     def frequency_hz(self) -> Array:
-        """Of each point."""
+        """Frequency of each point."""
         return self.column("frequency_hz")
 
     @cached_property

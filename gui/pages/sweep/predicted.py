@@ -33,9 +33,10 @@ class Predicted:
 
     @classmethod
     def by_fit(cls, points: PointsMeasured, fit: FitUpdated | None, left_out: Mask) -> Self:
-        """The law alone. Empty where there is none, or its rows do not belong to these points.
+        """What the law of a live fit predicts, without any effect.
 
-        `left_out` are points that the fit has set aside, shape (points,).
+        Empty where there is none, or its rows do not belong to these points. `left_out` are points that the
+        fit has set aside, shape (points,).
         """
         if fit is None or fit.result is None:
             return cls()

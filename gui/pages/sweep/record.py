@@ -49,7 +49,7 @@ class RecordPane(QWidget):
 
     @property
     def lines(self) -> list[RecordLine]:
-        """As they stand there."""
+        """The lines that are shown."""
         return self._lines
 
     def show_seen(self, seen: PaneContents, settings: SweepSettings) -> None:

@@ -75,7 +75,7 @@ class ResponsePane(QWidget):
 
     @property
     def way(self) -> Way:
-        """As chosen."""
+        """How a person has chosen to see the response."""
         return Way(
             _SHOWN[self.quantity.currentText()],
             self.log_amplitude.isChecked(),

@@ -28,12 +28,12 @@ class Way:
 
     @property
     def unit(self) -> str:
-        """Of the amplitude."""
+        """Unit of the amplitude's axis."""
         return f"(mm/s)/{acceleration_unit().under}" if self.quantity == "ratio" else "mm/s"
 
     @property
     def label(self) -> str:
-        """Of the amplitude."""
+        """Name of the amplitude's axis."""
         return "|v/a|" if self.quantity == "ratio" else "|v| at its level"
 
     def factor(self, level_m_s2: Array | float) -> Array:
@@ -138,5 +138,5 @@ class PaneContents:
         return int(order[min(max(at, 0), len(order) - 1)])
 
     def but(self, **changes: object) -> Self:
-        """The same with changes."""
+        """The same contents with some changes."""
         return replace(self, **changes)  # type: ignore[arg-type]
