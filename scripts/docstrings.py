@@ -5,7 +5,9 @@
 A public function that takes or returns an array states a shape, one that raises says so. An override of a
 documented method of the project needs neither, nor does what a Protocol of the project asks for; a class may
 state the shapes of its methods. A named number of `fitting` has a line with its reason below it, and shapes
-there call an element's degrees of freedom 4 dofs. Exits 1 where something is missing, a line each.
+there call an element's degrees of freedom 4 dofs. A public docstring begins with a sentence that can be read
+by itself, not with a fragment such as "Of one search." or "It goes on.". Exits 1 where something is missing,
+a line each.
 """
 
 import ast
@@ -19,6 +21,19 @@ from pathlib import Path
 ROOMS = ("fitting", "drivers", "instrument", "gui", "viscorig")
 KEPT = {f"drivers/simulated/plant/{name}.py" for name in ("air", "grid", "specimen", "strips")}
 """plate.npz carries a digest of their text: a docstring more would make it another plate."""
+
+FRAGMENTS = {
+    "drivers/front_end/driver.py: FrontEndOptions",
+    "drivers/vibrometer/driver.py: VibrometerOptions",
+    "instrument/files/experiment_file.py: SweepTable",
+    "instrument/files/rig_file.py: ResponseSection",
+}
+"""Fragments that stay, as forms of the window show them for headings; this list may only get shorter."""
+_OPENS = {"Of", "As", "What", "The", "By", "It"}
+"""Words that a fragment begins with: it leans on the name below it."""
+_FEW = 4
+"""Words up to which a sentence that begins so says nothing by itself."""
+_FIRST = re.compile(r"(?<!Eq\.)(?<!Fig\.)(?<=\.)\s|\n\n")
 
 _ARRAY = re.compile(r"\b(Array|Complex|Mask|Indices|Integers|Names|NDArray|ndarray)\b")
 _SHAPE = re.compile(r"\b[Ss]hapes?\b|\([\w ]+,\)|\(\w+(, [\w ]+)+\)|\bper (point|line|sample|mode)\b")
@@ -84,7 +99,37 @@ def missing(root: Path) -> list[str]:
         for line, text in _texts(tree)
         if _OF_AN_ELEMENT.search(text)
     ]
-    return functions + numbers + literal
+    return functions + numbers + literal + _fragments(trees)
+
+
+def _fragments(trees: dict[str, ast.Module]) -> list[str]:
+    """Public classes and functions whose docstring begins with a fragment, and needless leave for them."""
+    found = {
+        f"{file}: {name}": f"{file}:{node.lineno}: {name} begins with a fragment: {text.splitlines()[0]}"
+        for file, tree in trees.items()
+        if file not in KEPT
+        for node, name in _named(tree.body)
+        if _is_fragment(text := ast.get_docstring(node) or "")
+    }
+    gone = [f"{key} is no fragment any more: take it off FRAGMENTS" for key in sorted(FRAGMENTS - set(found))]
+    read = {key.partition(":")[0] for key in FRAGMENTS} & set(trees)
+    left = [line for line in gone if line.partition(":")[0] in read]
+    return [line for key, line in found.items() if key not in FRAGMENTS] + left
+
+
+def _is_fragment(text: str) -> bool:
+    """A reference to what another docstring says, ("As `look`."), is none."""
+    words = _FIRST.split(text, maxsplit=1)[0].split()
+    return bool(words) and words[0] in _OPENS and len(words) <= _FEW and not text.startswith("As `")
+
+
+def _named(body: list[ast.stmt], of: str = "") -> Iterator[tuple[ast.ClassDef | Function, str]]:
+    """Public classes, and functions in them and beside them, each with its name."""
+    for node in body:
+        if isinstance(node, ast.ClassDef | Function) and not node.name.startswith("_"):
+            yield node, of + node.name
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+            yield from _named(node.body, f"{of}{node.name}.")
 
 
 def _texts(tree: ast.Module) -> Iterator[tuple[int, str]]:

@@ -29,7 +29,7 @@ class Nuisance:
 
     @property
     def unit(self) -> Unit:
-        """The unit of `sigma`."""
+        """Unit that `sigma` is stated in."""
         return NUMBERS[self.kind].unit
 
 

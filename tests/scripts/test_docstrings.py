@@ -45,7 +45,7 @@ class Reader(Protocol):
 
 class Card:
     def read(self) -> Array:
-        """By what it is like."""
+        """By what it is like, whatever that may be."""
 
 class Sweep:
     """Columns of shape (points,)."""
@@ -75,3 +75,28 @@ def mass() -> Array:
     status, said = looked_at(tmp_path, source)
     assert status == 1
     assert [line.split(":")[1] for line in said] == ["3"]
+
+
+def test_a_docstring_that_begins_with_a_fragment_is_told_with_it(tmp_path):
+    source = '''
+class Pairs:
+    """Of one search. Others are elsewhere."""
+
+    def wait(self) -> None:
+        """It goes on."""
+
+class Follows:
+    """As `Pairs`."""
+
+def law() -> str:
+    """By the paper's Eq. (20), which needs no mode."""
+
+def _inner() -> None:
+    """Of one."""
+'''
+    status, said = looked_at(tmp_path, source)
+    assert status == 1
+    assert said == [
+        "fitting/one.py:2: Pairs begins with a fragment: Of one search. Others are elsewhere.",
+        "fitting/one.py:5: Pairs.wait begins with a fragment: It goes on.",
+    ]
