@@ -17,7 +17,7 @@ _CROWDED = 6
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-def test_it_runs(path, tmp_path):
+def test_an_example_runs_as_it_stands(path, tmp_path):
     if path.stem == "simulated_rig" and os.name != "posix":
         pytest.skip("the simulated rig needs pseudo-terminals")
     done = subprocess.run(

@@ -21,7 +21,7 @@ def records(tmp_path_factory):
     return path
 
 
-def test_identify(command, found):
+def test_identify_finds_what_the_command_finds(command, found):
     assert timeless(found.as_dict()) == timeless(command("identify", TABLE5, "--specimen", COARSE))
 
 
@@ -56,7 +56,7 @@ def test_identify_with_a_hammer_test(command, tmp_path, records, sweep, plate):
         assert timeless(vr.identify(sweep, plate, hammer=hammer).as_dict()) == expected
 
 
-def test_diagnose(command, sweep, plate):
+def test_diagnose_finds_what_the_command_finds(command, sweep, plate):
     without = all_but("gain_error", "substrate_stiffness")
     words = [word for name in without for word in ("--without", name)]
     expected = command("diagnose", TABLE5, "--specimen", COARSE, "--resamples", 0, *words)
@@ -71,12 +71,12 @@ def test_diagnose_on_your_word(command, sweep, plate):
     assert list(found.effects) == ["spot_offset"]
 
 
-def test_modes(command, plate):
+def test_modes_are_those_of_the_command(command, plate):
     assert vr.modes(plate, 3).as_dict() == command("modes", COARSE, "--count", 3)
 
 
 @pytest.mark.parametrize(("options", "keywords"), [([], {}), (["--real-modes"], {"real_modes": True})])
-def test_predict(command, plate, options, keywords):
+def test_predict_gives_what_the_command_gives(command, plate, options, keywords):
     expected = command("predict", COARSE, "--frequencies", "18.4,19.3,281.1", *options)
     assert vr.predict(plate, [18.4, 19.3, 281.1], **keywords).as_dict() == expected
 
@@ -95,7 +95,7 @@ def test_predict_with_a_hammer_test(command, tmp_path, plate, records):
     assert vr.predict(plate, [18.4, 19.3], hammer=path).as_dict() == expected
 
 
-def test_damping(command, records):
+def test_damping_is_that_of_the_command(command, records):
     expected = command("damping", records, "--band", "10:400", "--exponential", 5, "--estimator", "hv")
     found = vr.damping(records, band_hz=(10, 400), exponential_percent=5, estimator="hv")
     assert found.as_dict() == expected

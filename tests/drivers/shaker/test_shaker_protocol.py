@@ -29,14 +29,14 @@ from drivers.shaker.register_map import DEFAULT, ECHO, IDENTITY, STATUS
 ALL_ONES = [0xFFFF] * 4
 
 
-def test_command_block():
+def test_a_command_block_is_encoded_as_the_map_has_it():
     words = [0x42A0, 0x0000, 0x3F80, 0x0000, 0x4120, 0x0000, 0x0007]
     command = SineCommand(frequency_hz=80.0, drive_v=1.0, ramp_v_s=10.0, sequence=7)
     assert encode_command(DEFAULT, command) == words
     assert decode_command(DEFAULT, words) == command
 
 
-def test_status_block():
+def test_a_status_block_is_decoded_and_encoded_back():
     (span,) = DEFAULT.spans(STATUS)
     words = [0x001C, 0x0002, 0x3E80, 0x0000, 0x41C8, 0x0000, 0x40A0, 0x0000]
     status = ShakerStatus(
@@ -71,13 +71,13 @@ def test_status_bits_one_by_one(bit, name):
         ([0x0001, *ALL_ONES, 0x0000, 0x0000], Echo(1, None, 0.0)),
     ],
 )
-def test_echo_block(words, echo):
+def test_an_echo_block_is_decoded_and_encoded_back(words, echo):
     (span,) = DEFAULT.spans(ECHO)
     assert decode_echo(decode_span(DEFAULT, span, words)) == echo
     assert encode_span(DEFAULT, span, encode_echo(echo)) == words
 
 
-def test_identity_block():
+def test_an_identity_block_is_decoded_and_encoded_back():
     (span,) = DEFAULT.spans(IDENTITY)
     words = [1, 0x0001, 0x0002, 0x4142, 0x4300, *[0] * 14]
     assert decode_identity(decode_span(DEFAULT, span, words)) == Identity("ABC", 65538)

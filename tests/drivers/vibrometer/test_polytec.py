@@ -69,11 +69,11 @@ def test_an_option_that_is_missing_is_none():
 
 
 @pytest.mark.parametrize(("reply", "value"), [("On", True), ("off", False), ("1", True), ("0", False)])
-def test_switches(reply, value):
+def test_a_switch_is_read_from_the_replies_that_devices_give(reply, value):
     assert polytec.parse_switch(reply) is value
 
 
-def test_integers():
+def test_a_whole_number_is_read_and_anything_else_is_garbled():
     assert polytec.parse_integer("461") == 461
     for reply in ("", "4.6", "46a", "9" * 30):
         with pytest.raises(Garbled, match="whole number"):

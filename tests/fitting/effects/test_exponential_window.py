@@ -48,7 +48,7 @@ def test_the_plate_answers_at_the_shifted_frequency(full):
     np.testing.assert_allclose(full.reduced(WINDOW, OF_VELOCITY), expected, rtol=1e-10)
 
 
-def test_its_derivative(full):
+def test_the_derivative_to_the_window_is_that_of_differences(full):
     by, difference = full.slope(WINDOW, OF_VELOCITY, 0)
     assert np.abs(by / difference - 1).max() < 1e-4
 
@@ -64,5 +64,5 @@ def test_the_modulus_is_the_law_s_at_the_shifted_frequency():
     assert np.abs(law.modulus(points.omega) / expected - 1).max() > 0.02
 
 
-def test_it_is_of_blows():
+def test_an_exponential_window_needs_a_force():
     assert WINDOW.needs == {"force"}

@@ -67,7 +67,7 @@ def test_the_stated_modulus_of_a_rolled_sheet_is_along_across_or_the_mean():
 
 
 @pytest.mark.parametrize(("ratio", "stated"), [(0.8, 0), (0.97, 0), (1.1, 0), (1.3, 0), (1.1, 0.5), (0.9, 1)])
-def test_a_rolled_sheet(full, ratio, stated):
+def test_a_rolled_sheet_answers_as_the_full_model_with_its_stiffness(full, ratio, stated):
     shape, face = Shape(*full.loose.mesh.sides_m), full.specimen.substrate
     other, plain = (face_stiffness(shape, f, U_B, V_B) for f in (sheet(face, ratio, stated), face))
     Ke = other - plain
@@ -97,7 +97,7 @@ def graded(full, along, grade):
 
 
 @pytest.mark.parametrize(("along", "grade"), [("x", 0.3), ("x", -1.2), ("y", 0.4), ("y", 1.3)])
-def test_a_graded_core(full, along, grade):
+def test_a_graded_core_answers_as_the_full_model(full, along, grade):
     assert full.error(GradedCoreEffect(along), [grade], K_1=graded(full, along, grade)) < 1e-3
 
 
@@ -108,14 +108,14 @@ def test_a_stiffer_constraining_layer(full, scale):
 
 
 @pytest.mark.parametrize("scale", [0.8, 0.94, 1.25])
-def test_another_constraining_layer(full, scale):
+def test_another_constraining_layer_answers_as_a_plate_built_with_it(full, scale):
     layer = full.specimen.constraining
     other = replace(full.specimen, constraining=replace(layer, thickness_m=scale * layer.thickness_m))
     assert full.error(THICKNESS, [scale], loose=Plate(replace(other, boundary="free"))) < 5e-4
 
 
 @pytest.mark.parametrize("scale", [0.75, 0.94, 1.35])
-def test_another_substrate(full, scale):
+def test_another_substrate_answers_as_a_plate_built_with_it(full, scale):
     other = with_substrate(full.specimen, scale)
     assert full.error(SHEET, [scale], loose=Plate(replace(other, boundary="free"))) < 5e-4
 
@@ -140,7 +140,7 @@ def test_a_modulus_mistyped_by_a_factor_of_two(full, scale):
 
 @pytest.mark.parametrize("layer", [SUBSTRATE, CONSTRAINING])
 @pytest.mark.parametrize("scale", [0.34, 0.95, 1.2, 2.9])
-def test_another_density(full, layer, scale):
+def test_another_density_answers_as_a_plate_built_with_it(full, layer, scale):
     """From steel to aluminium and back, damped by the same ratios."""
     other = with_density(full.specimen, scale, layer)
     damping = viscous_damping(Plate(other))
@@ -172,7 +172,7 @@ def test_parts_are_mixed_and_real_ones_stay_so():
 
 @pytest.mark.parametrize("too", [0.0, 1.0])
 @pytest.mark.parametrize("dlength", [-7e-3, -2e-3, 4e-3])
-def test_another_free_length(full, dlength, too):
+def test_another_free_length_answers_as_a_plate_built_with_it(full, dlength, too):
     length = full.specimen.length_m + dlength
     other = Plate(replace(full.specimen, length_m=length, boundary="free"))
     # The stated plate's damping, taken over with its stretched shapes.
@@ -205,6 +205,6 @@ def test_without_it_nothing_changes(full, effect, neutral):
         *((DENSITY, 1.1), (SHEET, 1.05)),
     ],
 )
-def test_derivatives(full, effect, at):
+def test_derivatives_of_the_layers_effects_are_those_of_differences(full, effect, at):
     by, difference = full.slope(effect, _all(effect, at), 0)
     assert np.abs(by / difference - 1).max() < 1e-4

@@ -35,7 +35,7 @@ def test_it_is_felt_as_the_mass_that_frequency_makes_of_it(full, part):
 
 
 @pytest.mark.parametrize("n", range(5))
-def test_its_derivatives(full, n):
+def test_a_loose_parts_derivatives_are_those_of_differences(full, n):
     by, difference = full.slope(PART, (*OFTEN[0], *PLACE), n)
     np.testing.assert_allclose(by, difference, rtol=1e-4, atol=1e-4 * np.abs(by).max())
 

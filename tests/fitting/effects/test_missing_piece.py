@@ -31,7 +31,7 @@ def test_it_takes_the_mass_of_a_square(full, place):
 
 
 @pytest.mark.parametrize("n", range(3))
-def test_its_derivatives(full, n):
+def test_a_missing_pieces_derivatives_are_those_of_differences(full, n):
     by, difference = full.slope(PIECE, (3e-3, 0.27, 0.02), n)
     np.testing.assert_allclose(by, difference, rtol=1e-4, atol=1e-4 * np.abs(by).max())
 
@@ -45,7 +45,7 @@ def test_what_is_left_has_mass_everywhere(full):
     assert upper[0] == pytest.approx(0.05 * kg_m2(full) * plate.length_m * plate.width_m)
 
 
-def test_what_it_says():
+def test_a_missing_piece_is_told_with_its_mass_and_place():
     assert "3 g of the plate are gone near (285, 12) mm" in PIECE.story(
         {"mass": 3e-3, "x": 0.285, "y": 0.012}
     )

@@ -19,7 +19,7 @@ def at(full, x, y):
     return full.loose.observe(x, y)
 
 
-def test_two_masses(full):
+def test_two_masses_answer_as_the_full_model_with_both(full):
     rows = [at(full, *TWO[k + 1 : k + 3]) for k in (0, 3)]
     M = sum(TWO[k] * sp.csc_array(np.outer(w, w)) for k, w in zip((0, 3), rows, strict=True))
     load = -TWO[0] * rows[0] - TWO[3] * rows[1]
@@ -36,7 +36,7 @@ def test_two_masses_start_from_few_pairs(full):
 
 
 @pytest.mark.parametrize(("k", "loss", "x", "y"), [(60.0, 0.2, 0.29, 0.02), (800.0, 0.5, 0.2, 0.15)])
-def test_a_cable(full, k, loss, x, y):
+def test_a_cable_answers_as_a_spring_between_floor_and_plate(full, k, loss, x, y):
     w = at(full, x, y)
     k_loss = k * (1 + 1j * loss)
     K = k_loss * sp.csc_array(np.outer(w, w))
@@ -46,7 +46,7 @@ def test_a_cable(full, k, loss, x, y):
     assert full.error(TETHER, [0.0, loss, x, y]) < 1e-5
 
 
-def test_a_rolling_base(full):
+def test_a_rolling_base_strains_nothing_and_answers_as_the_full_model(full):
     """Its rigid part strains nothing; the response is to heave and roll together."""
     r = rolling(full.full)
     assert np.abs(full.loose.K_0 @ r).max() < 1e-6 * np.abs(full.loose.K_0 @ np.abs(r)).max()
@@ -81,7 +81,7 @@ def test_a_cable_that_pulls_is_the_plate_in_absolute_motion(full):
     assert np.abs(full.reduced(TETHER, (k, loss, x, y)) / np.array(found) - 1).max() < 1e-3
 
 
-def test_no_roll(full):
+def test_a_roll_of_zero_changes_nothing(full):
     assert full.error(ROLL, [0.0]) < 1e-5
 
 
@@ -89,6 +89,6 @@ def test_no_roll(full):
     ("effect", "u", "n"),
     [(MASSES, TWO, 3), (MASSES, TWO, 1), (TETHER, (60.0, 0.2, 0.29, 0.02), 1), (ROLL, (0.2,), 0)],
 )
-def test_derivatives(full, effect, u, n):
+def test_derivatives_of_effects_at_points_are_those_of_differences(full, effect, u, n):
     by, difference = full.slope(effect, u, n)
     assert np.abs(by / difference - 1).max() < 1e-3

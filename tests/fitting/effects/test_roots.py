@@ -102,6 +102,6 @@ def test_an_even_clamp_is_the_simpler_effect(full):
 @pytest.mark.parametrize(
     ("effect", "u", "n"), [(FREE_TREATMENT, [3e8], 0), (UNEVEN, [5e13, 0.4], 0), (UNEVEN, [5e13, 1.0], 1)]
 )
-def test_derivatives(full, effect, u, n):
+def test_derivatives_of_effects_at_the_root_are_those_of_differences(full, effect, u, n):
     by, difference = full.slope(effect, u, n)
     assert np.abs(by / difference - 1).max() < 1e-4

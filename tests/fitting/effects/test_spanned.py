@@ -76,7 +76,7 @@ def error(a, b):
     return float(np.max(np.abs(a / b - 1)))
 
 
-def test_a_yielding_root(full):
+def test_a_yielding_root_answers_as_the_full_model_on_springs(full):
     S = {axis: root_springs(full.full, axis) for axis in "xyz"}
     for k in (1.2e13, 6e13):
         expected = full.direct(root=k * (S["x"] + S["z"]) + RIGID_N_M3 * S["y"])
@@ -109,7 +109,7 @@ def test_a_point_mass_off_the_axis(full):
 
 
 @pytest.mark.parametrize("scale", [0.9, 1.08])
-def test_another_core_thickness(full, scale):
+def test_another_core_thickness_answers_as_a_plate_built_with_it(full, scale):
     core = replace(full.specimen.core, thickness_m=scale * full.specimen.core.thickness_m)
     other = Plate(replace(full.specimen, core=core, boundary="free"))
     loose = full.full.loose
@@ -119,13 +119,13 @@ def test_another_core_thickness(full, scale):
     assert error(full.reduced(CATALOGUE["core_thickness"], [scale]), expected) < 2e-4
 
 
-def test_a_stiffer_substrate(full):
+def test_a_stiffer_substrate_answers_as_the_full_model(full):
     expected = full.direct(K=0.05 * full.full.loose.K_substrate)
     assert error(full.reduced(CATALOGUE["substrate_stiffness"], [1.05]), expected) < 1e-4
 
 
 @pytest.mark.parametrize(("along", "low", "width"), [("x", 0.15, 0.03), ("x", 0.27, 0.03), ("y", 0.09, 0.03)])
-def test_a_loose_strip(full, along, low, width):
+def test_a_loose_strip_answers_as_the_full_model_without_its_core(full, along, low, width):
     rows = strips(full.full, along)
     side = full.specimen.length_m if along == "x" else full.specimen.width_m
     edges = np.linspace(0, side, len(rows) + 1)
@@ -148,18 +148,18 @@ def test_a_strip_at_an_edge_is_the_one_that_ends_there(full, along):
         )
 
 
-def test_more_viscous_damping(full):
+def test_more_viscous_damping_answers_as_the_full_model(full):
     expected = full.direct(damping=2.5)
     assert error(full.reduced(ViscousDampingEffect(), [2.5]), expected) < 1e-6
 
 
-def test_a_shifted_spot(full):
+def test_a_shifted_spot_reads_as_the_full_model_there(full):
     x, y = full.full.pickup_m
     expected = full.direct(row=full.full.loose.observe(x + 8e-3, y - 5e-3))
     assert error(full.reduced(SpotOffsetEffect(), [8e-3, -5e-3]), expected) < 1e-5
 
 
-def test_a_pitching_base(full):
+def test_a_pitching_base_answers_as_the_full_model(full):
     plate = full.spanned.take(BaseRockingEffect.spans)
     found = answer(plate, OMEGA, G, Change(), [], with_pitch=True).pitch
     assert error(found, full.direct(pitch=True)) < 1e-5

@@ -88,7 +88,7 @@ def test_sensitivity_follows_eq_20(problem):
         np.testing.assert_allclose(S[:, k], central, atol=2e-4 * np.abs(S).max())
 
 
-def test_refusals(problem, table5, zn1, zn1_models):
+def test_the_papers_fit_refuses_a_law_without_parameters_and_a_single_point(problem, table5, zn1, zn1_models):
     with pytest.raises(TooFewPoints, match="no parameter"):
         fit_paper(problem, Isd112())
     with pytest.raises(TooFewPoints, match="1 point"):

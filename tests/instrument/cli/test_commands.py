@@ -26,7 +26,7 @@ def plate(tmp_path_factory):
     return path
 
 
-def test_modes(capsys, plate):
+def test_modes_gives_as_many_modes_as_asked_for_in_order(capsys, plate):
     found = facts(capsys, "modes", plate, "--count", 3)["modes"]
     assert len(found) == 3
     assert set(found[0]) == {"frequency_hz", "loss_factor"}
@@ -42,7 +42,7 @@ def test_modes_of_a_bare_plate(capsys, tmp_path):
     assert found[0]["loss_factor"] == 0
 
 
-def test_predict(capsys, plate):
+def test_predict_gives_a_point_for_each_frequency_asked_for(capsys, plate):
     points = facts(capsys, "predict", plate, "--frequencies", "18.4:20.2:0.9")["points"]
     np.testing.assert_allclose([p["frequency_hz"] for p in points], [18.4, 19.3, 20.2])
     for p in points:

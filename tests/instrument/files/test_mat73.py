@@ -58,7 +58,7 @@ def test_variables_are_as_the_older_format_has_them(tmp_path):
     assert found["run"]["fs"] == expected["run"]["fs"]
 
 
-def test_they_are_imported(tmp_path):
+def test_a_file_of_version_7_3_is_imported_as_any_other(tmp_path):
     path = written(tmp_path / "a.mat", usual)
     import_file(path, tmp_path / "a.csv", Naming.of("f=Frequency [Hz],H=FRF [g/N]"))
     rows = np.loadtxt(tmp_path / "a.csv", delimiter=",", skiprows=2)

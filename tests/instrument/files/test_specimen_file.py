@@ -63,7 +63,7 @@ def test_knots_are_read_with_the_law_and_are_no_parameters(tmp_path):
     assert law.names == ["g_1_pa", "g_2_pa", "loss_factor_1", "loss_factor_2"]
 
 
-def test_optional_parts(tmp_path):
+def test_core_and_mesh_may_be_left_out_and_the_reading_stated(tmp_path):
     bare = re.sub(r"\[constraining\].*?\[damping\]", "[damping]", GOOD, flags=re.S)
     s = read_specimen(write(tmp_path, bare))
     assert s.core is None

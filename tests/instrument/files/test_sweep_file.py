@@ -15,7 +15,7 @@ def write(tmp_path, text):
     return path
 
 
-def test_amplitudes(tmp_path):
+def test_a_sweep_of_amplitudes_alone_has_no_phase(tmp_path):
     sweep = read_sweep(write(tmp_path, AMPLITUDES)).sweep(9.81)
     assert not sweep.has_phase
     np.testing.assert_array_equal(sweep.velocity_m_s, [0.0726, 0.1112])

@@ -39,7 +39,7 @@ G = STANDARD_GRAVITY_M_S2
         ("LBF", "force", 4.4482216152605, None),
     ],
 )
-def test_known_units(text, quantity, factor, per):
+def test_a_known_unit_has_its_quantity_and_its_factor_to_si(text, quantity, factor, per):
     unit = unit_of(text)
     assert (unit.quantity, unit.per) == (quantity, per)
     assert unit.factor == pytest.approx(factor, rel=1e-12)

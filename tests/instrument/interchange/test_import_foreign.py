@@ -121,7 +121,7 @@ def test_testlab_time_records_make_a_hit(tmp_path):
     assert hit.sample_rate_hz == pytest.approx(1000)
 
 
-def test_named_arrays(tmp_path):
+def test_arrays_are_known_by_their_names_and_units(tmp_path):
     arrays = {"freq": F, "velocity_mm_s": V * 1e3, "base_accel_g": BASE / 9.80665, "comment": "by hand"}
     savemat(tmp_path / "a.mat", arrays)
     read = sweep_of(tmp_path / "a.mat", tmp_path / "a.csv").columns

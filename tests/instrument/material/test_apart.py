@@ -53,7 +53,7 @@ def test_a_third_more_stiffness_is_named(count):
     assert np.mean(named) > 0.75
 
 
-def test_three_tell_nothing():
+def test_of_three_laws_no_group_is_told_apart():
     assert np.isnan(p_values(*group(np.random.default_rng(0), 3, 0.0, 0.02))).all()
 
 

@@ -96,7 +96,7 @@ def test_no_data_tell_a_patch_cut_shorter_from_a_softer_core(zn1):
     assert remarks_on_patches(replace(patched, patches=(Patch(0.0, 0.1, 0.0, 0.1),))) == ()
 
 
-def test_they_are_listed(zn1):
+def test_tolerances_are_listed_with_their_values_and_where_they_come_from(zn1):
     specimen = replace(zn1, exact=False, tolerances={"core_thickness": 0.01, "pickup": 1e-3})
     rows = dict(tolerance_rows(specimen))
     assert rows["core thickness"] == "1 %"

@@ -99,7 +99,7 @@ def test_every_section_is_there_in_order(page):
     )
 
 
-def test_it_fetches_nothing(page):
+def test_a_report_fetches_nothing_from_elsewhere(page):
     sources = re.findall(r'(?:src|href)="([^"]*)"', page)
     assert all(s.startswith(("data:", "#")) for s in sources)
     assert "url(" not in page

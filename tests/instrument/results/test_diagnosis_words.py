@@ -30,7 +30,7 @@ from instrument.results.diagnosis_words import (
         (np.nan, "-"),
     ],
 )
-def test_a_probability(p, said):
+def test_a_probability_is_told_in_percent_and_never_as_nought_or_all(p, said):
     candidate = diagnosis().candidates[0].but(probability=p)
     assert probability_words(candidate, diagnosis()) == said
 

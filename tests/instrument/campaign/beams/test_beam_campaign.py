@@ -161,7 +161,7 @@ def test_what_a_clamp_does_lowers_every_resonance():
     np.testing.assert_allclose(lowest(longer) / clean, 1.01**-2, rtol=5e-3)
 
 
-def test_what_a_core_does():
+def test_a_debond_lowers_modes_and_a_warm_core_changes_the_reading():
     clean = built(STRIP)
     debond = HiddenPartialDebond(0.0, 0.03, 0.004, 0.02)
     assert (lowest(built(STRIP, (debond,))) < lowest(clean)).all()
