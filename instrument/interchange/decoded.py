@@ -21,7 +21,7 @@ these are alike in it and in Latin-1."""
 def decoded(path: Path) -> str:
     """The text of a file, whatever its encoding.
 
-    Raises `BadInput` for an empty file and for one that is none.
+    Raises `BadInput` for an empty file and for one that is no text.
     """
     content = read_content(path)
     named = next((encoding for mark, encoding in _MARKED.items() if content.startswith(mark)), "")

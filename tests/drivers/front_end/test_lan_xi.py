@@ -82,6 +82,14 @@ def test_sensors_with_a_memory_say_who_they_are(source):
     assert driver.transducers == (None, said, None)
 
 
+def test_sensors_that_are_read_without_end_are_given_up(server, monkeypatch):
+    """A module hangs so: it has to be restarted by hand."""
+    monkeypatch.setattr("drivers.simulated.lan_xi_server._DETECTION_POLLS", 1_000_000)
+    monkeypatch.setattr("drivers.front_end.lan_xi._DETECTION_S", 0.1)
+    with pytest.raises(TimedOut, match=r"detecting sensors took over 0\.1 s: restart the module"):
+        LanXiFrontEnd(server.url, timeout_s=1.0)
+
+
 def test_a_million_samples_are_the_sources_to_the_bit(source, front_end):
     front_end.start(CHANNELS, 131072)
     assert front_end.sample_rate_hz == source.rate_hz == 131072

@@ -130,3 +130,11 @@ def test_samples_before_their_scale_are_garbled():
 def test_a_scale_factor_that_cannot_be_is_garbled(scale):
     with pytest.raises(Garbled, match="scale factor of"):
         reader().take(Interpretation(at(0), (Descriptor(1, DescriptorType.SCALE_FACTOR, scale),)))
+
+
+def test_stamps_that_count_otherwise_than_before_are_garbled():
+    made = reader()
+    made.take(data(0, [1], [2]))
+    other = Time(at(1).ticks, family=(31, 0, 0, 0))
+    with pytest.raises(Garbled, match="the time family changed"):
+        made.take(Data(other, (Signal(1, np.array([2], np.int32)),)))

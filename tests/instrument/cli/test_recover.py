@@ -67,3 +67,14 @@ def test_where_the_first_part_is_damaged_that_is_why_there_is_no_session(tmp_pat
     (folder / "part-000001.h5").unlink()
     assert run(["recover", str(folder)]) == 2
     assert "part-000001.h5 is missing" in capsys.readouterr().err
+
+
+def test_a_session_that_holds_more_than_the_folder_is_not_written_over(tmp_path, capsys):
+    folder = recorded(tmp_path / "one.running", 3)
+    assert run(["recover", str(folder)]) == 0
+    before = (tmp_path / "one.h5").read_bytes()
+    (folder / "part-000002.h5").unlink()
+    capsys.readouterr()
+    assert run(["recover", str(folder)]) == 2
+    assert "one.h5: holds 3 parts, the folder only 1: move it away first" in capsys.readouterr().err
+    assert (tmp_path / "one.h5").read_bytes() == before

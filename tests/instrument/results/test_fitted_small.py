@@ -5,10 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.stated.layers import Core
 from fitting.structures.shear_pair import ShearPair, disc
 from fitting.structures.small_modes import small_velocity
+from instrument.errors import BadInput
 from instrument.results.fit_file import FoundLaw
 from instrument.results.fitted_response import fitted_response
 from instrument.results.fitted_small import FittedSmall
@@ -34,6 +36,13 @@ def found(**moved):
             "posterior": {"names": names, "rows": lower},
         }
     )
+
+
+def test_a_law_of_another_kind_than_the_specimens_is_refused():
+    with pytest.raises(
+        BadInput, match="the law found is fractional-zener, expected the specimen's own, constant"
+    ):
+        found().law(ConstantModulus(1e6, 0.3))
 
 
 def test_moved_numbers_are_another_pair_read_by_another_channel():

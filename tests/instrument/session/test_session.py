@@ -1,6 +1,7 @@
 """Sealed parts, the journal, and the session put together from them."""
 
 import json
+import threading
 
 import h5py
 import numpy as np
@@ -154,6 +155,20 @@ def test_a_disk_that_fails_stops_the_run_in_one_line(tmp_path):
         with pytest.raises(RigStopped, match="recording failed") as stopped:
             record_on_and_on(recorder)
     assert "\n" not in str(stopped.value)
+
+
+def test_a_disk_that_takes_nothing_any_more_stops_the_run(tmp_path, monkeypatch):
+    free = threading.Event()
+    monkeypatch.setattr("instrument.session.recorder.write_part", lambda *_: free.wait(30.0))
+    monkeypatch.setattr("instrument.session.recorder._QUEUE", 1)
+    monkeypatch.setattr("instrument.session.recorder._PATIENCE_S", 0.05)
+    journal = SessionJournal(tmp_path / "s.running")
+    journal.begin(configuration())
+    with Recorder(journal, []) as recorder:
+        recorder.record(SegmentEnded(1, 1))
+        with pytest.raises(RigStopped, match=r"s\.running: the disk took nothing for 0 s"):
+            record_on_and_on(recorder)
+        free.set()
 
 
 def test_a_folder_that_is_there_already_is_left_alone(tmp_path):

@@ -1,5 +1,7 @@
 """A number that turned into another one on the disk is not read as data."""
 
+import json
+
 import h5py
 import pytest
 from session_cases import whole_session
@@ -31,6 +33,21 @@ def test_a_digit_that_turned_is_said(tmp_path):
     read(path)
     with_another_digit(path)
     with pytest.raises(BadInput, match="damaged: events: not as they were written"):
+        read(path)
+
+
+def test_a_block_that_claims_other_samples_than_are_there_is_said(tmp_path):
+    path = whole_session(tmp_path)
+    with h5py.File(path, "r+") as file:
+        part = next(p for p in file["parts"].values() if "samples" in p)
+        events = part["events"][()]
+        k = max(k for k, e in enumerate(events) if b"BlockAcquired" in e)
+        facts = json.loads(events[k])
+        held = facts["samples"]
+        events[k] = json.dumps(facts | {"samples": held + 1})
+        part["events"][...] = events
+        del part["events"].attrs["sha256"]
+    with pytest.raises(BadInput, match=f"samples: {held} in a block of {held + 1}"):
         read(path)
 
 
