@@ -55,9 +55,9 @@ class MeshError:
     """(mesh - theory)/theory of a wave, over all directions. Shape (waves,) each."""
 
     frequency: Array
-    """The mean."""
+    """Mean error of the frequency over all directions."""
     loss: Array
-    """The mean, of the loss factor."""
+    """Mean error of the loss factor over all directions."""
     frequency_by_way: Array
     """Standard deviation from one direction to another."""
     loss_by_way: Array

@@ -36,7 +36,8 @@ class ClampSpan(RootSpan):
     """The same of every clamped edge, where a plate is held on others than a root."""
 
     released_along_x: Sequence[int]
-    """Of edges along x. A root lies along y: `released` is of edges along y."""
+    """Degrees of freedom that are released along edges parallel to x. A root lies along y: `released` is of
+    edges along y."""
 
     def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
         if not on_a_rim(full):

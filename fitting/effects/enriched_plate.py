@@ -47,7 +47,7 @@ _MOST_TAKEN = 12
 _MOST_ROWS = 32
 """Rows that are kept: those of one evaluation. A choice."""
 _MADE_ANEW = ("_taken", "_stacks", "_rows", "roughly", "with_part")
-"""By another process."""
+"""Another process makes these anew."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class EnrichedReducedPlate:
     gram: Array
     """Inner products of the columns."""
     names: Names
-    """Of `matrices`."""
+    """Names of `matrices`, in order."""
     matrices: Array
     """Shape (count, k, k)."""
     vector_names: Names

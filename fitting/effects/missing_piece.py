@@ -19,7 +19,7 @@ from fitting.effects.span import Span
 _START_KG = 2e-3
 """To begin with."""
 _MOST = 0.05
-"""Of the plate's mass."""
+"""Largest share of the plate's mass that may be missing."""
 _ALONG, _ACROSS = (0.3, 0.5, 0.7, 0.95), (0.05, 0.3, 0.5, 0.7, 0.95)
 """Shares of length and width, to begin with: the corners of the free end, edges, holes in the middle."""
 _AT, _WEIGHT = np.polynomial.legendre.leggauss(3)

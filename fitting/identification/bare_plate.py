@@ -51,7 +51,7 @@ class BarePlateFit:
     young_scale: float
     """Over the stated one."""
     standard_error: float
-    """Of its logarithm."""
+    """Standard error of the logarithm of `young_scale`."""
     clamp_percent: float
     """What the root's compliance takes off mode 1."""
     measured_hz: Array

@@ -26,7 +26,7 @@ STEP = 1e-4
 WEIGHT_AT_RESONANCE = 0.2
 """As printed, of the points at each resonance."""
 WEIGHT_ELSEWHERE = 0.06
-"""As printed."""
+"""As printed, of all other points."""
 WEIGHT_OF_PARAMETERS = 0.25
 """As printed: the diagonal of W_b."""
 CRITERION = 0.05

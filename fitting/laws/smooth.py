@@ -38,7 +38,7 @@ class Smooth(CoreLaw):
     source: ClassVar[str] = "natural cubic splines of ln G' and ln eta over ln f"
 
     frequency_hz: tuple[float, ...] = fixed("frequency_hz")
-    """The knots, ascending."""
+    """Frequencies of the knots, ascending."""
     g_pa: tuple[float, ...] = quantity("g_mpa", to_si=1e6, lower=1e2, upper=1e11, search=(1e4, 1e7))
     """G' there."""
     loss_factor: tuple[float, ...] = quantity("loss_factor", lower=1e-6, upper=10.0, search=(0.05, 1.5))

@@ -276,7 +276,7 @@ class _Followed:
         self._Q, self._R = np.linalg.qr(np.column_stack([resonances, lines.background]))
         self._along = self._Q.conj().T @ lines.H
         self.left: Complex = lines.H - self._Q @ self._along
-        """Of the lines."""
+        """What the fit leaves of the lines."""
 
     @property
     def coefficients(self) -> Complex:

@@ -23,7 +23,7 @@ class ModalTable:
     loss_factor_std: Array | None = None
     temperature_c: Array | None = None
     name: str = ""
-    """Of its file."""
+    """Name of its file."""
     read: Read | None = None
     """How its numbers were read; None where nobody says: as the model's own."""
 

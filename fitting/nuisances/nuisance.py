@@ -21,7 +21,7 @@ class Nuisance:
     name: str
     """As results list it: `pickup_x`, `damping_1`."""
     kind: str
-    """Of `fitting.stated.tolerances.NUMBERS`."""
+    """A key of `fitting.stated.tolerances.NUMBERS`."""
     sigma: float
     """Relative, m or s."""
     stated: float | None = None

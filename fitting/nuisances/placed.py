@@ -26,7 +26,7 @@ class PlacedPoints:
 
     specimen: Specimen
     reference: Specimen
-    """As it was meshed."""
+    """The specimen as it was meshed."""
     places: Mapping[str, int]
     """Of stated numbers, by name."""
     sigma: Array

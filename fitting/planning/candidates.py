@@ -15,7 +15,7 @@ from fitting.diagnosis.problem.plate_poles import PlatePoles
 _SHARE = 0.25
 """Of the distance to the nearest pole, between two candidates."""
 _NEVER_WIDER = 0.05
-"""Of the frequency."""
+"""Largest spacing of candidates, as a share of their frequency."""
 _MOST = 400
 """Candidates: where there would be more, all are set further apart. A bound on time."""
 _APART = 1.15

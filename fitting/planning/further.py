@@ -45,7 +45,7 @@ class Further:
     at: Places
     """Points that are read."""
     dwell_s: Array
-    """Of each of these."""
+    """How long each of these points is read."""
     same_errors: bool | Mask = True
     """Whether the model errs as in the first sweep, in proportion to what it reads; else anew. Of each of
     these points where they differ."""
@@ -106,7 +106,7 @@ class Expecting:
         self.of = [k for k, _, _ in forms]
         """Whose each of the forms is that are asked."""
         self.probabilities = np.array([p for _, _, p in forms]) / sum(p for _, _, p in forms)
-        """Of the forms. Shape (forms,)."""
+        """Probabilities of the forms. Shape (forms,)."""
         first = each[0][0]
         several = self.problem if isinstance(self.problem, SeveralProblem) else None
         self.reduced = several.reduced[0] if several and several.reduced else rivals.reduced

@@ -24,7 +24,7 @@ class Measured:
     response_m_s: Complex
     """Over the measured base, times the commanded one; anything where nothing was read."""
     std_m_s: Array
-    """Of each part."""
+    """Standard deviation of each part of the reading."""
     taken: Mask
 
 

@@ -44,7 +44,7 @@ class Unseen:
     storage_modulus: float
     """By what share it would shift G', where in the band it shifts it most."""
     loss_factor: float
-    """The same of eta."""
+    """The same share of eta."""
     errors: float
     """The larger of both, in standard errors of the band there."""
 

@@ -74,7 +74,7 @@ class Shape:
     a_m: float
     b_m: float
     dofs: int = DOFS
-    """Of a node: `Mesh.dofs`."""
+    """Degrees of freedom of a node: `Mesh.dofs`."""
 
     def inplane(self, dof: int, x: float, y: float, dx: int = 0, dy: int = 0) -> Array:
         """N_1 to N_4: one of u_c, v_c, u_b, v_b (or its derivative). Shape (4 dofs,)."""

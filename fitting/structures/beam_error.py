@@ -19,7 +19,7 @@ HELD_WIDTH = 0.33
 HELD_WIDTH_WITHIN = 0.2
 """Relative: what is left of it where it is counted."""
 FREQUENCY = 5e-4
-"""Of a resonance, relative."""
+"""Relative error of every resonance's frequency."""
 ACROSS = 5e-3
 """Of a resonance, in units of (nu k b)^2: short waves, where curvature across is no parabola."""
 APART_LEFT = 0.15

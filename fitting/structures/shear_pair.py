@@ -45,7 +45,7 @@ class ShearPair(BaseDriven):
     discs: int
     """In parallel."""
     area_m2: float
-    """Of each."""
+    """Area of each disc."""
     core: Core
     """Its thickness is a disc's."""
     gyration_m: float | None = None

@@ -97,7 +97,7 @@ class SmallNuisances(Nuisances):
 
     specimen: SmallSpecimen  # type: ignore[assignment]
     parts: Parts | None = None
-    """What their coefficients multiply."""
+    """The matrices that the coefficients multiply."""
 
     @property
     def reads_at_a_place(self) -> bool:

@@ -23,7 +23,7 @@ class ShiftedFit:
     one: Refitted
     own: Refitted
     bands_hz: list[tuple[float, float]]
-    """Of each sweep."""
+    """Lowest and highest frequency of each sweep."""
 
     @property
     def joint(self) -> OneLaw:

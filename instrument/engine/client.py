@@ -50,7 +50,7 @@ class Stopped:
     silent: bool
     """The shaker says that its drive is zero. False also where no rig was open; `message` tells."""
     seconds: float
-    """It took so long."""
+    """How long it took until then."""
     message: str
     """One line for people."""
 

@@ -17,7 +17,7 @@ class BatchRepeat(Result):
 
     data: str
     repeats: str
-    """The earlier row's data."""
+    """The data of the earlier row that it repeats."""
 
 
 class BatchSpread(Result):

@@ -27,7 +27,7 @@ class BesideTable(Result):
     """A table beside the law, inside the band."""
 
     source: str
-    """The file's name."""
+    """Name of the table's file."""
     kind: str
     poisson: MaybeNumber = None
     """With which a modulus of tension became one of shear."""

@@ -10,7 +10,7 @@ class PronyTerm(Result):
 
     g_pa: Number
     share: Number
-    """Of the instantaneous modulus."""
+    """Share of the instantaneous modulus."""
     tau_s: Number
 
 

@@ -12,7 +12,7 @@ class ComparedAt(Result):
 
     frequency_hz: Number
     storage_modulus_difference_percent: Number
-    """Of A's."""
+    """Difference in percent of A's storage modulus."""
     storage_modulus_z: Number
     loss_factor_difference: Number
     loss_factor_z: Number
@@ -32,7 +32,7 @@ class ComparedPair(Result):
     chi2: Number
     degrees_of_freedom: Number
     p_value: Number
-    """Of all frequencies together."""
+    """Probability of so large a difference by chance, at all frequencies together."""
     differs: bool | None
     """None where it cannot be told."""
     covariance: str | None

@@ -8,7 +8,7 @@ from instrument.facts.result import Result
 
 Method = Literal["rational_fit", "half_power", "lscf"]
 METHODS: tuple[Method, ...] = ("rational_fit", "half_power", "lscf")
-"""The first is adopted."""
+"""Methods in order; the ratio of the first is adopted."""
 
 
 class RatioFound(Result):

@@ -29,11 +29,11 @@ class IntervalsFound(Result):
     full_evaluations_in_that_time: Number | None = None
     acceptance: Number | None = None
     effective_samples: dict[str, Number] | None = None
-    """By quantity."""
+    """Number of independent samples, by quantity."""
     r_hat: dict[str, Number] | None = None
-    """By quantity."""
+    """How far the chains are from agreeing (1 where they do), by quantity."""
     checked_in_full: int | None = None
     """Samples that were evaluated in full."""
     weights_effective_share: Number | None = None
-    """Of their importance weights."""
+    """Effective share of the samples by their importance weights."""
     weights_log_standard_deviation: Number | None = None

@@ -67,7 +67,7 @@ class SpotCompared(Result):
     x_mm: Number
     y_mm: Number
     steps: int
-    """Of its own plan."""
+    """Number of steps of the plan at that spot."""
     seconds: Number
     worst_percent: Number
     """In the rig time of the plan at the stated spot."""

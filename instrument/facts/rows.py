@@ -57,7 +57,7 @@ class PointSetAside(Result):
     sweep: int
     level_m_s2: Number
     measured_m_s: Number
-    """As in `points`."""
+    """The reading, as in `points`."""
     why: str
     """`signal_dropout`, `mains_hum`, or another effect that spoils single readings; `fixture_resonance`;
     `insensitive` where the core hardly shows and the rig's own error does."""

@@ -39,4 +39,4 @@ class ReplayResult(Result):
     derived_events: int
     """Computed again."""
     differences: tuple[str, ...] = ()
-    """The first few."""
+    """The first few differences from the recording."""

@@ -12,7 +12,7 @@ class ShiftAt(Result):
     """One sweep's place under the joint law."""
 
     name: str
-    """Of its file."""
+    """Name of its file."""
     temperature_c: Number
     log10_shift: Number
     """Of a_T: the law is read at a_T times the frequency."""
@@ -26,9 +26,9 @@ class ModeAt(Result):
     """A mode at one temperature beside the model's under the joint law."""
 
     name: str
-    """Of its file."""
+    """Name of its file."""
     temperature_c: Number
-    """As stated."""
+    """Temperature as its table states it."""
     mode: int
     frequency_hz: Number
     predicted_hz: Number
@@ -64,7 +64,7 @@ class ShiftedResult(Result):
     wicket_percent: Number
     """Largest distance of eta from the joint law's at one G', over all temperatures."""
     modes: tuple[ModeAt, ...] = ()
-    """Of tables of modes."""
+    """Modes of the tables, where data are tables."""
     adjusted: tuple[AdjustedNumber, ...] = ()
     """The stated numbers as the joint fit has them, those of a specimen once for all its temperatures."""
     words: str

@@ -9,7 +9,7 @@ class ExportResult(Result):
 
     files: tuple[str, ...]
     notes: tuple[str, ...] = ()
-    """What was left out."""
+    """Said of what the files leave out."""
     result: SessionResult | None = None
     """The law to sign; None without a sweep."""
 

@@ -30,7 +30,7 @@ class ColumnPoint:
     reference_m_s2: float = PUBLISHED_G_M_S2
     """Base acceleration that `level_g` multiplies."""
     tolerance_percent: float = np.nan
-    """Of the level."""
+    """How far a reading may be off its level, in percent of it."""
 
 
 Read = Callable[[Sequence[ColumnPoint]], Values]

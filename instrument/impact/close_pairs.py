@@ -54,7 +54,7 @@ class Pairs:
     """What was found about peaks."""
 
     centres: tuple[float, ...]
-    """Of all modes, Hz."""
+    """Frequencies of all modes, Hz."""
     doubts: Mapping[float, Doubt] = field(default_factory=dict)
 
     def judged(self, mode: Mode, centre: float) -> Mode:

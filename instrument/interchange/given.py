@@ -42,7 +42,7 @@ class Given:
     session: str = ""
     """Its name, where the data are one."""
     reads: str = ""
-    """What its laser sees."""
+    """What the session's laser reads: relative or absolute velocities."""
     remark: str = ""
     """For people, where a file leaves something to say."""
     recorded: SessionResult | None = None
@@ -55,7 +55,7 @@ class Given:
     """The data of each clamping, known mass that a run put on the plate and place where it was struck; empty
     where there is none."""
     temperature_range_c: tuple[float, float] | None = None
-    """Of a column."""
+    """Lowest and highest temperature of a column."""
 
     @property
     def plate(self) -> Specimen:

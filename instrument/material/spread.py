@@ -40,7 +40,7 @@ class Curves:
     """Laws of several specimens at the same frequencies, and what is not known of each."""
 
     names: tuple[str, ...]
-    """Of the specimens."""
+    """Names of the specimens."""
     frequency_hz: Array
     """Shape (frequencies,)."""
     logs: Array
@@ -99,10 +99,10 @@ class Spread:
     """Of several specimens over their common band. Arrays have shape (frequencies,)."""
 
     names: tuple[str, ...]
-    """Of the specimens."""
+    """Names of the specimens."""
     frequency_hz: Array
     storage_modulus_pa: Array
-    """Of the common law."""
+    """Storage modulus of the common law."""
     loss_factor: Array
     storage_error: Array
     """Of the common law, relative: how well the mean of all such specimens is known."""

@@ -23,7 +23,7 @@ class FittedPlate:
     """One specimen with its stated numbers moved by `z`, in standard deviations of their tolerances."""
 
     specimen: Specimen
-    """As stated."""
+    """The specimen as its file states it."""
     nuisances: Nuisances
     z: Array
 

@@ -36,7 +36,7 @@ class Identified:
 
     result: Identification
     sweep: Sweep
-    """What was fitted."""
+    """The sweep that was fitted."""
     given: Sweep
     """The same with what was set aside."""
     why_aside: Reasons
@@ -44,7 +44,7 @@ class Identified:
     setup_seconds: float
     """Models made or loaded."""
     seconds: float
-    """The fit."""
+    """Seconds that the fit took."""
     validation_seconds: float
     theory: TheoryError | None = None
     """The layer-wise theory's error under the law found; None for the paper's method."""

@@ -57,7 +57,7 @@ class Task:
     specimen: Specimen
     noise: Noise
     hammer: Hammer | None = None
-    """Of the bare plate."""
+    """The hammer test of the bare plate."""
     like: Specimen | None = None
     """As `set_up` takes it."""
 

@@ -64,7 +64,7 @@ class TablesIdentified:
     seconds: float
     remarks: tuple[str, ...]
     formulas: tuple[tuple[ByFormula, ...], ...] = ()
-    """Of every table."""
+    """Moduli by formula, for each mode of every table."""
     setup_seconds: float = 0.0
 
 
@@ -104,7 +104,7 @@ class TablesDiagnosed:
 
     found: DiagnosedModes
     effects: tuple[Effect, ...]
-    """What was looked for."""
+    """The effects that were looked for."""
     setup_seconds: float
     seconds: float
     remarks: tuple[str, ...]

@@ -48,9 +48,9 @@ class Goal:
     target: float
     """Relative standard error of G' and eta, anywhere in the band."""
     causes_share: float
-    """Of rig time."""
+    """Share of the rig time that goes to telling causes apart."""
     most_s: float
-    """Of rig time."""
+    """Most seconds of rig time."""
 
 
 @dataclass(frozen=True)

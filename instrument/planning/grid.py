@@ -112,7 +112,7 @@ class Grid:
     candidates: Candidates
     problem: DiagnosisProblem
     velocity_m_s: Complex
-    """By that law. Shape (candidates,)."""
+    """Velocities at the candidates by that law. Shape (candidates,)."""
     errors: Complex
     """The model's own, one standard deviation each. Shape (any, candidates)."""
     signatures: tuple[Signature, ...]

@@ -35,7 +35,7 @@ class Earlier:
     """The first of the sweep alone, one more after each measurement."""
     proposed: dict[int, FollowUpProposed]
     decided: dict[tuple[int, int], FollowUpDecided]
-    """By measurement and offer."""
+    """What was decided, by numbers of measurement and offer."""
     ended: frozenset[int]
     spots: tuple[SpotMoved, ...]
     mounting: int = 0

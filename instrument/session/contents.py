@@ -62,7 +62,7 @@ class RecordedHit:
 
     number: int
     accepted: bool
-    """The operator's word counts."""
+    """Whether it counts; the operator's word overrules the judgement."""
     why: str
     peak_n: float
     record: Hit
@@ -99,7 +99,7 @@ class Contents:
     ended: SessionEnded | None = None
     """None where the program was killed."""
     sample_rate_hz: float | None = None
-    """Of the sweep."""
+    """Sample rate of the sweep."""
     points: list[TimedPoint] = field(default_factory=list)
     """Steps and sentinels, as they were measured."""
     segments: dict[tuple[int, int], SegmentRun] = field(default_factory=dict)
@@ -118,7 +118,7 @@ class Contents:
     fit: FitUpdated | None = None
     """The last one of the run itself."""
     diagnosis: DiagnosisFound | None = None
-    """The last one."""
+    """The last diagnosis of the run."""
     following: list[Event] = field(default_factory=list)
     """Every diagnosis, and what was proposed and decided after it."""
     limits: list[LimitWarned | LimitExceeded] = field(default_factory=list)

@@ -42,7 +42,7 @@ class Damage:
     """Sealed parts that are no longer whole, or come after one that is not."""
 
     part: int
-    """The first of them."""
+    """Number of the first such part."""
     why: str
     """What is wrong with it."""
     parts: int

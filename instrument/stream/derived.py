@@ -96,7 +96,7 @@ class PointMeasured(Derived):
     base_accel_re_m_s2: float
     base_accel_im_m_s2: float
     base_accel_std_m_s2: float
-    """Of each part."""
+    """Standard deviation of each part of the base acceleration."""
     velocity_re_m_s: float
     """As the laser sees it, gain and delay of the calibration taken off."""
     velocity_im_m_s: float
@@ -166,7 +166,7 @@ class LimitExceeded(Derived):
     unit: str
     remedy: str
     frequency_hz: float = 0.0
-    """As of `LimitWarned`."""
+    """Frequency of the step, as in `LimitWarned`."""
 
     @property
     def place(self) -> str:

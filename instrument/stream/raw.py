@@ -223,11 +223,11 @@ class PlanOverruled(Event):
     """A person's word to a sweep that chooses its own steps; it holds once this choice is there."""
 
     number: int
-    """Of the choice."""
+    """Number of the choice that it holds after."""
     what: Literal["add", "end"]
     """A step of their own before those chosen; or none any more."""
     frequency_hz: float | None = None
-    """Of the step added."""
+    """Frequency of the step that is added."""
 
 
 @dataclass(frozen=True)

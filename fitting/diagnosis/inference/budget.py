@@ -26,9 +26,9 @@ class Budget:
 
     frequency_hz: Array
     storage_relative: dict[str, Array]
-    """Of G', relative."""
+    """Relative standard uncertainty of G', by source."""
     loss_factor: dict[str, Array]
-    """Of eta."""
+    """Standard uncertainty of eta, by source."""
 
     def total(self, by_source: dict[str, Array]) -> Array:
         """All of them together: sources are independent."""

@@ -45,7 +45,7 @@ class BareModes:
     line_m: float
     """Standard deviation of where it is."""
     substrate: Face
-    """As stated."""
+    """The substrate as its file states it."""
 
     @cached_property
     def _whitening(self) -> Whitening:

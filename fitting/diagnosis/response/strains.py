@@ -56,7 +56,7 @@ class _Table:
     cubics: Array
     """Of ln strain times the distance from the poles. Shape (gains, 4, points)."""
     poles: Complex
-    """Of their squares. Shape (gains, 4, poles)."""
+    """Coefficients of the same cubics for the squares of the poles. Shape (gains, 4, poles)."""
     away: Array
     """From the poles, at the nodes of every gain and share. Shape (gains 4 nodes,)."""
     core: StrainedCore

@@ -74,7 +74,7 @@ class Stage:
     band: LawBand
     predicted_m_s: NDArray[np.complex128]
     difference_percent: Array
-    """Of amplitudes. Shape (points,)."""
+    """Difference of the amplitudes from the readings. Shape (points,)."""
     whitened: Array
     """Residuals the error model leaves, parts one after the other. Shape (data,)."""
     chi2_per_dof: float
