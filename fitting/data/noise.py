@@ -141,7 +141,7 @@ def scatter_over_stated(sweep: Sweep) -> float | None:
         return None
     parts = 2 if sweep.has_phase else 1
     least = np.quantile(np.concatenate(squares), _LEAST) / chi2_exceeded(1 - _LEAST, parts)
-    logs = np.log(np.median(np.concatenate(ratios))), np.log(max(float(least), 1e-300)) / 2
+    logs = np.log(np.median(np.concatenate(ratios))), np.log(max(float(least), _NOTHING)) / 2
     if logs[0] * logs[1] <= 0:
         return 1.0
     return float(np.exp(min(logs, key=abs)))
@@ -174,12 +174,8 @@ def evening(sweep: Sweep) -> Array:
 
 def _scatter(frequency_hz: Array, response: NDArray[np.complex128] | Array) -> Array:
     order = np.argsort(frequency_hz, kind="stable")
-    f, v = frequency_hz[order], response[order]
-    middle, left_over = local_residuals(f, v)
-    parts = 2 if np.iscomplexobj(v) else 1
-    square = np.abs(left_over) ** 2 / parts
-    std = np.empty(len(f))
-    std[order] = np.sqrt(_variance(f, np.abs(v) ** 2, middle, square, parts))
+    std = np.empty(len(order))
+    std[order] = _scatter_of_all([np.arange(len(order))], frequency_hz[order], response[order])
     return std
 
 
@@ -245,7 +241,7 @@ def _variance(f: Array, size_squared: Array, middle: NDArray[np.intp], square: A
     (residuals,) twice.
     """
     largest = float(np.max(size_squared[middle]))
-    tiny = 1e-12 * largest + 1e-300
+    tiny = 1e-12 * largest + _NOTHING
     edges = _splits(float(np.min(size_squared[middle])) / (largest or 1.0))
     floor = (edges[1:] + edges[:-1]) / 2
     relative = f / np.exp(np.mean(np.log(f)))
