@@ -61,8 +61,9 @@ def seen_in_channels(
     return why, tuple(found), noise if used.all() else noise_of(sweep.take(used))
 
 
-def diagnose_task(
+def diagnose_problem(
     problem: DiagnosisProblem,
+    *,
     reduced: ReducedPlate | None,
     effects: Sequence[Effect],
     noise: Noise,

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from shear_pair_task import GAIN, HIGH, LAW, MASS, PAIR, Task
+from shear_pair_problem import GAIN, HIGH, LAW, MASS, PAIR, ShearPairProblem
 
 from fitting.diagnosis import diagnose
 from fitting.diagnosis.diagnose import seen_in_channels
@@ -22,13 +22,13 @@ from fitting.errors import OutsideModel
 
 @pytest.fixture(scope="module")
 def clean():
-    return Task(1.0)
+    return ShearPairProblem(1.0)
 
 
 @pytest.fixture(scope="module")
 def high():
     """Its velocity channel reads 10 % too much, twenty times its tolerance."""
-    return Task(HIGH)
+    return ShearPairProblem(HIGH)
 
 
 @pytest.fixture(scope="module")
