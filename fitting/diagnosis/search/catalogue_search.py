@@ -98,7 +98,7 @@ class Search:
         )
         self._objected = {e.name for e in effects} - {e.name for e in self.effects}
         fitted = [e for e in (*self.effects, *self.unnamed) if not e.laws(stated, problem.points)]
-        # Those that take longest come first: hands then end at the same time.
+        # The longest first, so that all worker processes end together.
         self.beside_the_law = sorted(fitted, key=has_place, reverse=True)
         self.work = CandidateFits(problem, evidence, none, [*self.effects, *self.unnamed])
         self._none = none

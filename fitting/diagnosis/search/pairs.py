@@ -240,7 +240,7 @@ class Pairs:
         promising.sort(key=lambda one: not work.has_places(one[0][0]))
         goal = work.goal(pair.fitted)
         laws = [(before, e.name, goal) for e in self._search.effects if e.replaces_law]
-        # Those that take longest come first: hands then end at the same time.
+        # The longest first, so that all worker processes end together.
         calls: list[Call] = [(work.other_laws_beside, one) for one in laws]
         calls += [(work.second, (before, form, starts, goal)) for form, starts in promising]
         found = list(self._search.executor.together(calls))
@@ -274,7 +274,7 @@ def _most_beside(fitted: Refitted, best: Refitted, promised: float) -> float:
 
 
 def _longest_first(rough: Sequence[Refitted]) -> list[Refitted]:
-    """Rough fits in the order in which they are best followed: hands then end at the same time."""
+    """Rough fits, the longest to follow first, so that all worker processes end together."""
     return sorted(rough, key=lambda f: (f.converged, -sum(has_place(e) for e in f.effects)))
 
 

@@ -31,7 +31,7 @@ class Singles:
         """One scored fit of each effect, best first."""
         self._first_pass()
         ahead = [best for name in self._ahead() for best in self._work.best_near(name)]
-        # All in one go as far as it is known what is to be followed: hands then end at the same time.
+        # All that is known to be followed in one go, so that all worker processes end together.
         self._finish([*ahead, *self._dismissed_on_the_way()], self._part(0.4, 0.2))
         self._finish(self._dismissed_on_the_way(), self._part(0.6, 0.1))
         self._second_pass()
