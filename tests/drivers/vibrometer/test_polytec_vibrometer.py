@@ -7,7 +7,7 @@ import pytest
 
 from drivers.errors import Garbled, Refused, TimedOut, Unreachable
 from drivers.simulated.vibrometer_server import Head, VibrometerServer
-from drivers.vibrometer.serial_port import PolytecVibrometer
+from drivers.vibrometer.polytec_vibrometer import PolytecVibrometer
 
 
 @pytest.fixture

@@ -15,7 +15,7 @@ from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
 from drivers.serial_line import SerialLine
 from drivers.vibrometer import polytec
 from drivers.vibrometer.interface import Range
-from drivers.vibrometer.models import model_named
+from drivers.vibrometer.polytec_models import model_named
 
 T = TypeVar("T")
 
@@ -33,7 +33,7 @@ class PolytecVibrometer:
     port
         Device file or COM port.
     model
-        One of `drivers.vibrometer.models.MODELS`.
+        One of `drivers.vibrometer.polytec_models.MODELS`.
     timeout_s
         For one answer.
     retries
