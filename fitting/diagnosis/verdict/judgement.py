@@ -47,7 +47,9 @@ class Judgement:
     refused: tuple[str, ...] = ()
     """What comes nearest where nothing will do."""
     why: str = ""
-    """What speaks against it: half a sentence."""
+    """What speaks against `refused`: half a sentence that it is the subject of."""
+    note: str = ""
+    """What is said in the place of a story of the effects: whole sentences."""
     unlisted: Unlisted | None = None
     """What is in no catalogue and akin to those of the group that nothing refuses; None where nothing may be
     named, or kin is not asked."""

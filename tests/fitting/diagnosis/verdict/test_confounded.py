@@ -24,7 +24,7 @@ def test_a_mass_of_a_shear_pair_hides_in_its_law_and_a_gain_does_not(clean):
     assert settled.verdict == "ambiguous"
     assert settled.equivalent == {"added_mass": ("added_mass", "none")}
     assert settled.accepted.fitted.of(MASS) == pytest.approx([0.0])
-    assert "added_mass cannot be told from the core's modulus" in settled.why
+    assert "added_mass cannot be told from the core's modulus" in settled.note
     assert in_light_of_the_law(clean.search(GAIN), none) is none
 
 
