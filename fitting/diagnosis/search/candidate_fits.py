@@ -25,7 +25,7 @@ from fitting.diagnosis.checks.stretches import parts_held_out
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.freer_law import as_free_as_asked
 from fitting.diagnosis.inference.marginal import cost
-from fitting.diagnosis.inference.refit import ROUGH, kept, refit
+from fitting.diagnosis.inference.refit import ROUGH, evaluated, refit
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.inference.usual_law import finished, followed, polished
 from fitting.diagnosis.inference.wide_valley import in_wide_valley, of_effects, whole, with_stated
@@ -180,7 +180,7 @@ class CandidateFits:
         self, best: Refitted, effects: Sequence[Effect]
     ) -> tuple[Refitted, list[CandidateFit]]:
         """A fit that explains everything with its effect taken away, and others as they begin there."""
-        bare = kept(response_of(self.problem, ()), self.evidence, best.law, best.z)
+        bare = evaluated(response_of(self.problem, ()), self.evidence, best.law, best.z)
         goal = self.goal(best)
         return bare, [CandidateFit(self.problem, self.evidence, bare, e, goal=goal) for e in effects]
 
@@ -301,7 +301,7 @@ class CandidateFits:
         pair, effect = one
         response = response_of(self.problem, [effect])
         u = np.concatenate([pair.z, pair.of(effect)])
-        return kept(response, self.evidence, pair.law, u)
+        return evaluated(response, self.evidence, pair.law, u)
 
     def look_wide(self, one: tuple[Refitted, Sequence[Form]]) -> list[list[Array]]:
         """Starts of second effects beside a fit in a wide valley, a list for each.
@@ -378,7 +378,7 @@ class CandidateFits:
 
         return as_free_as_asked(fitted, again, lambda one: cost(one, self.problem.plate))
 
-    def at_rest(self, fitted: Refitted) -> Refitted:
+    def follow_to_convergence(self, fitted: Refitted) -> Refitted:
         """A fit followed to its very end."""
         return followed(self.problem, self.evidence, fitted)
 

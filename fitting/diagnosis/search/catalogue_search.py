@@ -202,7 +202,7 @@ class Search:
         begun = [([e], pair.law, np.concatenate([pair.z, pair.of(e)])) for e in pair.effects]
         return [self.judged(f) for f in self.executor.each(self.work.fitted, begun)]
 
-    def at_rest(
+    def converged_group(
         self, scored_fits: Sequence[ScoredFit], best: ScoredFit, validated: Sequence[ScoredFit] = ()
     ) -> list[ScoredFit]:
         """What may be in one group with `best`, and none, followed to its very end, the others as they are.
@@ -210,10 +210,10 @@ class Search:
         Meanwhile some are `validated`: neither needs to know of the other.
         """
         moving, new = self.moving([self.none, *scored_fits], best), self._not_validated(validated)
-        calls: list[Call] = [(self.work.at_rest, fitted) for fitted in moving]
+        calls: list[Call] = [(self.work.follow_to_convergence, fitted) for fitted in moving]
         calls += [(self.work.held_out, t.fitted) for t in new]
         found = list(self.executor.together(calls))
-        self.rested(moving, found[: len(moving)])
+        self.keep_converged(moving, found[: len(moving)])
         self._learn_validations(new, found[len(moving) :])
         end = self._at_its_end(self.none)
         if self.none.fitted.chi2 - end.fitted.chi2 > SEARCH.least_owed:
@@ -245,7 +245,7 @@ class Search:
             return []
         return [t.fitted for t in group if t.fitted not in self._ends]
 
-    def rested(self, fits: Sequence[Refitted], ends: Iterable[Refitted]) -> None:
+    def keep_converged(self, fits: Sequence[Refitted], ends: Iterable[Refitted]) -> None:
         """Where some fits end."""
         self._ends |= dict(zip(fits, ends, strict=True))
 
@@ -323,7 +323,7 @@ class Search:
         self.fit_plainly(names)
         return sorted(names, key=lambda name: min(f.chi2 for f in self.work.candidates[name][0].plain))
 
-    def told(self, effects: Sequence[Effect]) -> ScoredFit:
+    def fitted_by_hand(self, effects: Sequence[Effect]) -> ScoredFit:
         """These effects together, none of them weighed."""
         fitted = self.none.fitted
         # Another law comes first: the others are then fitted beside it.

@@ -133,10 +133,10 @@ class Pairs:
             for before, forms in asked
             for k in range(0, len(forms), _LOOKED_AT)
         ]
-        calls: list[Call] = [(self._search.work.at_rest, fitted) for fitted in moving]
+        calls: list[Call] = [(self._search.work.follow_to_convergence, fitted) for fitted in moving]
         calls += [(do, one) for one in some]
         found = list(self._search.executor.together(calls, report))
-        self._search.rested(moving, found[: len(moving)])
+        self._search.keep_converged(moving, found[: len(moving)])
         return [one for looks in found[len(moving) :] for one in looks]
 
     def _most_left(self, known: Sequence[ScoredFit]) -> float:
@@ -216,7 +216,7 @@ class Pairs:
                 simplified.add(frozenset(pair.names))
                 new += self._search.simpler([pair])
             # One that a winding valley leads to would be dismissed on its way.
-            found += self._search.at_rest(new, min([pair, *new], key=_cost))
+            found += self._search.converged_group(new, min([pair, *new], key=_cost))
         return found
 
     def _next(self, pairs: Sequence[ScoredFit], kept: set[str]) -> ScoredFit | None:

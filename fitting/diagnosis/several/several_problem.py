@@ -146,7 +146,7 @@ class SeveralProblem(DiagnosisProblem):
         return replace(self, members=members, plate=members[0].plate)
 
     @property
-    def held(self) -> "SeveralProblem":
+    def with_stated_fixed(self) -> "SeveralProblem":
         """Itself."""
         return self
 

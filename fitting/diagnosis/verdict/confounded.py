@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from fitting.arrays import Array
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.marginal import expected_size
-from fitting.diagnosis.inference.refit import kept
+from fitting.diagnosis.inference.refit import evaluated
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
@@ -72,7 +72,7 @@ def _as_absent(search: Search, effect: Effect) -> ScoredFit:
 def absent_fit(response: SweepResponse, evidence: Evidence, none: Refitted, effect: Effect) -> Refitted:
     """The fit without effects, `effect` beside it at its neutral value; `response` is with that effect."""
     neutral = [0.0 if q.neutral is None else q.neutral for q in effect.parameters]
-    return kept(response, evidence, none.law, np.concatenate([none.z, neutral]))
+    return evaluated(response, evidence, none.law, np.concatenate([none.z, neutral]))
 
 
 def _hides(search: Search, effect: Effect) -> bool:

@@ -87,7 +87,7 @@ def _is_doubted(share_of_kin: float) -> bool:
     return share_of_kin > 1 - VERDICT.credible
 
 
-def told(scored: ScoredFit) -> Judgement:
+def judged_by_hand(scored: ScoredFit) -> Judgement:
     """What someone has decided: each effect stands for itself."""
     names: dict[str, tuple[str, ...]] = {name: (name,) for name in scored.names}
     return Judgement(

@@ -47,7 +47,7 @@ def problem(monkeypatch):
     """With one stated number, and how it is without."""
     monkeypatch.setattr(wide_valley, "response_of", lambda problem, *_: Reads(problem.stated))
     found = task(1)
-    found.held = task(0)
+    found.with_stated_fixed = task(0)
     return found
 
 

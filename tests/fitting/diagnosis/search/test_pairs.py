@@ -82,15 +82,18 @@ class World:
         after = [self.second((before, form, None, None)) for form in forms]
         return [[(before.chi2 - f.chi2, np.zeros(0))] for f in after]
 
-    def at_rest(self, asked, best=None):
-        return "its end" if best is None else list(asked)
+    def follow_to_convergence(self, fitted):
+        return "its end"
+
+    def converged_group(self, scored_fits, best):
+        return list(scored_fits)
 
     moves = False
 
     def moving(self, scored_fits, best):
         return [t.fitted for t in scored_fits] if self.moves else []
 
-    def rested(self, fits, ends):
+    def keep_converged(self, fits, ends):
         self.ends |= dict(zip([f.effects for f in fits], ends, strict=True))
 
     def simpler(self, scored):

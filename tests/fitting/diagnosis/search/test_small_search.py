@@ -76,8 +76,10 @@ def test_what_has_no_effect_is_followed_with_the_group_and_moves_where_it_owed(
     search = clean.search(GAIN)
     none = search.none.fitted
     ended = replace(none, residuals=none.residuals * np.sqrt(1 - owed / none.chi2))
-    monkeypatch.setattr(search.work, "at_rest", lambda fitted: ended if fitted is none else fitted)
-    search.at_rest([], search.none)
+    monkeypatch.setattr(
+        search.work, "follow_to_convergence", lambda fitted: ended if fitted is none else fitted
+    )
+    search.converged_group([], search.none)
     assert (search.none.fitted is ended) is moves
 
 
@@ -217,10 +219,10 @@ def test_a_fit_says_what_it_makes_of_unseen_data_while_others_come_to_their_end(
     search = high.search(GAIN, executor=Counting())
     (best,) = Singles(search, lambda fraction: None).best()
     asked.clear()
-    search.at_rest([best], best, [search.none])
-    assert asked == [["at_rest", "held_out"]]
+    search.converged_group([best], best, [search.none])
+    assert asked == [["follow_to_convergence", "held_out"]]
     assert search.validation(search.none) == search.work.held_out(search.none.fitted)
-    search.at_rest([best], best, [search.none])
+    search.converged_group([best], best, [search.none])
     assert asked[1:] == [[]]
 
 
