@@ -10,7 +10,7 @@ from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.joint_problem import JointProblem
 from fitting.diagnosis.inference.pace import Steps
 from fitting.diagnosis.inference.refitted import Refitted
-from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.response.response import Response
 from fitting.laws import CoreLaw
 
 _MOST_EVALUATIONS = 25
@@ -26,7 +26,7 @@ ROUGH, COMPARABLE, CONVERGED = 1e-3, 1e-5, 1e-8
 
 
 def refit(
-    response: SweepResponse,
+    response: Response,
     evidence: Evidence,
     law: CoreLaw,
     u: Array,
@@ -75,7 +75,7 @@ def _most(tolerance: float) -> int:
     return _MOST_EVALUATIONS if tolerance >= COMPARABLE else _CONVERGED_EVALUATIONS
 
 
-def evaluated(response: SweepResponse, evidence: Evidence, law: CoreLaw, u: Array) -> Refitted:
+def evaluated(response: Response, evidence: Evidence, law: CoreLaw, u: Array) -> Refitted:
     """The fit as it is at `law` and `u`, nothing moved. Shape of `u` as in `Refitted`."""
     problem = JointProblem(response, evidence, law, u, None)
     lower, upper = problem.limits

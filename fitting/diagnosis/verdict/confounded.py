@@ -15,7 +15,7 @@ from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.marginal import expected_size
 from fitting.diagnosis.inference.refit import evaluated
 from fitting.diagnosis.inference.refitted import Refitted
-from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.response.response import Response
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.verdict.judgement import Judgement
@@ -69,7 +69,7 @@ def _as_absent(search: Search, effect: Effect) -> ScoredFit:
     return search.judged(absent_fit(response, search.evidence, search.none.fitted, effect))
 
 
-def absent_fit(response: SweepResponse, evidence: Evidence, none: Refitted, effect: Effect) -> Refitted:
+def absent_fit(response: Response, evidence: Evidence, none: Refitted, effect: Effect) -> Refitted:
     """The fit without effects, `effect` beside it at its neutral value; `response` is with that effect."""
     neutral = [0.0 if q.neutral is None else q.neutral for q in effect.parameters]
     return evaluated(response, evidence, none.law, np.concatenate([none.z, neutral]))

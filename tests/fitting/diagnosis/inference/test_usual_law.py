@@ -22,7 +22,7 @@ BEGINNING, END = ConstantModulus(0.15e6, 0.4), ConstantModulus(0.5e6 * np.e, 0.3
 class Winding:
     """Rosenbrock's valley in the logarithms of the law, its bottom at (1, 1)."""
 
-    effects, parameters, nuisances, plate, apart = (), (), (), None, False
+    effects, parameters, nuisances, plate, derivatives_cost_extra = (), (), (), None, False
 
     def with_derivatives(self, law, u):
         x, y = np.log(law.values / (0.5e6, 0.3))

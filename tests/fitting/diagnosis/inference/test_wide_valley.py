@@ -21,7 +21,7 @@ BY_STATED = 0.01
 class Reads:
     """The law in two points, and a third that a gain and a stated number move alike."""
 
-    apart, plate, effects = True, None, (GAIN,)
+    derivatives_cost_extra, plate, effects = True, None, (GAIN,)
 
     def __init__(self, stated):
         self.nuisances = (None,) * stated
