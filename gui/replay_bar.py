@@ -70,7 +70,7 @@ class ReplayBar(QFrame):
         self.speed.setToolTip("Speed")
         self.speed.addItems(list(SPEEDS))
         self.speed.setCurrentText("1\u00d7")
-        self.compare = button("Compare ...", "Lay the law of another session beside this one's", "compare")
+        self.compare = button("Compare...", "Lay the law of another session beside this one's", "compare")
         self.verify = button(
             _VERIFY, "Compute everything derived again: does it equal the recording?", "verify"
         )

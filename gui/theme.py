@@ -84,6 +84,7 @@ class Theme:
             palette.setColor(role, QColor(color))
         for role in (roles.WindowText, roles.Text, roles.ButtonText):
             palette.setColor(QPalette.ColorGroup.Disabled, role, QColor(self.faint))
+        palette.setColor(QPalette.ColorGroup.Disabled, roles.Button, QColor(self.window))
         return palette
 
 

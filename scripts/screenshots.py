@@ -17,6 +17,7 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
+from itertools import chain
 from pathlib import Path
 from unittest.mock import patch
 
@@ -26,6 +27,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 
 from layout_faults import layout_faults, places, word
 from openers import close_all, close_popups, dialogs, openers
+from PIL import Image
 from PySide6.QtCore import QSettings
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QApplication, QWidget
@@ -43,8 +45,12 @@ from instrument.simulated_case import case_file
 SCREENS = {"1366x768": (1366, 768, "1"), "2560x1440-scale-2": (1280, 720, "2")}
 """Width and height as the window sees them, and pixels a point."""
 MODES = ("light", "dark")
-IN_DOCS = {"run", "sweep", "hammer", "material", "diagnosis"}
-_DARK = "sweep"
+_LIGHT_IN_DOCS = ("run", "sweep", "hammer", "material", "diagnosis")
+IN_DOCS = {("light", name): f"window-{name}.png" for name in _LIGHT_IN_DOCS} | {
+    ("dark", "sweep"): "window-dark.png"
+}
+_COLOURS, _EXACT = 256, 64
+"""Of a picture in docs/, and how many of them are the commonest as they are: grounds, lines, letters."""
 PATIENCE_S = 600.0
 _LEAVING = ("&Quit", "&Close session")
 _LOOKS_S = 0.7
@@ -87,10 +93,8 @@ def _take(session: Path, folder: Path, screen: str, *, docs: bool) -> int:
                 _rest(window)
                 faults += _faults(f"{screen}, {mode}, {place}", window)
                 _save(window, folder / mode / f"{place}.png")
-                if docs and mode == "light" and place in IN_DOCS:
-                    _save(window, ROOT / "docs" / f"window-{place}.png")
-                if docs and mode == "dark" and place == _DARK:
-                    _save(window, ROOT / "docs" / "window-dark.png")
+                if docs and (mode, place) in IN_DOCS:
+                    _keep_small(folder / mode / f"{place}.png", ROOT / "docs" / IN_DOCS[mode, place])
         opened = _dialogs(window)
         for mode in MODES:
             appearance.choose(mode)
@@ -190,6 +194,17 @@ def _save(seen: QWidget, path: Path) -> None:
     if not seen.grab().toImage().convertToFormat(QImage.Format.Format_RGB888).save(str(path), "PNG", 0):
         sys.exit(f"{path}: cannot be written")
     print(f"{path}: {path.stat().st_size / 1e3:.0f} kB")
+
+
+def _keep_small(path: Path, to: Path) -> None:
+    """The picture in 256 colours, a third of its size: it stays in the repository."""
+    picture = Image.open(path).convert("RGB")
+    commonest = sorted(picture.getcolors(picture.width * picture.height), reverse=True)[:_EXACT]
+    near = picture.quantize(_COLOURS - _EXACT, method=Image.Quantize.MAXCOVERAGE).getpalette()
+    colours = Image.new("P", (1, 1))
+    colours.putpalette([*chain.from_iterable(colour for _, colour in commonest), *near])
+    picture.quantize(palette=colours, dither=Image.Dither.NONE).save(to, optimize=True)
+    print(f"{to}: {to.stat().st_size / 1e3:.0f} kB")
 
 
 if __name__ == "__main__":

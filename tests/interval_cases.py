@@ -22,7 +22,7 @@ from fitting.plate.plate_numbers import moved, plate_numbers, tolerance
 from fitting.specimen import Specimen
 from fitting.stated.layers import Core, Face
 from fitting.sweep import Sweep
-from instrument.campaign.materials import draw_material
+from instrument.campaign.plant.materials import draw_material
 
 NOISE = 0.003
 POINTS, SEGMENTS = 16, 3

@@ -6,14 +6,14 @@ import numpy as np
 import scipy.linalg as la
 
 from fitting.mode_tables.table import ModalTable
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates.geometry import plate_named
 from instrument.campaign.plates.grid import Fineness
-from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.reduced import reduced
 from instrument.campaign.plates.solid import Build, Solid
 from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
 
-TRUTH = PlateMaterialLaw("fractional-zener", (0.35e6, 12e6, 4e-5, 0.62))
+TRUTH = TrueLaw("fractional-zener", (0.35e6, 12e6, 4e-5, 0.62))
 """Of every plate here; the file that a fit is given names another one."""
 FINE = Fineness(9, 6, (0.2, 1.0), (0.5,))
 """Within 0.1 % in f and 0.04 % in eta of twice as many bricks, in a third of the time."""

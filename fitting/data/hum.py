@@ -26,6 +26,8 @@ Found: one in 19400 sweeps of gaussian noise, of levels, densities and peaks of 
 """
 _CORE_HZ = 0.3
 """Points so near to a multiple, or the nearest one, are where hum is looked for."""
+_DECIMALS = 6
+"""Of Hz: points on either side of a multiple are as near as each other to that."""
 _REACH_HZ = 1.0
 """No curve takes points so near to a multiple, or to the point it judges."""
 SPREAD_HZ = 10.0
@@ -153,7 +155,7 @@ def _lines(f: Array) -> list[float]:
 
 def _core(sweep: Sweep, line: float) -> Mask:
     """The points of every group where hum at `line` is largest."""
-    apart = np.round(np.abs(sweep.frequency_hz - line), 6)
+    apart = np.round(np.abs(sweep.frequency_hz - line), _DECIMALS)
     core = apart <= _CORE_HZ
     for group in groups_of(sweep):
         nearest = apart[group].min()

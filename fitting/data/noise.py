@@ -24,6 +24,10 @@ WINDOW = 7
 amplitudes."""
 FEWEST = 15
 """Points a segment needs before its scatter says anything by itself."""
+_LEAST_GAIN = 1e-6
+"""Of a reading's variance that a local model leaves, at least: one that passes through it says nothing."""
+_ROUNDING = 1e-12
+"""Of the peak's square: no reading scatters by less."""
 _NOTHING = 1e-300
 """In the place of a reading that is nothing."""
 _FEWEST_LEFT = 12
@@ -39,6 +43,8 @@ choice."""
 _WIDE = 1e-4
 """Of the peak's square: what is smaller is read in a sweep over many resonances, where a floor far below the
 first split is seen too."""
+_BELOW = 10
+"""Times smaller than the smallest reading's square the finest split then is. A choice."""
 _TILTS = (-2.0, -1.0, 0.0, 1.0, 2.0)
 """Powers of the frequency that a floor's variance may follow in velocity: flat in acceleration, in velocity,
 in displacement, and between."""
@@ -207,7 +213,7 @@ def local_residuals(f: Array, v: NDArray[Any]) -> tuple[NDArray[np.intp], NDArra
     row = Q[:, half]
     left_over = v[middles] - np.einsum("pu,pwu,pw->p", row, Q.conj(), v[at])
     gain = 1 - np.sum(np.abs(row) ** 2, axis=1)
-    return middles, left_over / np.sqrt(np.maximum(gain, 1e-6))
+    return middles, left_over / np.sqrt(np.maximum(gain, _LEAST_GAIN))
 
 
 def local_model(t: Array, v: NDArray[Any]) -> NDArray[Any]:
@@ -241,7 +247,7 @@ def _variance(f: Array, size_squared: Array, middle: NDArray[np.intp], square: A
     (residuals,) twice.
     """
     largest = float(np.max(size_squared[middle]))
-    tiny = 1e-12 * largest + _NOTHING
+    tiny = _ROUNDING * largest + _NOTHING
     edges = _splits(float(np.min(size_squared[middle])) / (largest or 1.0))
     floor = (edges[1:] + edges[:-1]) / 2
     relative = f / np.exp(np.mean(np.log(f)))
@@ -267,5 +273,5 @@ def _splits(smallest: float) -> Array:
     edges = np.arange(_SPLITS + 1) / _SPLITS
     if not 0 < smallest < _WIDE:
         return edges
-    finer = np.geomspace(smallest / 10, edges[1], 2 * _SPLITS)
+    finer = np.geomspace(smallest / _BELOW, edges[1], 2 * _SPLITS)
     return np.concatenate([[0.0], finer, edges[2:]])

@@ -50,6 +50,8 @@ _AT_ONCE = 0.4
 _LOST = 0.5
 """Of the curve: one of the readings at an end is off by more, as what is lost is; what is off by less may be
 a resonance there."""
+_ROUNDING, _NOTHING = 1e-9, 1e-300
+"""Of the largest reading: smaller differences are none; and where all readings are zero."""
 _REPEATED = 0.1
 """Of the numbers: as many are there twice where they were read or written in steps."""
 
@@ -165,7 +167,7 @@ def _at_once(f: Array, v: Complex, inner: Places, outer: Places) -> bool:
     curve = _curve(f[outer], v[outer], f[inner])
     freer = _curve(f[near], v[near], f[inner], poles=2)
     off = np.abs(v[inner] - curve)
-    share = off * np.abs(curve).max() / np.maximum(np.abs(curve), 1e-9 * np.abs(curve).max())
+    share = off * np.abs(curve).max() / np.maximum(np.abs(curve), _ROUNDING * np.abs(curve).max())
     at_once = share.min() > _AT_ONCE * share.max() and share.max() > _LOST * np.abs(curve).max()
     return bool(at_once and np.all(off > _AGREE * np.abs(freer - curve)))
 
@@ -219,7 +221,7 @@ def _scatter(left: Array, size: Array, finest: float) -> Array:
     small = size[inner] <= np.median(size[inner])
     floor = np.median(left[inner][small])
     share = np.median(left[inner][~small] / size[inner][~small]) if not small.all() else 0.0
-    least = max(finest, 1e-9 * size.max() + 1e-300)
+    least = max(finest, _ROUNDING * size.max() + _NOTHING)
     scatter = np.maximum(np.hypot(floor, share * size) / _MEDIAN, least)
     return np.asarray(scatter * np.maximum(around(left[inner] / scatter[inner], len(left)) / _MEDIAN, 1.0))
 

@@ -18,7 +18,13 @@ from fitting.diagnosis.search.singles import Singles
 from fitting.diagnosis.search.with_pairs import with_pairs
 from fitting.diagnosis.verdict import text
 from fitting.diagnosis.verdict.cautions import warnings_of
-from fitting.diagnosis.verdict.judgement import Judgement, in_light_of, judge, judged_by_hand
+from fitting.diagnosis.verdict.judgement import (
+    Judgement,
+    beside_another_law,
+    in_light_of,
+    judge,
+    judged_by_hand,
+)
 from fitting.diagnosis.verdict.kin import UNLISTED, Unlisted, kin_of
 from fitting.diagnosis.verdict.resampling import Again, Resampled, gain, repeats_of, resampled_of
 from fitting.diagnosis.verdict.result import Candidate, Diagnosis, FoundEffect, ParameterEstimate, Rivals
@@ -36,6 +42,10 @@ _BEYOND = 0.005
 
 _OF_SEARCH, _OF_REPEATED = 0.8, 0.15
 """Share of a diagnosis that its search is, and of that the first one where it is repeated."""
+_OF_SINGLES, _OF_PAIRS = 0.5, 0.3
+"""What single effects and pairs are of it, where the search is not repeated: together `_OF_SEARCH`."""
+_BEFORE_KNOWN = 0.9
+"""Of a diagnosis, where the fit before it has been judged and the one after it has not."""
 
 Settle = Callable[[Search, Judgement], Judgement]
 
@@ -175,7 +185,7 @@ def _diagnosis(
     none, accepted = search.none.fitted, judgement.accepted
     search.validate([search.none, *([accepted] if accepted is not None else [])])
     before = stage_of(problem, evidence, none, search.validation(search.none), 1.0)
-    report(0.9)
+    report(_BEFORE_KNOWN)
     after, found = before, tuple[FoundEffect, ...]()
     if accepted is not None:
         scale = search.temper(accepted)
@@ -220,18 +230,18 @@ def _diagnosis(
 
 def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, list[ScoredFit], Judgement]:
     """The whole catalogue, and the verdict; the search as it ended."""
-    singles = Singles(search, lambda x: report(0.5 * x)).best()
+    singles = Singles(search, lambda x: report(_OF_SINGLES * x)).best()
     sweep = search.problem.sweep
     if singles and is_overstated(sweep, noise, search.evidence, singles[0].fitted):
         search = search.with_evidence(with_noise_of_left(sweep, search.evidence, singles[0].fitted))
-        singles = Singles(search, lambda x: report(0.5)).best()
+        singles = Singles(search, lambda x: report(_OF_SINGLES)).best()
     singles = best_of_each([*singles, *(one for best in singles[:1] for one in search.elsewhere(best))])
     leading = search.leading(singles)
     # Two masses may have found a better place for one than it found alone, a pair for one of its effects.
     singles = best_of_each([*singles, *search.simpler(leading)])
     leading = search.leading(singles)
     singles = best_of_each([*singles, *search.twofold(leading)])
-    singles, pairs = with_pairs(search, singles, lambda x: report(0.5 + 0.3 * x))
+    singles, pairs = with_pairs(search, singles, lambda x: report(_OF_SINGLES + _OF_PAIRS * x))
     found = [*singles, *pairs]
     best = min([search.none, *found], key=_cost)
     scored_fits = sorted(search.converged_group(found, best, [search.none]), key=_cost)
@@ -245,12 +255,13 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
 
 def _judged(search: Search, scored_fits: Sequence[ScoredFit]) -> Judgement:
     t = search.temper_of(scored_fits)
-    return judge(
+    judgement = judge(
         *search.tempered(scored_fits),
         hidden=frozenset(e.name for e in search.unnamed),
         held_out=search.off_unseen,
         kin=lambda scored: kin_of(search, scored.fitted, t),
     )
+    return beside_another_law(judgement, search.passing_for_a_law)
 
 
 def _rivals(

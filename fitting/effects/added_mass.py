@@ -19,6 +19,10 @@ _TYPICAL_KG = 5e-3
 _GRID = [(x, y) for x in (0.25, 0.5, 0.75, 0.97) for y in (0.03, 0.3, 0.7, 0.97)]
 """Shares of length and width: the free end and both edges, where masses matter and are put."""
 
+_ALONG, _ACROSS = (np.arange(8) + 1) / 8.2, (np.arange(5) + 0.5) / 5
+"""Shares of length and width to begin with: the last along the plate just short of its free end. A choice."""
+_LEAST_OF_PAIR, _MOST_OF_PAIR = -0.5, 10
+"""Of the mass that moves in a shear pair: what more of it there may be. A choice."""
 _ALONG_A_BEAM = 16
 """Places of it that are looked at: three to half a wave of its fifth mode."""
 
@@ -73,8 +77,8 @@ class AddedMassEffect(Effect):
         return others[kind]() if kind in others else super().on(kind)
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        along, across = (np.arange(8) + 1) / 8.2, (np.arange(5) + 0.5) / 5
-        return [np.array([3e-3, x * plate.length_m, y * plate.width_m]) for x in along for y in across]
+        typical = self.parameters[0].typical
+        return [np.array([typical, x * plate.length_m, y * plate.width_m]) for x in _ALONG for y in _ACROSS]
 
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         lower, upper = super().limits(plate)
@@ -101,7 +105,8 @@ class MassOnBeamEffect(AlongABeam, AddedMassEffect):
         return (self, MassAtAnEndEffect())
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.array([3e-3, x * plate.length_m]) for x in (np.arange(_ALONG_A_BEAM) + 1) / _ALONG_A_BEAM]
+        shares = (np.arange(_ALONG_A_BEAM) + 1) / _ALONG_A_BEAM
+        return [np.array([self.parameters[0].typical, x * plate.length_m]) for x in shares]
 
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         lower, upper = Effect.limits(self, plate)
@@ -122,7 +127,7 @@ class MassAtAnEndEffect(MassOnBeamEffect):
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         # At a clamped one it does nothing.
-        return [np.array([3e-3, x]) for x in (plate.length_m, 0.0)]
+        return [np.array([self.parameters[0].typical, x]) for x in (plate.length_m, 0.0)]
 
 
 class MassOfPairEffect(AddedMassEffect):
@@ -140,9 +145,9 @@ class MassOfPairEffect(AddedMassEffect):
         return [np.array([self.parameters[0].typical])]
 
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
-        # Half of what moves: the first unknown is the mass' own motion.
-        least = -0.5 * float(plate.M[0, 0])
-        return np.array([least]), np.array([10 * float(plate.M[0, 0])])
+        # The first unknown is the mass' own motion.
+        moving = float(plate.M[0, 0])
+        return np.array([_LEAST_OF_PAIR * moving]), np.array([_MOST_OF_PAIR * moving])
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         w = plate.observe

@@ -54,7 +54,7 @@ class AirAddedMassEffect(Effect):
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         # The bare plate feels the air too, unless its stated modulus was itself found by vibration in air.
-        return [np.array([1.2, felt]) for felt in (0.0, 1.0)]
+        return [np.array([self.parameters[0].typical, felt]) for felt in (0.0, 1.0)]
 
     def bare_shift(self, bare: BarePlateModes, u: Array) -> Array:
         return np.asarray(-0.5 * np.log1p(2 * u[0] * u[1] * bare.lowering_per_density))

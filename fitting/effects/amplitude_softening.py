@@ -18,6 +18,8 @@ from fitting.plate.element import core_shear_stiffness
 
 _LEVELS = 1.2
 """Of the largest force over the least: over less, strain is a function of frequency, as the law is."""
+_AT_REST = 1e-10
+"""A step of the strain over the reference, at most, for the last one."""
 _ITERATIONS = 60
 """Half steps would come within 1e-10 in 34 where strain hardly falls, secants do in some 8. A bound."""
 _SMALL = 1e-12
@@ -138,8 +140,12 @@ class PadSofteningEffect(AmplitudeSofteningEffect):
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         if points.drive == "force" or (self.keeps and not points.timed):
             return super().objection(points, plate)
+        one_level = "one level does not tell softening from the law"
+        return one_level if self.passes_for_a_law(points) else None
+
+    def passes_for_a_law(self, points: Points) -> bool:
         # Over one level the strain of a pad goes up and down once over a wide band, as a law may.
-        return None if points.levels > 1 else "one level does not tell softening from the law"
+        return points.drive == "base" and points.levels < 2
 
 
 def _changed(curve: Kraus, s: Array, kept: float, time_s: Array) -> tuple[Array, Array]:
@@ -175,6 +181,6 @@ def _strained(curve: Kraus, strain: Strain, points: int, kept: float, time_s: by
         share = np.divide(step, fell, out=np.full(points, 0.5), where=known)
         step = off * np.clip(share, *_FULL)
         s = np.maximum(s + step, 0.0)
-        if np.max(np.abs(step)) < 1e-10:
+        if np.max(np.abs(step)) < _AT_REST:
             break
     return s

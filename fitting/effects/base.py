@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Literal, NamedTuple
+from typing import Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -174,6 +174,13 @@ class Effect:
         """Why this effect cannot be judged by these data, or None."""
         return None
 
+    def passes_for_a_law(self, points: Points) -> bool:
+        """Whether these data show it as another law of the core, so that it is neither searched nor named.
+
+        Then an explanation by another law may as well be this effect, and no law shows that it is absent.
+        """
+        return False
+
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         """Values to look at first; the best of them by a linear step is followed.
 
@@ -282,3 +289,29 @@ class Effect:
     def story(self, u: Mapping[str, float]) -> str:
         """What the plate or the rig does, in half a sentence with numbers."""
         raise NotImplementedError
+
+
+ITS_OWN = (
+    "name",
+    "enters",
+    "source",
+    "discriminating_test",
+    "caution",
+    "unexplained_share",
+    "chance",
+    "causes",
+    "sharp",
+    "of_a_segment",
+    "beside_others",
+)
+"""What a form of an effect says of itself as that one does, be it of other files or of another structure.
+
+Not its unknowns, motions and needs, which are the form's; not `between_files`, `replaces_law`, `anew`,
+`from_afar` and `structures`, which decide beforehand what forms there are; not `extends` and `twice`, which
+speak of unknowns one after the other.
+"""
+
+
+def as_its_own(effect: Effect) -> dict[str, Any]:
+    """What a form takes over from an effect, by name."""
+    return {name: getattr(effect, name) for name in ITS_OWN}

@@ -36,7 +36,7 @@ class ClampFrictionEffect(Effect):
         return ClampComplianceEffect().objection(points, plate)
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.array([k, 0.1]) for k in STARTS_N_M3]
+        return [np.array([k, self.parameters[1].typical]) for k in STARTS_N_M3]
 
     def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
         return ((ClampComplianceEffect(), u[:1]),)

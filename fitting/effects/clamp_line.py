@@ -85,7 +85,7 @@ class ClampLineEffect(Effect):
         return None if "length" in plate.group else "the plate has no clamp"
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.array([1e-3, too]) for too in (1.0, 0.0)]
+        return [np.array([self.parameters[0].typical, too]) for too in (1.0, 0.0)]
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         length = plate.length_m + float(u[0])

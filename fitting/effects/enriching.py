@@ -34,6 +34,10 @@ _R2 = (0.7549, 0.5698)
 Roberts, The unreasonable effectiveness of quasirandom sequences (2018)."""
 _FURTHER, _BEYOND = 6, 1.05
 """Snapshots from there on where a sweep goes further, and to what multiple of its reach (decision 30)."""
+_HUNDRED_HZ = 100
+"""A sweep's reach is rounded up to the next hundred (decision 30)."""
+_SOLVED, _CONDENSED = 0.8, 0.1
+"""Shares of the work that full solves are, and taking the leading motions of what they found."""
 TOLERANCE = 3e-3
 """Of a typical change, what may be missed; the reading's error goes with its square."""
 _TOLERANCE_ODD = 1e-4
@@ -57,7 +61,7 @@ def enriched(
         found: list[list[dict[str, Stirred]]] = []
         for answers in pool.map(lambda at: _responses(full, halves, spans, at), points):
             found.append(answers)
-            progress(0.8 * len(found) / len(points))
+            progress(_SOLVED * len(found) / len(points))
         own = [first.orthonormal(first.of(full.lift @ basis))]
         most = _MOST_ODD * (full.loads.shape[1] - 1)
         own += [
@@ -78,7 +82,7 @@ def enriched(
         for span, V in zip(spans, pool.map(motions, spans), strict=True):
             for half, ending, columns in zip(halves, _ENDINGS, V, strict=False):
                 half.groups[f"{span.name}{ending}"] = columns
-            progress(0.8 + 0.1 * len(first.groups) / len(spans))
+            progress(_SOLVED + _CONDENSED * len(first.groups) / len(spans))
         return _project(full, halves, spans, pool)
 
 
@@ -99,7 +103,7 @@ def _halves(full: FullPlate) -> tuple[Motions, ...]:
 def reach_over(frequency_hz: Array) -> float:
     """What the motions that effects stir must reach for some frequencies, in Hz. Shape (n,)."""
     highest = float(np.max(frequency_hz))
-    return USUAL_HZ if highest <= USUAL_HZ else 100 * float(np.ceil(highest / 100))
+    return USUAL_HZ if highest <= USUAL_HZ else _HUNDRED_HZ * float(np.ceil(highest / _HUNDRED_HZ))
 
 
 def _points(reach_hz: float) -> list[tuple[float, complex]]:

@@ -35,7 +35,7 @@ class ExponentialWindowEffect(Effect):
     discriminating_test = "the same blows without a window, in a record that is long enough to die away in"
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.array([0.3, integrations]) for integrations in (0.0, 1.0)]
+        return [np.array([self.parameters[0].typical, integrations]) for integrations in (0.0, 1.0)]
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         per_s = 1 / u[0]

@@ -20,6 +20,12 @@ _STEP = 0.02
 """In ln f, between starts: the half-power width of the start with 0.01 of critical damping."""
 
 
+_NEAR = 0.3
+"""In ln f, from a start to the nearest point, at most. A choice."""
+_DAMPING_RATIOS = (0.01, 0.05)
+"""To begin with. A choice."""
+
+
 class FixtureResonanceEffect(Effect):
     """With s = 1 / (1 - r^2 + 2 i zeta r), r = w / w0: pitch = gain s a, root = (1 + heave s) a.
 
@@ -50,9 +56,10 @@ class FixtureResonanceEffect(Effect):
         low, high = _OUTSIDE[0] * f.min(), _OUTSIDE[1] * f.max()
         grid = np.geomspace(low, high, int(np.log(high / low) / _STEP))
         # Between the segments a resonance far from any point looks the same anywhere.
-        near = np.abs(np.log(grid[:, None] / f)).min(axis=1) < 0.3
-        shapes = [(zeta, before) for zeta in (0.01, 0.05) for before in (0.0, 1.0)]
-        return [np.array([f0, zeta, 0.02, 0.0, before]) for f0 in grid[near] for zeta, before in shapes]
+        near = np.abs(np.log(grid[:, None] / f)).min(axis=1) < _NEAR
+        shapes = [(zeta, before) for zeta in _DAMPING_RATIOS for before in (0.0, 1.0)]
+        pitch = self.parameters[2].typical
+        return [np.array([f0, zeta, pitch, 0.0, before]) for f0 in grid[near] for zeta, before in shapes]
 
     def pitch(self, omega: Array, u: Array) -> Complex:
         return np.asarray(u[2] * self._swing(omega, u))

@@ -18,6 +18,9 @@ from fitting.plate.element import THETA_Y, U_C, W
 from fitting.plate.plate import Plate
 from fitting.specimen import Specimen
 
+_COMPARED_PA, _COMPARED_HZ = 1e6, 50
+"""Modulus of the core and frequency at which motions are compared in size. A choice."""
+
 T = TypeVar("T")
 Solver = Callable[[Array | Complex], Complex]
 
@@ -88,9 +91,9 @@ class FullPlate:
 
     @cached_property
     def scale(self) -> sp.csc_array:
-        """Inner product of motions: stiffness at 1 MPa and inertia at 50 Hz. Shape (n, n)."""
+        """Inner product of motions: stiffness and inertia at one modulus and frequency. Shape (n, n)."""
         p = self.loose
-        return sp.csc_array(p.K_0.real + 1e6 * p.K_1 + (2 * np.pi * 50) ** 2 * p.M)
+        return sp.csc_array(p.K_0.real + _COMPARED_PA * p.K_1 + (2 * np.pi * _COMPARED_HZ) ** 2 * p.M)
 
     def unit(self, X: Complex) -> Complex:
         """Columns scaled to unit size; a push at a held edge moves nothing. Shape (n, any), as `X`."""

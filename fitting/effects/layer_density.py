@@ -54,7 +54,7 @@ class LayerDensityEffect(Effect):
         return None if plate.layers.any() else "the plate at hand does not know its layers"
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.array([1.03, layer]) for layer in (SUBSTRATE, CONSTRAINING)]
+        return [np.array([self.parameters[0].typical, layer]) for layer in (SUBSTRATE, CONSTRAINING)]
 
     def bare_shift(self, bare: BarePlateModes, u: Array) -> Array:
         felt = -0.5 * np.log(u[0]) if u[1] == SUBSTRATE else 0.0

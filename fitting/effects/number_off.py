@@ -10,7 +10,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.effects.base import Effect
+from fitting.effects.base import Effect, as_its_own
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.span import Span
@@ -43,11 +43,7 @@ class NumberOffEffect(Effect):
         """`needs` as `Effect.needs`."""
         self.inner, self.number = inner, number
         vars(self).update(
-            name=inner.name,
-            enters=inner.enters,
-            source=inner.source,
-            chance=inner.chance,
-            discriminating_test=inner.discriminating_test,
+            as_its_own(inner),
             parameters=inner.parameters,
             needs=needs,
             spans=() if number.startswith("core") or number.endswith("density") else (FacesApart(),),

@@ -73,7 +73,7 @@ class OrthotropicSubstrateEffect(Effect):
     )
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.array([1.03, stated]) for stated in (ALONG, MEAN, ACROSS)]
+        return [np.array([self.parameters[0].typical, stated]) for stated in (ALONG, MEAN, ACROSS)]
 
     def bare_shift(self, bare: BarePlateModes, u: Array) -> Array:
         face = bare.substrate

@@ -41,7 +41,7 @@ class PhaseScaleEffect(Effect):
         return None if points.has_phase else "amplitudes do not show a phase"
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.array([1.02, counted]) for counted in (0.0, 1.0, 2.0)]
+        return [np.array([self.parameters[0].typical, counted]) for counted in (0.0, 1.0, 2.0)]
 
     def reading(self, v: Complex, points: Points, u: Array) -> Complex:
         if u[1] == 0:

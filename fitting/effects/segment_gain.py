@@ -12,6 +12,8 @@ from fitting.effects.given import Points
 
 _EVERY = 0.0
 """In the place of a level: all of them."""
+_ROUNDING = 1e-9
+"""Of a frequency: a segment's own ends lie in it."""
 _HZ = 1.0 / (2 * np.pi)
 
 
@@ -40,14 +42,14 @@ class SegmentGainEffect(Effect):
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [
-            np.array([1.03, low, high, level])
+            np.array([self.parameters[0].typical, low, high, level])
             for low, high, levels in self._segments(points)
             for level in (_EVERY, *levels)
         ]
 
     def reading(self, v: Complex, points: Points, u: Array) -> Complex:
         f = points.omega * _HZ
-        here = (f >= u[1] * (1 - 1e-9)) & (f <= u[2] * (1 + 1e-9))
+        here = (f >= u[1] * (1 - _ROUNDING)) & (f <= u[2] * (1 + _ROUNDING))
         if u[3] != _EVERY:
             here &= are_of(float(u[3]), points.acceleration_m_s2)
         return np.asarray(v * np.where(here, u[0], 1.0))

@@ -15,6 +15,8 @@ from fitting.effects.span import UNIT_RESPONSE, Span
 
 _AROUND_M = ((8e-3, 0.0), (-8e-3, 0.0), (0.0, 8e-3), (0.0, -8e-3))
 """Pushes about the pickup: between them the answer at a shifted spot is nearly linear. A choice."""
+_DIRECTIONS = np.arange(0, np.pi, np.pi / 6)
+"""Of the spot from where it is thought to be, to begin with: over half a turn. A choice."""
 
 
 class Spot(Span):
@@ -56,7 +58,7 @@ class SpotOffsetEffect(Effect):
         return SpotOnBeamEffect() if kind == "beam" else super().on(kind)
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [3e-3 * np.array([np.cos(a), np.sin(a)]) for a in np.arange(0, np.pi, np.pi / 6)]
+        return [self.parameters[0].typical * np.array([np.cos(a), np.sin(a)]) for a in _DIRECTIONS]
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         x, y = plate.pickup
@@ -73,7 +75,7 @@ class SpotOnBeamEffect(AlongABeam, SpotOffsetEffect):
     spans = ()
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.array([3e-3])]
+        return [np.array([self.parameters[0].typical])]
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"the laser's spot is off by {1e3 * u['dx']:+.1f} mm along the beam"

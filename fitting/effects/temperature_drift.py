@@ -27,6 +27,9 @@ _UNEVEN = (
     EffectParameter("uneven_cosine", "K", -2.0, 2.0, 0.1, spread=0.2, mounting=0.3),
 )
 """Twice in a period: it warms in a third of it and cools in two, say. A choice."""
+_SHORTEST_S, _TIME_CONSTANTS = 40.0, (0.2, 0.6, 3.0)
+"""A sweep's duration, at least, and shares of it that a search begins with: from what settles early in it to
+what warms it evenly. A choice."""
 _PAUSE_S = 300.0
 """Without readings: shorter ones are those between segments. A choice."""
 _LEAST_CYCLES, _MOST_CYCLES, _STEP = 0.75, 12.0, 0.5
@@ -76,8 +79,8 @@ class TemperatureDriftEffect(Effect):
         return None
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        duration = max(float(np.ptp(points.time_s)), 40.0)
-        return [np.array([2.0, share * duration]) for share in (0.2, 0.6, 3.0)]
+        duration = max(float(np.ptp(points.time_s)), _SHORTEST_S)
+        return [np.array([self.parameters[0].typical, share * duration]) for share in _TIME_CONSTANTS]
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:
         return G(time_scale(self.kelvin(points.time_s, u)))
@@ -110,7 +113,7 @@ class TemperatureStepEffect(TemperatureDriftEffect):
         return super().objection(points, plate)
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.array([1.0, s]) for s in _pauses_s(points)]
+        return [np.array([self.parameters[0].typical, s]) for s in _pauses_s(points)]
 
     def kelvin(self, time_s: Array, u: Array) -> Array:
         return np.asarray(np.where(time_s > u[1], u[0], 0.0))

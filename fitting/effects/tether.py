@@ -8,6 +8,7 @@ The floor stands still: the spring feels the plate's motion relative to the base
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -22,8 +23,8 @@ from fitting.effects.span import Span
 
 _LOSS = 0.2
 """To begin with: a cable's sheath loses much."""
-_ALONG = (0.3, 0.5, 0.7, 0.85, 0.98)
-"""Shares of the length, to begin with."""
+_ALONG, _ACROSS = (0.3, 0.5, 0.7, 0.85, 0.98), (0.1, 0.5, 0.9)
+"""Shares of the length and the width, to begin with."""
 _START_N_M = 50.0
 """To begin with: half the spread of the prior."""
 
@@ -45,14 +46,14 @@ class TetherEffect(Effect):
     discriminating_test = "a look at the plate; the cable taped down elsewhere, the cable or magnet taken off"
 
     def on(self, kind: str) -> Effect | None:
-        return TetherOfBeamEffect() if kind == "beam" else super().on(kind)
+        own = {"beam": TetherOfBeamEffect, "shear-pair": TetherOfPairEffect}.get(kind)
+        return own() if own else super().on(kind)
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        across = (0.1, 0.5, 0.9)
         return [
             np.array([_START_N_M, _LOSS, x * plate.length_m, y * plate.width_m])
             for x in _ALONG
-            for y in across
+            for y in _ACROSS
         ]
 
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
@@ -88,6 +89,33 @@ class TetherOfBeamEffect(AlongABeam, TetherEffect):
             f"{_puller(u)} pulls at the beam at {1e3 * u['x']:.0f} mm "
             f"({u['k']:.2g} N/m, loss factor {u['loss_factor']:.2g})"
         )
+
+
+class TetherOfPairEffect(TetherEffect):
+    """At the moving mass of a shear pair.
+
+    With one mass it is a gain and a stiffer law, exactly: g K'/(K' - omega^2 m), K' = K + k, g = K/K'.
+    """
+
+    parameters = (
+        replace(TetherEffect.parameters[0], lower=-1e5, upper=1e5, typical=300.0, spread=1e3),
+        TetherEffect.parameters[1],
+    )
+    spans = ()
+    discriminating_test = "a look at what touches the mass; its cable and cords led elsewhere, or taken off"
+
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
+        return [np.array([q.typical for q in self.parameters])]
+
+    def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
+        return Effect.limits(self, plate)
+
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
+        w, k = plate.observe, u[0] + 1j * abs(u[0]) * u[1]
+        return Change(K=k * np.outer(w, w), travel_load=-k * w)
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"{_puller(u)} pulls at the mass ({u['k']:.2g} N/m, loss factor {u['loss_factor']:.2g})"
 
 
 def _puller(u: Mapping[str, float]) -> str:

@@ -26,6 +26,8 @@ from fitting.specimen import StatedSpecimen
 
 _SPANNED = (1e6, 1e8, 4e8, 3e9)
 """N/m^2, from nearly free to nearly gripped."""
+_STARTS_N_M2, _STARTS_M = (1e7, 3e8), (1e-3, 5e-3)
+"""To begin with: springs that hold it, and what it ends short by. A choice."""
 _LEAST_M, _MOST = 1e-4, 0.1
 """What a treatment may end short of a clamp by, in m and of the free length. Choices."""
 
@@ -85,7 +87,7 @@ class TreatmentNotGrippedEffect(Effect):
         return None if "treatment" in plate.group else "the plate has no clamp"
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.array([k]) for k in (1e7, 3e8)]
+        return [np.array([k]) for k in _STARTS_N_M2]
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         return Change(K=u[0] * plate.matrix("treatment.hold"))
@@ -129,7 +131,7 @@ class TreatmentEndsShortEffect(TreatmentOfBeamEffect):
         return (self,)
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.array([g]) for g in (1e-3, 5e-3)]
+        return [np.array([g]) for g in _STARTS_M]
 
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         lower, upper = super().limits(plate)

@@ -18,6 +18,8 @@ from fitting.plate.element import THETA_Y, U_B, U_C, W
 
 _MOST = 50.0
 """Springs of one edge over those of the other: where they are softer still, that edge is free."""
+_RATIOS = (4.0, 0.25)
+"""To begin with: either side the stiffer one. A choice."""
 _SPANNED = ((6e12, 0.7), (2e13, 0.9), (6e13, 0.9), (4e14, 0.9))
 """N/m^3 and slopes, from softer than a clamp ought to be to nearly rigid."""
 
@@ -79,7 +81,7 @@ class UnevenClampEffect(Effect):
         return None if "uneven" in plate.group else "the plate has no clamp"
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.array([k, ratio]) for k in STARTS_N_M3 for ratio in (4.0, 0.25)]
+        return [np.array([k, ratio]) for k in STARTS_N_M3 for ratio in _RATIOS]
 
     def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
         return ((ClampComplianceEffect(), u[:1]),)

@@ -33,6 +33,10 @@ _MOST_PRIORS = 5
 """Times `CLAMP` that a clamp may be found soft: further is another specimen, or none."""
 _MATCH = 0.15
 """A measured mode further than this from every predicted one is left out."""
+_SHIFTS = 121
+"""Common shifts that are tried within `_MATCH`: 0.25 % apart, a thirtieth of how near a match has to be."""
+_LENGTH_STEP_M = 1e-4
+"""Of the difference quotient to the free length. A choice: small beside any plate's."""
 _SPARE = 4
 """Modes of the model beyond those measured: a mode that the hammer missed leaves the others their
 partners."""
@@ -180,7 +184,7 @@ def _matched(measured: Array, model: Array) -> list[tuple[int, int]]:
 
 def _common_shift(measured: Array, model: Array) -> float:
     """The shift of ln f within the tolerance of a match that brings most modes onto the model's."""
-    scored_fits = np.linspace(-_MATCH, _MATCH, 121)
+    scored_fits = np.linspace(-_MATCH, _MATCH, _SHIFTS)
     distance = np.abs(np.log(measured[:, None, None] / model[None, :, None]) - scored_fits).min(axis=1)
     return float(scored_fits[np.argmin(np.minimum(distance, _MATCH / 2).sum(axis=0))])
 
@@ -197,12 +201,11 @@ def _solve(shift: Array, softness: Array, scatter: Array, tolerance: float) -> t
 
 def _by_line(bare: Specimen, of_K: Array, of_M: Array) -> Array:
     """-d ln f / d length, by Rayleigh's quotient. Shape (modes,)."""
-    h = 1e-4
     logs = []
-    for step in (h, -h):
+    for step in (_LENGTH_STEP_M, -_LENGTH_STEP_M):
         c = coefficients(moved(bare, ["length"], [step]), bare)
         logs.append(np.log((of_K @ c.K_0.real) / (of_M @ c.M)) / 2)
-    return np.asarray(-(logs[0] - logs[1]) / (2 * h))
+    return np.asarray(-(logs[0] - logs[1]) / (2 * _LENGTH_STEP_M))
 
 
 def _ratios(specimen: Specimen, index: NDArray[np.intp], ratio: Array) -> tuple[float, ...]:

@@ -17,6 +17,14 @@ _LOOK_AT = 24
 """Points that starts are compared on, evenly through the sweep: enough to tell one from another."""
 _MOST_EVALUATIONS = 200
 """A bound on time; what has not come to its end by then says `converged = False`."""
+_STEP_AT_REST, _GAIN_AT_REST = 1e-9, 1e-12
+"""Relative change of the parameters and of the sum of squares at which the fit has come to its end."""
+_ROUGH, _ROUGH_EVALUATIONS = 1e-4, 8
+"""The same of both in a descent from a start that was only looked at, and a bound on its time. A choice."""
+_WORTH_FOLLOWING = 1e-3
+"""Relative gain over the best so far from which such a valley is followed to its end. A choice."""
+_ROUNDS = 60
+"""Of the fixed point of `_spread`: each takes off two thirds of the error or more, to the last digit."""
 
 
 def fit_direct(residuals: Residuals, start: CoreLaw) -> Fit:
@@ -30,7 +38,7 @@ def fit_direct(residuals: Residuals, start: CoreLaw) -> Fit:
     for candidate in _candidates(residuals, start):
         # Far from the start a rough descent decides whether this valley is worth following.
         runs.append(_minimise(residuals, candidate, rough=True))
-        if runs[-1].cost < min(run.cost for run in runs[:-1]) * (1 - 1e-3):
+        if runs[-1].cost < min(run.cost for run in runs[:-1]) * (1 - _WORTH_FOLLOWING):
             runs.append(_minimise(residuals, start.with_logs(runs[-1].x)))
     best = min(runs, key=lambda run: float(run.cost))
     law = start.with_logs(best.x)
@@ -79,9 +87,9 @@ def _minimise(residuals: Residuals, start: CoreLaw, *, rough: bool = False) -> O
         jac=lambda p: both(p)[1],
         bounds=(lower, upper),
         x_scale="jac",
-        xtol=1e-4 if rough else 1e-9,
-        ftol=1e-4 if rough else 1e-12,
-        max_nfev=8 if rough else _MOST_EVALUATIONS,
+        xtol=_ROUGH if rough else _STEP_AT_REST,
+        ftol=_ROUGH if rough else _GAIN_AT_REST,
+        max_nfev=_ROUGH_EVALUATIONS if rough else _MOST_EVALUATIONS,
     )
 
 
@@ -100,7 +108,7 @@ def _candidates(residuals: Residuals, law: CoreLaw) -> list[CoreLaw]:
 def _spread(dimensions: int, count: int) -> Array:
     """Points of Roberts' R-sequence in the unit cube. Shape (count, dimensions)."""
     g = 1.5
-    for _ in range(60):
+    for _ in range(_ROUNDS):
         g = (1 + g) ** (1 / (dimensions + 1))
     steps = g ** -np.arange(1, dimensions + 1)
     return np.asarray((0.5 + np.outer(np.arange(1, count + 1), steps)) % 1)

@@ -41,6 +41,10 @@ _DENSE, _SPARSE = 20, 4
 """Times a decade near the band and far from it."""
 _PASSES = 4
 """Times the weights are made anew from the smooth curve. A choice."""
+_FAR_OFF = 0.5
+"""Of a modulus: a smooth curve further from what was found lends no weight to it. A choice."""
+_STEPS_A_WEIGHT = 50
+"""Iterations of the non-negative least squares, at most: the library gives up after three a weight."""
 _TINY = 1e-12
 """Below it a tail probability is only said to be below."""
 
@@ -150,7 +154,7 @@ def _errors(law: PointwiseLaw, smooth: Complex) -> tuple[Array, Array]:
     """
     ratio = smooth / law.modulus
     # Far from what was found, no core explains it, and there is nothing to be taken from it.
-    q = np.where(np.abs(ratio - 1) < 0.5, ratio, 1) / np.abs(law.modulus)
+    q = np.where(np.abs(ratio - 1) < _FAR_OFF, ratio, 1) / np.abs(law.modulus)
     turn = np.moveaxis(np.array([[q.real, -q.imag], [q.imag, q.real]]), -1, 0)
     noise = turn @ law.noise_covariance @ turn.transpose(0, 2, 1)
     J = _stacked((law.common @ np.array([1, 1j])) * q)
@@ -168,7 +172,7 @@ def _whitened_nnls(A: Complex, b: Complex, C: Array) -> tuple[Array, float]:
         raise TooFewPoints(why) from None
     whitened = solve_triangular(root, both, lower=True)
     scale = np.linalg.norm(whitened[:, :-1], axis=0)
-    x, left_over = nnls(whitened[:, :-1] / scale, whitened[:, -1], maxiter=50 * len(scale))
+    x, left_over = nnls(whitened[:, :-1] / scale, whitened[:, -1], maxiter=_STEPS_A_WEIGHT * len(scale))
     return np.asarray(x / scale), float(left_over)
 
 

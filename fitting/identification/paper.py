@@ -37,6 +37,10 @@ PLAIN_STEPS = 60
 """So many steps are exactly the printed ones; later every `_HURRY_EVERY`-th is extrapolated."""
 _HURRY_EVERY = 10
 """Steps between two extrapolations: their ratio has to settle first. A choice."""
+_LARGEST_STEP = 0.5
+"""Relative change of a parameter in one step, at most. A choice."""
+_MOST_EVALUATIONS = 100
+"""Of a fit to other data from where the iteration has come to rest. A bound on time."""
 _SMALLEST_STEP = 1e-6
 """Relative change of every parameter at which the iteration has come to rest."""
 
@@ -156,11 +160,11 @@ def refit(problem: PaperProblem, start: CoreLaw) -> CoreLaw:
         jac=jacobian,
         bounds=(lower, upper),
         x_scale="jac",
-        max_nfev=100,
+        max_nfev=_MOST_EVALUATIONS,
     )
     return start.with_logs(found.x)
 
 
 def _stepped(law: CoreLaw, change: Array) -> CoreLaw:
     """Parameters b (1 - change), kept within the limits and at most halved or raised by half."""
-    return law.with_logs(np.log(law.values * (1 - np.clip(change, -0.5, 0.5))))
+    return law.with_logs(np.log(law.values * (1 - np.clip(change, -_LARGEST_STEP, _LARGEST_STEP))))

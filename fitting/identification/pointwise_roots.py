@@ -27,6 +27,19 @@ _MOST_STEPS = 40
 """A bound: a band that has not converged by then counts as without a root."""
 _CONVERGED = 1e-3
 """Last step in standard errors."""
+_LEAST_RADIUS = 0.3
+"""|u| that starts lie around the law at, at least: however near the first root is. A choice."""
+_RING = ((1.0, 8), (0.5, 4))
+"""Shares of that radius, and how many starts lie evenly around the law at each. A choice."""
+_SAME, _ROUNDING = 0.05, 1e-9
+"""Standard errors, and a bit of u more, within which two starts have come to one root: fifty of their last
+steps."""
+_LONGEST = 0.5
+"""|u| of one step, at most. A choice."""
+_CUT = 4
+"""By which a step that makes things worse is shortened, and the next lengthened after one that does not."""
+_GIVEN_UP = 1e-6
+"""Share of a whole step: where so little of it still makes things worse, nothing leads on."""
 
 
 @dataclass(frozen=True)
@@ -90,9 +103,8 @@ def nearest_root(problem: BandProblem) -> BandMinima:
     """
     first = _newton(problem, np.zeros(problem.count, complex))
     far = np.maximum(_AS_NEAR * np.abs(first.u), np.abs(first.u) + APART * first.error)
-    radius = np.where(first.converged, np.clip(far, 0.3, _REACH), _REACH / 2)
-    ring = [(1.0, 8), (0.5, 4)]
-    starts = [r * np.exp(2j * np.pi * (k + 0.5) / n) for r, n in ring for k in range(n)]
+    radius = np.where(first.converged, np.clip(far, _LEAST_RADIUS, _REACH), _REACH / 2)
+    starts = [r * np.exp(2j * np.pi * (k + 0.5) / n) for r, n in _RING for k in range(n)]
     roots = [first, *(_newton(problem, radius * s) for s in starts)]
     u, chi2, error, converged = (
         np.array([getattr(r, name) for r in roots]) for name in ("u", "chi2", "error", "converged")
@@ -109,7 +121,7 @@ def nearest_root(problem: BandProblem) -> BandMinima:
     near = (distance < _AS_NEAR * np.abs(best)) | (apart < APART * its_error)
     # A root that gives energy back is no rival: no core is so.
     passive = np.sin(angle) > -APART * error
-    rival = fits & passive & near & (apart > 0.05 * its_error + 1e-9)
+    rival = fits & passive & near & (apart > _SAME * its_error + _ROUNDING)
     return BandMinima(best, chi2[nearest], its_error, fits[nearest], ~rival.any(axis=0))
 
 
@@ -120,10 +132,10 @@ def _newton(problem: BandProblem, u: Complex) -> BandMinima:
         damping = np.ones(problem.count)
         for _ in range(_MOST_STEPS):
             done = np.abs(step) <= _CONVERGED * error
-            lost = (damping < 1e-6) | (np.abs(u) > 2 * _REACH) | ~np.isfinite(step)
+            lost = (damping < _GIVEN_UP) | (np.abs(u) > 2 * _REACH) | ~np.isfinite(step)
             if np.all(done | lost):
                 break
-            cut = np.minimum(damping, 0.5 / np.abs(step))
+            cut = np.minimum(damping, _LONGEST / np.abs(step))
             scored = np.where(done | lost, u, u + cut * step)
             looked = problem.look(scored)
             better = ~(done | lost) & (looked[0] <= chi2)
@@ -131,6 +143,6 @@ def _newton(problem: BandProblem, u: Complex) -> BandMinima:
             chi2, step, error = (
                 np.where(better, new, old) for new, old in zip(looked, (chi2, step, error), strict=True)
             )
-            damping = np.where(better, np.minimum(1, 4 * damping), damping / 4)
+            damping = np.where(better, np.minimum(1, _CUT * damping), damping / _CUT)
         converged = np.abs(step) <= _CONVERGED * error
     return BandMinima(u, chi2, error, converged, np.ones(problem.count, bool))

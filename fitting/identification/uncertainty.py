@@ -10,6 +10,8 @@ from fitting.laws import CoreLaw
 
 _AT_BOUND = 1e-5
 """Distance to a limit, in the log parameter, that counts as sitting on it."""
+_ROUNDING = 1e-14
+"""Of the largest singular value: what is less is only what double precision leaves of nothing."""
 
 
 @dataclass(frozen=True)
@@ -87,7 +89,7 @@ def _pseudo_inverse(J: Array) -> Array:
     scale = np.linalg.norm(J, axis=0)
     scale = np.where(scale > 0, scale, 1.0)
     U, s, Vt = np.linalg.svd(J / scale, full_matrices=False)
-    return np.asarray((Vt.T / np.maximum(s, 1e-14 * s.max()) / scale[:, None]) @ U.T)
+    return np.asarray((Vt.T / np.maximum(s, _ROUNDING * s.max()) / scale[:, None]) @ U.T)
 
 
 def limits_reached(law: CoreLaw) -> dict[str, str]:

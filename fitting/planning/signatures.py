@@ -102,7 +102,11 @@ def signatures_of(
 
     `known` are the stated numbers and the unknowns of these. Shape (unknowns,).
     """
-    able = [e for e in effects if e.objection(problem.points, problem.plate) is None]
+    able = [
+        e
+        for e in effects
+        if e.passes_for_a_law(problem.points) or e.objection(problem.points, problem.plate) is None
+    ]
     return signatures_in(
         lambda some: response_of(problem, some, problem.coarse),
         problem.points,

@@ -13,6 +13,8 @@ from fitting.stated.patches import Patch, shifts_of
 
 _SLIVER = 0.02
 """Of an element's side: a narrower strip of treatment on it is left out, it would hardly hold its nodes."""
+_DECIMALS = 12
+"""Of a metre: elements that are covered alike to that are one cell."""
 
 
 @dataclass(frozen=True)
@@ -148,7 +150,8 @@ def _part(patch: Patch, element: tuple[float, float, float, float], least: float
     y_0, y_1 = max(patch.from_y_m - y, 0.0), min(patch.to_y_m - y, b)
     if x_1 - x_0 <= least * a or y_1 - y_0 <= least * b:
         return ()
-    return ((round(x_0, 12), round(x_1, 12), round(y_0, 12), round(y_1, 12)),)
+    x_0, x_1, y_0, y_1 = (round(x, _DECIMALS) for x in (x_0, x_1, y_0, y_1))
+    return ((x_0, x_1, y_0, y_1),)
 
 
 def treated_nodes(specimen: Specimen, mesh: Mesh) -> NDArray[np.bool_]:

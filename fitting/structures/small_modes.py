@@ -15,6 +15,8 @@ from fitting.structures.small import SmallSpecimen, check_driven, displacement, 
 
 _STEPS, _SETTLED = 60, 1e-9
 """A bound for the law followed along; the relative change of a frequency at which that has settled."""
+_FIRST_HZ = 100.0
+"""The first mode's frequency to begin with, where nobody has a better guess. A choice."""
 _BENDS = 0.01
 """Of the largest deflection among modes: one that moves across less than this goes along the beam."""
 _RIGID, _AMONG = 1e-6, 10
@@ -38,7 +40,7 @@ def along(beam: Beam, modes: Sequence[ComplexMode]) -> list[bool]:
 
 
 def elastic_modes(
-    system: EnrichedReducedPlate, law: CoreLaw | None, count: int, first_hz: float = 100.0
+    system: EnrichedReducedPlate, law: CoreLaw | None, count: int, first_hz: float = _FIRST_HZ
 ) -> list[ComplexMode]:
     """The same of a system as it is; `first_hz` is a guess of the first mode's."""
     # M = L L^T: an ordinary problem is solved several times faster.

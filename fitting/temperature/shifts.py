@@ -151,6 +151,9 @@ class Shift:
             return np.array([np.mean(log_shift[self.temperature_c == t]) for t in self._moved])
         starts = [[8.0, 100.0], [17.0, 60.0]] if self.kind == "wlf" else [[5e4]]
         low, high, s = self.lowest, self.highest, self.scales
+        if self.kind == "wlf":
+            # A law on its way to none in its curvature does not come back: no flatter than Arrhenius's.
+            high = np.array([high[0], max(2 * low[1], self.reference_c + ZERO_K)])
         fits = [
             least_squares(
                 lambda q: self.log_shift(q * s) - log_shift,

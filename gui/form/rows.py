@@ -22,6 +22,8 @@ class FormRows(QTreeWidget):
         self._editors: dict[Place, Editor] = {}
         self.setColumnCount(4)
         self.setHeaderLabels(["", "value", "unit", ""])
+        # Its last column takes the room that is left, but no less than it has had.
+        self.header().resizeSection(FAULT, self.header().minimumSectionSize())
         self.setSelectionMode(QTreeWidget.SelectionMode.NoSelection)
         self.setVerticalScrollMode(QTreeWidget.ScrollMode.ScrollPerPixel)
         self.setIndentation(self.fontMetrics().averageCharWidth() * 2)
@@ -62,7 +64,8 @@ class FormRows(QTreeWidget):
         beside = sum(self.sizeHintForColumn(column) for column in (NAME, UNIT))
         faulty = any(item.text(FAULT) for item in self._items.values())
         # What is wrong needs words; a number needs little.
-        room = self.viewport().width() - beside - (_WORDS if faulty else _FAULT_LETTERS) * letter
+        words = max((_WORDS if faulty else _FAULT_LETTERS) * letter, self.header().minimumSectionSize())
+        room = self.viewport().width() - beside - words
         self.header().resizeSection(VALUE, max(_LEAST_LETTERS * letter, min(_LETTERS * letter, room)))
 
     def resizeEvent(self, event: QResizeEvent) -> None:

@@ -12,6 +12,8 @@ class Axis:
     log: bool = False
     titled: bool = True
     """Whether it is named beside the axis: of plots in a column the lowest one does for all."""
+    symbol: str = ""
+    """Said in place of the label where there is no room for it."""
 
     @property
     def title(self) -> str:
@@ -19,6 +21,14 @@ class Axis:
         if not self.titled:
             return ""
         return f"{self.label} / {self.unit}" if self.unit else self.label
+
+    @property
+    def titles(self) -> tuple[str, ...]:
+        """As it may stand beside the axis, the longest first."""
+        if not self.titled:
+            return ("",)
+        short = (f"{self.symbol} / {self.unit}",) if self.symbol else ()
+        return (self.title, *short, self.unit)
 
     @property
     def column(self) -> str:

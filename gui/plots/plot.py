@@ -247,7 +247,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         self.marks.style()
 
     def resizeEvent(self, event: QResizeEvent | None) -> None:
-        """A title that has not room enough beside its axis is shortened to the unit."""
+        """A title that has not room enough beside its axis is shortened, to the unit at last."""
         super().resizeEvent(event)
         if event is not None and hasattr(self, "cursors") and self.plotItem is not None:
             self._say_titles()
@@ -264,7 +264,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         beside = self.getAxis("left" if side == "bottom" else "bottom")
         laid_out = beside.width() if side == "bottom" else beside.height()
         room -= max(_TITLE_ROOM_PX, laid_out + _EDGE_PX) if beside.style["showValues"] else _EDGE_PX
-        for title in (shown.title, shown.unit if shown.titled else ""):
+        for title in shown.titles:
             if self.fontMetrics().horizontalAdvance(title) <= room:
                 return title
         return ""

@@ -1,1 +1,1 @@
-"""Does the diagnosis find what is there? Sweeps of the 3D plant with known effects, diagnosed and scored."""
+"""Does a diagnosis find what is there? Simulated cases that hide effects, diagnosed and scored; and speed."""

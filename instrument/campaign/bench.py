@@ -24,11 +24,11 @@ from fitting.identification.model import SweepModel
 from fitting.identification.residuals import Residuals
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
-from instrument.campaign.cases import Truth, measured
-from instrument.campaign.materials import draw_material
 from instrument.campaign.noise import NoiseFigures
+from instrument.campaign.plant.cases import Truth, measured
+from instrument.campaign.plant.materials import draw_material
+from instrument.campaign.plant.severities import Severity
 from instrument.campaign.schedule import Schedule
-from instrument.campaign.severities import Severity
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.diagnosis import Diagnosed, diagnose

@@ -55,6 +55,12 @@ def peaks(size: Array, group: NDArray[np.intp]) -> Array:
     return np.array([largest[int(g)] for g in group])
 
 
-def draw_noise(rng: np.random.Generator) -> NoiseFigures:
+_OF_PEAK = (0.003, 0.009)
+"""Of a rig in use: about what the sweeps above were read with."""
+_REPEATS = (0.0014, 0.0028)
+"""The same of `repeat_scatter`."""
+
+
+def draw_figures(rng: np.random.Generator, fraction_of_peak: tuple[float, float] = _OF_PEAK) -> NoiseFigures:
     """Figures of a rig in use."""
-    return NoiseFigures(float(rng.uniform(0.003, 0.009)), float(rng.uniform(0.0014, 0.0028)))
+    return NoiseFigures(float(rng.uniform(*fraction_of_peak)), float(rng.uniform(*_REPEATS)))

@@ -4,24 +4,15 @@ import hashlib
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from instrument.campaign.cases import KINDS, NONE, PAIR, Case, draw
-from instrument.campaign.outcome import Outcome, Said, line_of, outcome_of, said_of
-from instrument.campaign.severities import OF_THE_CHANNELS_ALONE
-from instrument.campaign.tables import summary
-from instrument.campaign.visibility import visible_chi2
 from instrument.errors import BadInput, StoppedByUser
 from instrument.files.text import read_text
 from instrument.models.processes import in_processes
 from instrument.progress import Progress, quiet
 
 OUTCOMES, BEGUN, SUMMARY = "outcomes.jsonl", "campaign.json", "summary.md"
-ROTATION = (*KINDS, NONE, NONE, PAIR, PAIR)
-"""Kinds of successive cases: each effect once, clean ones and pairs three times."""
 _SOURCES = ("fitting", "drivers/simulated/plant", "instrument/campaign", "instrument/diagnosis")
 
 
@@ -37,67 +28,25 @@ Judge = Callable[[Job], dict[str, Any]]
 """From a job to its line, which repeats `kind` and `seed`."""
 
 
-def jobs_of(count: int, seed: int, kinds: Sequence[str] = ()) -> list[Job]:
-    """Kinds in rotation, seeds from `seed` on."""
-    return in_rotation(tuple(kinds) or ROTATION, count, seed)
-
-
 def in_rotation(kinds: Sequence[str], count: int, seed: int) -> list[Job]:
-    """One kind after the other, seeds from `seed` on."""
+    """One kind after the other, round and round; seeds from `seed` on."""
     return [Job(kinds[k % len(kinds)], seed + k) for k in range(count)]
-
-
-def judge(job: Job, taken_out: bool) -> dict[str, Any]:
-    """Draw, diagnose, compare. `taken_out`: once more without a single effect that leaves a residual.
-
-    A diagnosis that raises is an outcome without an answer; the next run tries it again.
-    """
-    # Loaded here: cases and scores are of use without it.
-    diagnose = import_module("instrument.models.diagnosis").diagnose
-    case = draw(job.kind, job.seed)
-    said: Said | None = None
-    without: Said | None = None
-    error = ""
-    try:
-        said = _diagnosed(diagnose, case, frozenset())
-        if taken_out and job.kind not in (NONE, PAIR, *OF_THE_CHANNELS_ALONE):
-            without = _diagnosed(diagnose, case, frozenset(case.truth.names))
-    except Exception as raised:
-        error = " ".join(f"{type(raised).__name__}: {raised}".split())
-    outcome = Outcome(
-        kind=job.kind,
-        seed=job.seed,
-        truth=case.truth.names,
-        hammer=case.hammer is not None,
-        levels=len({float(level) for level in case.sweep.commanded_m_s2}),
-        visible_chi2=visible_chi2(case),
-        said=said,
-        without=without,
-        error=error,
-    )
-    return line_of(outcome)
-
-
-def _diagnosed(diagnose: Callable[..., Any], case: Case, without: frozenset[str]) -> Said:
-    found = diagnose(case.sweep, case.specimen, hammer=case.hammer, without=without)
-    return said_of(case, found.result, found.seconds, found.setup_seconds)
 
 
 def run_campaign(
     jobs: Sequence[Job],
     folder: Path,
+    judged_by: Judge,
+    options: Mapping[str, Any],
     *,
-    taken_out: bool = True,
     workers: int = 2,
-    judged_by: Judge | None = None,
-    options: Mapping[str, Any] | None = None,
     progress: Progress = quiet,
 ) -> list[dict[str, Any]]:
     """Lines of all jobs, with those an earlier run left in `folder`. Raises `BadInput`, `StoppedByUser`.
 
     `options` are those of `judged_by`, by which outcomes differ.
     """
-    _same_program(folder, {**(options or {"taken_out": taken_out}), "sources": fingerprint()})
+    _same_program(folder, {**options, "sources": fingerprint()})
     known = {(line["kind"], line["seed"]): line for line in read_lines(folder) if not line.get("error")}
     left = [job for job in jobs if (job.kind, job.seed) not in known]
     done = len(jobs) - len(left)
@@ -112,16 +61,20 @@ def run_campaign(
             report(done / len(jobs))
 
         try:
-            in_processes(judged_by or partial(judge, taken_out=taken_out), left, workers, keep)
+            in_processes(judged_by, left, workers, keep)
         except KeyboardInterrupt:
             said = f"{done} of {len(jobs)} cases done, kept in {folder}; the same command goes on"
             raise StoppedByUser(said) from None
     return [known[job.kind, job.seed] for job in jobs]
 
 
-def write_summary(lines: Sequence[dict[str, Any]], folder: Path) -> str:
-    """The score as Markdown, kept in the folder."""
-    text = summary([outcome_of(line) for line in lines])
+def why_not(raised: Exception) -> str:
+    """What a case without an answer keeps of it, in a line."""
+    return " ".join(f"{type(raised).__name__}: {raised}".split())
+
+
+def keep_summary(text: str, folder: Path) -> str:
+    """The same text, kept in the folder."""
     (folder / SUMMARY).write_text(text, encoding="utf-8")
     return text
 

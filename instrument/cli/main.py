@@ -50,12 +50,13 @@ COMMANDS = (
     "export",
     "import",
     "bench",
+    "campaign",
 )
 """Each is a function of that name in the module of that name beside this file (or `import_`)."""
 
 
 _SUMS = frozenset(
-    ("plan", "predict", "damping", "identify", "diagnose", "batch", "compare", "report", "bench")
+    ("plan", "predict", "damping", "identify", "diagnose", "batch", "compare", "report", "bench", "campaign")
 )
 """Those that take long and hold no instrument: SIGTERM ends them as Ctrl-C does, their processes too."""
 

@@ -55,6 +55,8 @@ class ShiftedResult(Result):
     temperatures apart."""
     common_cause: EffectFound | None = None
     """An effect that all sweeps seem to have in common; it is counted in."""
+    converged: bool = True
+    """Whether the joint fit came to its end; its values are provisional where it did not."""
     p_value: Number
     chi2: Number
     chi2_each_alone: Number

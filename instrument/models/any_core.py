@@ -1,8 +1,9 @@
 """Data beside a structure whatever its core: how near the nearest core comes, up to a factor or not.
 
-A core is a modulus at the middle frequency, the slope of its logarithm, and a loss factor: enough to come
-within some percent of any law over a sweep. Distances are those of logarithms, so that a wrong unit is a
-constant, and what is further off than a factor e counts no more: a part that is wrong does not hide the rest.
+A core is a modulus at the middle frequency, a loss factor there, and the slopes of their logarithms:
+enough to come within some percent of any law over a sweep. Distances are those of logarithms, so that a
+wrong unit is a constant, and what is further off than a factor e counts no more: a part that is wrong does
+not hide the rest.
 """
 
 from collections.abc import Callable
@@ -18,7 +19,7 @@ from fitting.errors import OutsideModel
 from fitting.identification.model import velocity
 from fitting.reduced.rational import RationalSweep, rational_sweep
 from fitting.specimen import Reading, Specimen
-from fitting.structures import AnySpecimen
+from fitting.structures import AnySpecimen, ShearPair
 from fitting.structures.small import check_driven, system_of
 from fitting.structures.small_sum import rational_of
 from instrument.models.specimen_models import Models
@@ -30,12 +31,13 @@ _SLOPES, _LOSSES = (0.0, 0.35), (0.05, 0.3, 1.0)
 """Of a core at rest in its plateau and in its transition; of a metal-like, a usual and a lossy one."""
 FURTHEST = 1.0
 """Of ln(measured/predicted)."""
-_STEPS = 120
-"""Of the search by simplex: three unknowns, to a percent."""
-_FIRST = (0.15, 0.1, 0.4)
-"""Size of the simplex: half the grid's spacing in log10 of the modulus, its slope, ln of the loss factor."""
-_MOST_LOSS = 5.0
-"""More than a core has."""
+_STEPS = 180
+"""Of the search by simplex: four unknowns, to a percent."""
+_FIRST = (0.15, 0.1, 0.4, 0.3)
+"""Size of the simplex: half the grid's spacing in log10 of the modulus, its slope, ln of the loss factor, its
+slope."""
+_MOST_LOSS, _STEEPEST_LOSS = 5.0, 1.0
+"""More than a core has, and as steep as its loss factor gets."""
 
 
 class Nearest(NamedTuple):
@@ -46,7 +48,7 @@ class Nearest(NamedTuple):
     factor: complex
     """Measured over predicted at all points alike; one where none was asked for."""
     core: Array
-    """As `AnyCore.log_velocity` takes it. Shape (3,)."""
+    """As `AnyCore.log_velocity` takes it. Shape (4,)."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +59,9 @@ class AnyCore:
     sums: RationalSweep
     reads: Reading
     stated: Array
-    """The core stated in the file, as `log_velocity` takes it. Shape (3,)."""
+    """The core stated in the file, as `log_velocity` takes it. Shape (4,)."""
+    unknowns: int = 4
+    """How many of a core's numbers are sought: one resonance tells no rising loss from a factor."""
 
     @property
     def middle(self) -> float:
@@ -65,16 +69,17 @@ class AnyCore:
         return float(np.sqrt(self.omega.min() * self.omega.max()))
 
     def log_velocity(self, cores: Array) -> Complex:
-        """Ln of the phasors, of log10 G', its slope and ln eta of some cores. Shapes (n, 3), (n, points)."""
-        log_G, slope, log_eta = cores.T[:, :, None]
-        G = 10**log_G * (self.omega / self.middle) ** slope * (1 + 1j * np.exp(log_eta))
+        """Ln of the phasors, of log10 G', its slope, ln eta and its slope. Shapes (n, 4), (n, points)."""
+        log_G, slope, log_eta, eta_slope = cores.T[:, :, None]
+        x = self.omega / self.middle
+        G = 10**log_G * x**slope * (1 + 1j * np.exp(log_eta) * x**eta_slope)
         return np.log(velocity(self.omega, self.sums.displacement(G), self.reads))
 
     @cached_property
     def cores(self) -> Array:
-        """Those that are tried first. Shape (n, 3)."""
+        """Those that are tried first. Shape (n, 4)."""
         log_G = np.log10(np.abs(self.sums.G_ref)) + np.linspace(-_DECADES, _DECADES, _MODULI)
-        grid = np.array([(g, s, np.log(e)) for g in log_G for s in _SLOPES for e in _LOSSES])
+        grid = np.array([(g, s, np.log(e), 0.0) for g in log_G for s in _SLOPES for e in _LOSSES])
         return np.concatenate([grid, self.stated[None]])
 
     @cached_property
@@ -94,21 +99,29 @@ class AnyCore:
         return self._refined(found, of) if refine else found
 
     def _refined(self, start: Nearest, of: Callable[[Complex], tuple[Array, Complex]]) -> Nearest:
-        def distance(core: Array) -> float:
-            if not 0 <= core[1] <= 1 or core[2] > np.log(_MOST_LOSS):
+        n = self.unknowns
+
+        def core_of(x: Array) -> Array:
+            return np.concatenate([x, start.core[n:]])
+
+        def distance(x: Array) -> float:
+            core = core_of(x)
+            _, slope, log_eta, eta_slope = core
+            if not 0 <= slope <= 1 or log_eta > np.log(_MOST_LOSS) or abs(eta_slope) > _STEEPEST_LOSS:
                 return 2 * FURTHEST
             return float(of(self.log_velocity(core[None]))[0][0])
 
-        first = start.core + np.vstack([np.zeros(3), np.diag(_FIRST)])
+        first = start.core[:n] + np.vstack([np.zeros(n), np.diag(_FIRST[:n])])
         found = minimize(
             distance,
-            start.core,
+            start.core[:n],
             method="Nelder-Mead",
             options={"initial_simplex": first, "maxfev": _STEPS, "xatol": 1e-3, "fatol": 1e-4},
         )
         if not found.fun < start.distance:
             return start
-        return Nearest(float(found.fun), complex(of(self.log_velocity(found.x[None]))[1][0]), found.x)
+        core = core_of(found.x)
+        return Nearest(float(found.fun), complex(of(self.log_velocity(core[None]))[1][0]), core)
 
 
 def _distances(off: Complex, *, has_phase: bool, free: bool) -> tuple[Array, Complex]:
@@ -135,12 +148,13 @@ def any_core(specimen: AnySpecimen, frequency_hz: Array, progress: Progress) -> 
     middle = np.sqrt(omega.min() * omega.max())
     at = specimen.core.law.modulus(middle * np.array([1.0, 1.1]))
     slope = float(np.clip(np.log(at[1].real / at[0].real) / np.log(1.1), 0, 1))
-    loss = np.log(np.clip(at[0].imag / at[0].real, 1e-3, _MOST_LOSS))
-    stated = np.array([np.log10(at[0].real), slope, loss])
+    losses = np.log(np.clip(at.imag / at.real, 1e-3, _MOST_LOSS))
+    eta_slope = np.clip((losses[1] - losses[0]) / np.log(1.1), -1, 1)
+    stated = np.array([np.log10(at[0].real), slope, losses[0], eta_slope])
     if isinstance(specimen, Specimen):
         sums = rational_sweep(Models.of(specimen, frequency_hz, progress).reduced, omega)
     else:
         parts = specimen.parts()
         check_driven(parts, specimen)
         sums = rational_of(system_of(specimen, parts), omega, float(np.abs(at[0])))
-    return AnyCore(omega, sums, specimen.reads, stated)
+    return AnyCore(omega, sums, specimen.reads, stated, 3 if isinstance(specimen, ShearPair) else 4)

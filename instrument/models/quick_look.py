@@ -95,7 +95,7 @@ def _doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> str:
             return f"it looks as if {said}" if said else ""
     return (
         f"no core makes this {specimen.kind} answer so (typically {np.exp(_median(look)):.2g} "
-        "times off): another specimen or layer, unit, level or pickup"
+        "times off): another specimen or layer, unit, level, pickup or way it reads"
     )
 
 
@@ -210,6 +210,11 @@ def _of_data(look: _Look) -> str | None:
     sweep, model, as_is, drive = look.sweep, look.model, look.as_is, look.specimen.drive
     mistake, found = _most_likely(sweep, model, list(mistakes(sweep)))
     if _explains(found.distance, as_is.distance):
+        if as_is.distance >= SCALED:
+            # Two mistakes at once come near to decibels, and far less near than one does.
+            distance, words = _in_another_scale(sweep, model)
+            if _explains(distance, found.distance):
+                return words
         slight = mistake.is_slight(found.factor) and not mistake.is_habit(found.factor)
         return "" if slight else words_of(mistake, found.factor, drive)
     in_part = mistake_in_a_segment(sweep, model, as_is, drive)
@@ -228,13 +233,17 @@ def _of_data(look: _Look) -> str | None:
         return "the amplitudes are this specimen's and the phases are not: unit, sign, delay or filter"
     if as_is.distance < SCALED:
         return None
-    scaled = [
+    distance, words = _in_another_scale(sweep, model)
+    return words if _explains(distance, min(of_size, as_is.distance)) else None
+
+
+def _in_another_scale(sweep: Sweep, model: AnyCore) -> tuple[float, str]:
+    """Distance with the response as a power, in dB or the like, whichever is least, and words for it."""
+    return min(
         (_sizes(response, model), mistake.words)
         for mistake in of_another_scale()
         if (response := mistake.taken_back(sweep)) is not None
-    ]
-    distance, words = min(scaled)
-    return words if _explains(distance, min(of_size, as_is.distance)) else None
+    )
 
 
 _SUSPICIONS: tuple[tuple[float, Callable[[_Look], str | None]], ...] = (

@@ -41,6 +41,7 @@ def shifted_from(found: Shifted, sweeps: Sequence[AtTemperature]) -> ShiftedResu
         law=law_rows_from(found.band),
         simple=verdict.simple,
         common_cause=_cause_from(found.cause) if found.cause is not None else None,
+        converged=bool(fit.converged),
         p_value=verdict.p_value,
         chi2=fit.chi2,
         chi2_each_alone=fit.chi2_own,

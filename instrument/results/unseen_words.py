@@ -17,6 +17,8 @@ def unseen_row(one: UnseenEffect) -> tuple[str, ...]:
 def _size(one: UnseenEffect) -> str:
     if one.parameter is None or one.size is None:
         return "-"
-    # A factor is near 1: what counts of it stands further behind.
-    said = f"{one.size:.5g}" if one.unit in (None, "1") else f"{one.size:.3g} {one.unit}"
-    return f"{one.parameter} {said}"
+    if one.unit in (None, "1"):
+        # Of a factor near 1 what counts stands further behind.
+        near_one = round(one.size) == 1
+        return f"{one.parameter} {one.size:.{5 if near_one else 3}g}"
+    return f"{one.parameter} {one.size:.3g} {one.unit}"

@@ -22,11 +22,12 @@ from mode_cases import FINE, read_off
 
 from fitting.arrays import Array
 from fitting.errors import FittingError
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates.geometry import PLATES
 from instrument.campaign.plates.hidden import HIDDEN
 from instrument.campaign.plates.hidden.base import Hidden, Setting
 from instrument.campaign.plates.judged import left_out
-from instrument.campaign.plates.materials import PlateMaterialLaw, draw_law
+from instrument.campaign.plates.materials import draw_law
 from instrument.campaign.plates.reduced import ReducedSolid
 from instrument.campaign.plates.simulate import built, moduli_of
 from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
@@ -50,7 +51,7 @@ KINDS = (
 COUNT, LARGEST_LOSS, SHOWS = 8, 0.35, 40.0
 
 
-def modes_of(plate: ReducedSolid, law: PlateMaterialLaw) -> Array:
+def modes_of(plate: ReducedSolid, law: TrueLaw) -> Array:
     """Frequencies and loss factors, the law at each mode's own frequency. Shape (2, modes)."""
     K_0, found, omega = plate.K_0 + 1j * plate.rubbing, list[tuple[float, float]](), 500.0
     for k in range(COUNT):
@@ -107,7 +108,7 @@ def told_of(seed: int, *, without_truth: bool) -> Told:
     return Told(kind, hidden, result, diagnosed.found.begun.none.chi2, _off(result.after, at, law))
 
 
-def _off(stage: StageFitted, frequency_hz: Array, law: PlateMaterialLaw) -> Array:
+def _off(stage: StageFitted, frequency_hz: Array, law: TrueLaw) -> Array:
     x, true = np.log(frequency_hz), law.modulus(2 * np.pi * frequency_hz)
     grid = np.log([row.frequency_hz for row in stage.law])
 

@@ -13,7 +13,8 @@ from fitting.planning.sensitivity import ReadingNoise
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.campaign.plates.cases import PlateTruth, draw_case
-from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, reading
+from instrument.campaign.plates.channel import ChannelError
+from instrument.campaign.plates.simulate import built, moduli_of, reading
 from instrument.campaign.plates.stated import CampaignTolerances, draw_stated, specimen_from, toml
 from instrument.campaign.schedule import Schedule
 
@@ -68,9 +69,8 @@ def planned_case(seed: int) -> PlannedCase:
     usual = CampaignTolerances()
     tolerances = CampaignTolerances(**{k: share * v for k, v in vars(usual).items()})
     stated = draw_stated(rng, truth.plate, tolerances)
-    off = rng.standard_normal(2)
-    phase = tolerances.phase_rad * np.random.default_rng([seed, 19]).standard_normal()
-    channel = ChannelError(float(np.exp(tolerances.gain * off[0])), tolerances.delay_s * off[1], phase)
+    off = *rng.standard_normal(2), np.random.default_rng([seed, 19]).standard_normal()
+    channel = ChannelError.within(tolerances, off)
     specimen = specimen_from(toml(stated, tolerances, truth.resonances_hz[1]))
     law = _stated_law(specimen, truth, rng)
     noise = ReadingNoise(float(10 ** rng.uniform(-6, -5)), float(rng.uniform(1e-3, 4e-3)))

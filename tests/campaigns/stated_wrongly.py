@@ -6,10 +6,10 @@
     python tests/campaigns/stated_wrongly.py --on pairs
 
 The sweeps are clean, and made by something that shares no formula with the fit: `practice` by a solid plate
-(tests/data/practice-002.csv), `plates` and `beams` by the solids of `viscorig bench`, `pairs` by the wave in
-the pad. Of each case: verdict, what is named with what cannot be told from it, probability of what is named
-and of none; errors of G' and eta in standard errors at three frequencies, of the diagnosis and of `identify`
-alone; which remarks `identify` makes.
+(tests/data/practice-002.csv), `plates` and `beams` by the solids of `viscorig campaign`, `pairs` by the wave
+in the pad. Of each case: verdict, what is named with what cannot be told from it, probability of what is
+named and of none; errors of G' and eta in standard errors at three frequencies, of the diagnosis and of
+`identify` alone; which remarks `identify` makes.
 """
 
 import argparse

@@ -27,7 +27,7 @@ from temperature_cases import (
 
 from drivers.simulated.plant.effects import Effects
 from fitting.sweep import Sweep
-from instrument.campaign.plant_sweep import steady
+from instrument.campaign.plant.response import steady
 from instrument.files.specimen_file import read_specimen
 from instrument.models.temperatures import AtTemperature, identify_shifted
 from instrument.simulated_case import case_file

@@ -2,7 +2,7 @@
 
 import pytest
 from layout_faults import layout_faults, places
-from PySide6.QtWidgets import QApplication, QCheckBox, QLabel, QWidget
+from PySide6.QtWidgets import QApplication, QCheckBox, QComboBox, QLabel, QLineEdit, QWidget
 
 from gui.background_task import BackgroundCommand, BackgroundTask
 from gui.icons import NAMES, icon
@@ -38,6 +38,20 @@ def test_nothing_is_cut_and_nothing_overlaps(qtbot, opened, size):
         qtbot.waitUntil(lambda: at_rest(opened), timeout=240_000)
         faults += [f"{place}: {fault}" for fault in layout_faults(opened)]
     assert faults == []
+
+
+@pytest.mark.parametrize("mode", ["light", "dark"])
+def test_a_field_and_a_choice_that_cannot_be_changed_look_so(qtbot, appearance, mode):
+    appearance.choose(mode)
+
+    def ground(made, *, enabled):
+        qtbot.addWidget(made)
+        made.setEnabled(enabled)
+        made.resize(120, 24)
+        return made.grab().toImage().pixelColor(60, 12).lightness()
+
+    for kind in (QComboBox, QLineEdit):
+        assert ground(kind(), enabled=True) != ground(kind(), enabled=False)
 
 
 @pytest.mark.long

@@ -40,6 +40,18 @@ def test_an_axis_without_numbers_below_it_leaves_its_room_to_the_title(qtbot, ap
     assert plot.getAxis("left").labelText == "distortion / %"
 
 
+def test_a_title_without_room_becomes_its_symbol_and_then_its_unit(qtbot, appearance):
+    plot = Plot(Axis("time", "s"), Axis("velocity of the laser", "mm/s", symbol="v"), legend=False)
+    qtbot.addWidget(plot)
+    plot.need_lines(1)
+    plot.show()
+    titles = []
+    for height in range(400, 20, -10):
+        plot.resize(300, height)
+        titles.append(plot.getAxis("left").labelText)
+    assert list(dict.fromkeys(titles)) == ["velocity of the laser / mm/s", "v / mm/s", "mm/s", ""]
+
+
 def export(plot, kind, path, monkeypatch):
     """By the plot's own menu."""
     monkeypatch.setattr("gui.plots.export.ask_save", lambda *asked: asked[-1](path))

@@ -16,6 +16,8 @@ from fitting.diagnosis.inference.whitening import SHARE
 
 NOISE, MODEL, HAMMER = "noise", "model error", "hammer test"
 BEND, RANGES = "form of the law", "ranges searched"
+_ROUNDING = 1e-12
+"""Of the largest singular value: a direction with less of it is fixed by no row."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +41,7 @@ def budget_of(begun: Begun, frequency_hz: Array) -> Budget:
     J, kept = none.weighted()
     size = np.linalg.norm(J, axis=0)
     size = np.where(size > 0, size, 1.0)
-    to_fit = np.linalg.pinv(J / size, rcond=1e-12) / size[:, None]
+    to_fit = np.linalg.pinv(J / size, rcond=_ROUNDING) / size[:, None]
     passed = np.zeros((len(kept), J.shape[0]))
     passed[kept] = to_fit
     omega = 2 * np.pi * frequency_hz

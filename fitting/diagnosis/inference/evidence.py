@@ -16,6 +16,8 @@ from fitting.sweep import Sweep
 
 _BLUNT = 0.03
 """Of a reading, as its noise: ten times what a sweep has, so that far starts still feel the bottom."""
+_STEP = 1e-3
+"""Of a stated number, in standard deviations, to either side: for derivatives. A choice."""
 
 
 @dataclass(frozen=True)
@@ -68,12 +70,12 @@ class BareModes:
 
     def by_stated(self, nuisances: Nuisances, z: Array) -> Array:
         """Derivatives of `stated_shift` to z, at the nearest whole numbers. Shape (count, modes)."""
-        h, found = 1e-3, np.zeros((len(z), len(self.shift)))
+        found = np.zeros((len(z), len(self.shift)))
         z = np.round(z)
         for k in nuisances.of_bare_plate:
             up, down = z.copy(), z.copy()
-            up[k], down[k] = z[k] + h, z[k] - h
-            found[k] = (self.stated_shift(nuisances, up) - self.stated_shift(nuisances, down)) / (2 * h)
+            up[k], down[k] = z[k] + _STEP, z[k] - _STEP
+            found[k] = (self.stated_shift(nuisances, up) - self.stated_shift(nuisances, down)) / (2 * _STEP)
         return found
 
     def _energies(self, c: tuple[Array | Complex, Array]) -> tuple[Array, Array]:

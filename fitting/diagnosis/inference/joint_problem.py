@@ -15,6 +15,8 @@ from fitting.laws import CoreLaw
 
 _APART = 1e-5
 """Of a column's size, what it must have of its own for its products to tell it from others: to 10^-6 then."""
+_STEP = 1e-5
+"""Of an unknown's size: what it is moved by to see what that changes of the bare plate. A choice."""
 
 
 class JointProblem:
@@ -164,7 +166,7 @@ class JointProblem:
         for column, k in enumerate(np.flatnonzero(self.free)):
             if k < self._z:
                 continue
-            h = 1e-5 * (abs(u[k]) if self.logarithmic[k] else self.response.parameters[k].typical or 1.0)
+            h = _STEP * (abs(u[k]) if self.logarithmic[k] else self.response.parameters[k].typical or 1.0)
             moved = u.copy()
             moved[k] += h
             slope = (self._bare(moved) - r) / h

@@ -25,6 +25,10 @@ ROUGH, COMPARABLE, CONVERGED = 1e-3, 1e-5, 1e-8
 """Relative change of chi-square and parameters at which a fit stops: to choose, to compare, and to report."""
 
 
+_FLAT = 1e-10
+"""Slope of chi-square at which a fit stops whatever it was asked for."""
+
+
 def refit(
     response: Response,
     evidence: Evidence,
@@ -56,7 +60,7 @@ def refit(
         x_scale="jac",
         xtol=tolerance,
         ftol=tolerance,
-        gtol=1e-10,
+        gtol=_FLAT,
         max_nfev=most,
         callback=steps,
     )

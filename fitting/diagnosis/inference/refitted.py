@@ -13,6 +13,8 @@ from fitting.laws import CoreLaw
 
 _NO_SLOPE, _DEPENDENT = 1e-300, 1e-6
 """Of columns of a Jacobian: one that is zero; the share below which a direction is made of the others."""
+_ROUNDING = 1e-12
+"""Of the largest singular value, at least: a direction that nothing fixes has a large variance, not none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +110,7 @@ class Refitted:
         size = np.linalg.norm(J, axis=0)
         size = np.where(size > 0, size, 1.0)
         _, s, Vt = np.linalg.svd(J / size, full_matrices=False)
-        root = Vt.T / np.maximum(s, 1e-12 * s.max()) / size[:, None]
+        root = Vt.T / np.maximum(s, _ROUNDING * s.max()) / size[:, None]
         found[np.ix_(kept, kept)] = root @ root.T
         return found
 

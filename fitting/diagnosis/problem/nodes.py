@@ -18,6 +18,8 @@ HZ_A_NODE = 4.0
 """Of wide clusters: 10 nodes leave 2e-4 over a segment of 30 to 50 Hz (decision 16); wider ones keep pace."""
 _MOST = 2.4
 """Times the least number of nodes: with the poles out, 24 leave 1e-4 over clusters of 80 to 200 Hz too."""
+_AT_A_NODE = 1e-9
+"""Relative distance within which a place is a node itself: the formula would divide by it."""
 MOST_POLES = 4
 """Taken out of a cluster: those in it and one on either side; more make the weights lose digits."""
 _STEADIEST = 10.0
@@ -225,7 +227,7 @@ def _interpolation(nodes: Array, at: Array) -> Array:
     np.fill_diagonal(gaps, 1.0)
     weight = 1 / gaps.prod(axis=1)
     distance = at[:, None] - nodes
-    exact = np.abs(distance) < 1e-9 * np.abs(nodes)
+    exact = np.abs(distance) < _AT_A_NODE * np.abs(nodes)
     distance[exact] = 1.0
     terms = weight / distance
     hit = exact.any(axis=1)

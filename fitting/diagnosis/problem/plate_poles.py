@@ -18,6 +18,10 @@ PLAIN, ODD = "plate", "plate/odd"
 _HELD, _A_PART = MOST_POLES - 1, 2
 """Poles of a cluster that is left whole, and of each part of one that is not: what is beside a part is taken
 out too, and poles move as the law does."""
+_BESIDE, _BESIDE_MIDDLE = 0.5, 0.1
+"""How far beside a range its poles are looked for: shares of its width and of its middle. A choice."""
+_STEP = 1e-3
+"""Of a range's two ends together: the step of the law's slope at its middle. A choice."""
 
 
 def cuts_between(plate: EnrichedReducedPlate, law: CoreLaw, omega: Array) -> Array:
@@ -60,13 +64,13 @@ class PlatePoles:
         return self._found[key]
 
     def _near(self, low: float, high: float) -> Complex:
-        middle, h = (low + high) / 2, 1e-3 * (low + high)
+        middle, h = (low + high) / 2, _STEP * (low + high)
         below, G, above = self.law.modulus(np.array([middle - h, middle, middle + h]))
         slope = (above - below) / (2 * h)
         K_0, K_1, M, C_1 = self.matrices
         values, vectors = np.linalg.eig(np.linalg.solve(M, K_0 + G * K_1 + 1j * middle * C_1))
         p = np.sqrt(values)
-        margin = 0.5 * (high - low) + 0.1 * middle
+        margin = _BESIDE * (high - low) + _BESIDE_MIDDLE * middle
         inside = np.flatnonzero((p.real > low - margin) & (p.real < high + margin))
         inside = inside[np.argsort(np.abs(p[inside] - middle))][:MOST_POLES]
         y = np.asarray(vectors[:, inside].T, dtype=complex)

@@ -30,6 +30,8 @@ _STILL = 1e-4
 """Of a modulus: a step that moves nothing by more is the last."""
 _HALVED = 6
 """Times at most, where a step goes too far."""
+_LEAST_LEFT, _ROUNDING = 1e-4, 1e-12
+"""Of the largest misfit, and a bit more: what is met more closely gets no more weight for it."""
 _SIZES = np.geomspace(0.05, 20.0, 41)
 """Times the law that a search begins with: a stated one may be off by that."""
 _ANGLES = (-0.2, 0.0, 0.2, 0.4)
@@ -91,7 +93,7 @@ def _of_modulus(f: Array, size: Array) -> Array:
 def _least_sizes(A: Complex, off: Complex, held: Array, c: Complex) -> Complex:
     """The step that leaves the least sum of sizes. Shapes (points, n), (points,), (n, n), (n,)."""
     weight, step = np.ones(len(off)), c
-    floor = 1e-4 * np.abs(off).max() + 1e-12
+    floor = _LEAST_LEFT * np.abs(off).max() + _ROUNDING
     for _ in range(_REWEIGHTED):
         rows = np.vstack([A * weight[:, None], held])
         wanted = np.append(off * weight, -held @ c)

@@ -96,6 +96,8 @@ class Search:
             for some in (effects, unnamed)
         )
         self._objected = {e.name for e in effects} - {e.name for e in self.effects}
+        self.passing_for_a_law = tuple(e.name for e in effects if e.passes_for_a_law(problem.points))
+        """Effects that these data would show as another law."""
         fitted = [e for e in (*self.effects, *self.unnamed) if not e.laws(stated, problem.points)]
         # The longest first, so that all worker processes end together.
         self.beside_the_law = sorted(fitted, key=has_place, reverse=True)

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.arrays import Array
-from fitting.effects.base import CLAMP, Effect, EffectParameter, Tie
+from fitting.arrays import Array, Complex
+from fitting.effects.base import CLAMP, Effect, EffectParameter, Tie, as_its_own
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import BarePlateModes, Points
 
@@ -72,15 +72,8 @@ class OfFiles(Effect):
             where.append(EffectParameter(PICKUP, "1", _ALL, last, float(spot), neutral=None, fixed=True))
         self._where = np.array([q.typical for q in where])
         vars(self).update(
-            name=inner.name,
-            enters=inner.enters,
-            source=inner.source,
+            as_its_own(inner),
             chance=inner.chance * (_ALONE if alone else 1.0),
-            unexplained_share=inner.unexplained_share,
-            sharp=inner.sharp,
-            beside_others=inner.beside_others,
-            discriminating_test=inner.discriminating_test,
-            caution=inner.caution,
             parameters=(*inner.parameters, *further, *where),
             spans=inner.spans,
         )
@@ -115,6 +108,9 @@ class OfFiles(Effect):
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return self.inner.objection(points, plate)
 
+    def passes_for_a_law(self, points: Points) -> bool:
+        return self.inner.passes_for_a_law(points)
+
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.append(np.tile(u, self.copies), self._where) for u in self.inner.starts(plate, points)]
 
@@ -125,11 +121,21 @@ class OfFiles(Effect):
         return np.append(low, [q.lower for q in where]), np.append(high, [q.upper for q in where])
 
     def scaled(self, u: Array, a: float) -> Array:
-        each = np.split(u[: -len(self._where)], self.copies)
-        return np.concatenate([*(self.inner.scaled(one, a) for one in each), self._where])
+        return np.concatenate([*(self.inner.scaled(one, a) for one in self._each(u)), self._where])
+
+    def shows(self, points: Points, resonances: Complex, u: Array) -> bool:
+        # By any file's points: they say nothing of whose they are.
+        return any(self.inner.shows(points, resonances, one) for one in self._each(u))
+
+    def is_beyond(self, u: Array) -> bool:
+        return any(self.inner.is_beyond(one) for one in self._each(u))
+
+    def _each(self, u: Array) -> list[Array]:
+        """Its unknowns as `inner` has them, once or for each file. Shape (parameters of inner,) each."""
+        return np.split(u[: -len(self._where)], self.copies)
 
     def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
-        each = [self.inner.within(one) for one in np.split(u[: -len(self._where)], self.copies)]
+        each = [self.inner.within(one) for one in self._each(u)]
         found = []
         for parts in zip(*each, strict=True):
             form = self.form(parts[0][0], self.file, self.spots, self.spot)

@@ -9,6 +9,8 @@ from fitting.arrays import Array, Complex
 
 SLOW, FINE = 0.7, 0.06
 """In ln f: an octave, and the width of a fixture's well damped resonance."""
+_OWN = 1e-6
+"""Of the variance, that each point has for itself: what points close together wander by is else singular."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +34,7 @@ class Wandering:
 
     def rows(self, t: Array, file: NDArray[np.intp], v: Complex) -> Complex:
         """As changes of the readings `v`, one standard deviation each. Shape (2 points, points)."""
-        tiny = 1e-6 * (self.common_slow**2 + self.common_fine**2 + self.own_slow**2 + self.own_fine**2)
+        tiny = _OWN * (self.common_slow**2 + self.common_fine**2 + self.own_slow**2 + self.own_fine**2)
         root = np.linalg.cholesky(self.covariance(t, file) + tiny * np.eye(len(t))).T * v
         return np.concatenate([root, 1j * root])
 

@@ -23,6 +23,8 @@ from fitting.digits import seldom, two_digits
 
 _MOST_OF_KIN = 1 - 1e-9
 """Probability: what is listed keeps its order beside it."""
+_HALF_EACH = 0.5
+"""Share of both laws in the band where nothing explains the readings (decision 77)."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +75,7 @@ class Judgement:
         if self.unlisted is None:
             return list(self.group)
         if self.verdict == "unknown":
-            return [(none, 0.5), (self.unlisted, 0.5)]
+            return [(none, _HALF_EACH), (self.unlisted, _HALF_EACH)]
         akin = self.share_of_kin
         listed = [(t, (1 - akin) * share) for t, share in self.group]
         return [*listed, *((t, akin * share) for t, share in self.unlisted.weighing(none))]
@@ -111,6 +113,16 @@ def in_light_of(judgement: Judgement, p_value: float | None) -> Judgement:
     why = f"gains no more than {two_digits(100 * p_value)} % of sweeps without any effect do"
     nearest = judgement.accepted.names if judgement.accepted is not None else ()
     return replace(judgement, verdict="none", accepted=None, equivalent={}, refused=nearest, why=why)
+
+
+def beside_another_law(judgement: Judgement, names: tuple[str, ...]) -> Judgement:
+    """Another law is not told from effects of these names, which the data would show as one."""
+    accepted = judgement.accepted
+    of_law = {e.name for e in accepted.fitted.effects if e.replaces_law} if accepted is not None else set()
+    if not (names and of_law):
+        return judgement
+    equivalent = {n: (*group, *names) if n in of_law else group for n, group in judgement.equivalent.items()}
+    return replace(judgement, verdict="ambiguous", equivalent=equivalent)
 
 
 def judge(

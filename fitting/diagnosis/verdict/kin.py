@@ -3,7 +3,8 @@
 That an effect fits says how well its formula holds only as far as the readings show it: what hardly stands
 out is as well explained by anything of about its kind. So beside an explanation stands all that does the same
 but for a share eps of it: every resonance somewhat elsewhere, losing somewhat more or less, every segment
-read by somewhat more or less, in no direction rather than another.
+read by somewhat more or less, in no direction rather than another. A shear pair's one resonance is the law's:
+its kin is read by somewhat more or less in every stretch of frequencies.
 
 With d the whitened changes of the readings by these, one a column, in proportions to each other that are
 given, P onto what the explanation's own law and unknowns do, r the residual, S the chi-square explained,
@@ -18,6 +19,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.inference.marginal import prior_precision
@@ -52,6 +54,9 @@ _LOOSE = 2.0
 """Times the error of an effect's own formula: within it kin is the effect itself. A choice."""
 HAVE_MODES = ("plate", "beam")
 """Kinds of specimens with resonances besides the one that the core's modulus places."""
+_STRETCH = np.log(2) / 3
+"""In ln f: of a third of an octave, as wide as what a resonance of a fixture or of a mass's rocking disturbs
+where it loses a tenth. A choice."""
 _AT = 1e-6
 """Share of a number: nearer to its limit it may not move."""
 _MOST = 600.0
@@ -117,11 +122,10 @@ class Unlisted(ScoredFit):
 def kin_of(search: Search, fitted: Refitted, temper: float) -> Kin | None:
     """Of an explanation with effects; None where that is not asked.
 
-    So it is where the noise is not known, and on a shear pair, whose one resonance is the law's. `temper` as
-    `marginal.cost` takes it.
+    So it is where the noise is not known. `temper` as `marginal.cost` takes it.
     """
     problem = search.problem
-    if not search.evidence.scale_known or problem.specimen.kind not in HAVE_MODES:
+    if not search.evidence.scale_known:
         return None
     none = search.none.fitted
     return kin_along(none, fitted, problem.plate, lambda: _directions(search, fitted), temper)
@@ -213,7 +217,8 @@ def weighed(C: Array, by: Array, dd: Array, b: Array, explained: float, shares: 
 def _directions(search: Search, fitted: Refitted) -> Array:
     """Whitened changes of the readings by each resonance's place and loss, each segment's gain and phase.
 
-    A resonance of a plate is off alike in all its files. Shape (data, any).
+    A resonance of a plate is off alike in all its files. Of a shear pair by each stretch's gain and phase.
+    Shape (data, any).
     """
     problem, whole = search.problem, response_of(search.problem, fitted.effects)
     if isinstance(whole, SeveralResponse):
@@ -226,7 +231,8 @@ def _directions(search: Search, fitted: Refitted) -> Array:
         files, plates, parts = [(whole, fitted.law, fitted.u)], (0,), [slice(0, len(problem.sweep))]
     v, found = np.zeros(len(problem.sweep), complex), dict[tuple[int, ...], Complex]()
     for k, ((response, law, u), plate, part) in enumerate(zip(files, plates, parts, strict=True)):
-        v[part], by_modes, by_gains = _of_one(response, law, u)
+        has_modes = response.problem.specimen.kind in HAVE_MODES
+        v[part], by_modes, by_gains = (_of_one if has_modes else _of_pair)(response, law, u)
         own = {(0, plate, *key): row for key, row in by_modes.items()}
         own |= {(1, k, *key): row for key, row in by_gains.items()}
         for key, row in own.items():
@@ -253,16 +259,29 @@ def _of_one(response: SweepResponse, law: CoreLaw, u: Array) -> tuple[Complex, _
     v, dv = response_of(asked, response.effects).with_derivatives(
         law, np.concatenate([u[:others], at, u[len(stated) :]])
     )
-    by_modes, by_gains, first = _Rows(), _Rows(), len(law.names) + others
+    by_modes, first = _Rows(), len(law.names) + others
     for k, one in enumerate(free.each):
         by_place, by_loss = dv[first + 2 * k : first + 2 * k + 2]
         by_modes[one.number, 0] = FREQUENCY / one.by_itself * by_place
         by_modes[one.number, 1] = LOSS * one.loss / max(one.loss_by_itself, _TINY) * by_loss
-    for number in np.unique(problem.sweep.segment):
-        by_gains[int(number), 0] = _GAIN * v * (problem.sweep.segment == number)
+    return v, by_modes, _by_gains(problem, v, problem.sweep.segment)
+
+
+def _of_pair(response: SweepResponse, law: CoreLaw, u: Array) -> tuple[Complex, _Rows, _Rows]:
+    """The same of a shear pair: no mode, and stretches in the place of segments. `u` of shape (unknowns,)."""
+    problem, v = response.problem, response.velocity(law, u)
+    f = problem.sweep.frequency_hz
+    return v, _Rows(), _by_gains(problem, v, np.floor(np.log(f / f.min()) / _STRETCH).astype(int))
+
+
+def _by_gains(problem: DiagnosisProblem, v: Complex, group: NDArray[np.int_]) -> _Rows:
+    """By each group's gain and phase. Shape (points,) of all."""
+    found = _Rows()
+    for number in np.unique(group):
+        found[int(number), 0] = _GAIN * v * (group == number)
         if problem.points.has_phase:
-            by_gains[int(number), 1] = 1j * by_gains[int(number), 0]
-    return v, by_modes, by_gains
+            found[int(number), 1] = 1j * found[int(number), 0]
+    return found
 
 
 def _modes(problem: DiagnosisProblem, law: CoreLaw) -> list[RealMode]:

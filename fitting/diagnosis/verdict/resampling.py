@@ -29,6 +29,8 @@ from fitting.sweep import Sweep
 
 SMALL = MOST_POINTS_ONE_BY_ONE
 """Points up to which resampling is always done."""
+_OF_REPEATS = 0.5
+"""Share of resampling that the repeats are, beside leaving out what is predicted."""
 REPEATS = 19
 """Sweeps without any effect for a p-value: a step of five percent."""
 
@@ -115,9 +117,11 @@ def resampled_of(
     if not repeats:
         return Resampled()
     tasks = list(range(repeats))
-    gains = list(executor.each(again.gain_without_effect, tasks, lambda x: report(0.5 * x)))
+    gains = list(executor.each(again.gain_without_effect, tasks, lambda x: report(_OF_REPEATS * x)))
     p = (1 + sum(g >= found for g in gains)) / (1 + repeats)
-    return Resampled(p, nested_rms_percent(again, executor, lambda x: report(0.5 + 0.5 * x)))
+    return Resampled(
+        p, nested_rms_percent(again, executor, lambda x: report(_OF_REPEATS + (1 - _OF_REPEATS) * x))
+    )
 
 
 def repeats_of(points: int, wanted: int | None) -> int:

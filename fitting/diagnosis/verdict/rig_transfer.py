@@ -35,6 +35,8 @@ _LEAST, _MOST = 1e-5, 0.3
 """Of a size, where a search may go: rounding, and what no channel does. A choice."""
 _STEPS, _SETTLED = 6, 0.5
 """Steps of law and stated numbers at most, and the gain in nats from which on they rest. A choice."""
+_STILL_NATS, _STILL = 0.05, 0.02
+"""Of the logarithm of the likelihood and of a size's: where a search changes less, it ends. A choice."""
 _EVALUATIONS = 250
 """A bound on time."""
 
@@ -201,7 +203,10 @@ def _likeliest(linear: _Linear, *, common: bool) -> tuple[float, Wandering]:
 
     start = np.full(4 if common else 2, np.log(_TYPICAL))
     found = minimize(
-        cost, start, method="Nelder-Mead", options={"maxfev": _EVALUATIONS, "fatol": 0.05, "xatol": 0.02}
+        cost,
+        start,
+        method="Nelder-Mead",
+        options={"maxfev": _EVALUATIONS, "fatol": _STILL_NATS, "xatol": _STILL},
     )
     return -float(found.fun), wandering(found.x)
 

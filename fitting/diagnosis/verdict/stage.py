@@ -22,6 +22,8 @@ from fitting.identification.result import LawBand, differences_percent, law_band
 from fitting.identification.uncertainty import Uncertainty, limits_reached
 from fitting.identification.validation import Validation
 
+_AT_LIMIT = 1e-6
+"""Of the range between an unknown's limits: nearer to one it sits on it, and its error says nothing."""
 FEW = 9
 """Frequencies at which a candidate's law is listed, and the reference ones."""
 
@@ -160,7 +162,7 @@ def found_effects(
             value, error = float(fitted.u[start + k]), float(inner[start + k])
             if q.logarithmic:
                 error *= value
-            reach = 1e-6 * (upper[k] - lower[k]) if np.isfinite(upper[k]) else 0.0
+            reach = _AT_LIMIT * (upper[k] - lower[k]) if np.isfinite(upper[k]) else 0.0
             at_limit = not q.fixed and (value - lower[k] <= reach or upper[k] - value <= reach)
             if at_limit or error > upper[k] - lower[k]:
                 error = float("nan")

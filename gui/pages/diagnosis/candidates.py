@@ -25,7 +25,7 @@ _COLUMNS = {
     "probability": "Of this explanation, one of those that were tried being right: prior times marginal "
     "likelihood. The bar is the evidence: how many times as likely as no effect, in powers of e (3 is 20 "
     "times).",
-    "χ²/degree": "What is left, in units of noise and model error: 1 where nothing is",
+    "chi²/degree": "What is left, in units of noise and model error: 1 where nothing is",
     "parameters ± standard error": "Of the effect, as fitted with the law",
 }
 _ROLES: dict[RowStanding, Role] = {

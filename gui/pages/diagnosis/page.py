@@ -204,7 +204,7 @@ class DiagnosisPage(Page):
         assert menu is not None
         menu.clear()
         for path in self._foreign:
-            action = menu.addAction(f"{short_name(path.name)} ...")
+            action = menu.addAction(f"{short_name(path.name)}...")
             action.setData(str(path))
             action.triggered.connect(self._diagnose_other)
         self._show()

@@ -169,7 +169,7 @@ class ResidualPlots(QWidget):
             above.addWidget(box)
         above.addStretch(1)
         band = ElidedLabel(
-            "own scales; grey: noise alone, ± 2 std",
+            "own scales; grey: noise, ± 2 std",
             "What is left may be larger: chi² counts the model error too.",
         )
         # The boxes beside it keep their words.

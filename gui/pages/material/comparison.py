@@ -49,7 +49,7 @@ class LawComparison(QWidget):
         self.table = ReadTable(_COLUMNS, selects=True)
         self.paper = QCheckBox("Paper's ZN_1")
         self.paper.setToolTip("The law of the paper's Table 4")
-        self.add = button("Add session ...", "The law another session's own fit gave, and its diagnosis")
+        self.add = button("Add session...", "The law another session's own fit gave, and its diagnosis")
         self.remove = button("Remove", "Take the selected one away (Del)")
         self.remove.setEnabled(False)
         self.remove.setShortcut("Del")

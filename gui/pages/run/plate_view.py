@@ -165,9 +165,15 @@ class PlateView(QWidget):
         if self._sketched:
             return
         painter.setPen(theme.color("faint"))
-        below, beside = plate.translated(0, plate.height() + 4), plate.translated(plate.width() + 4, 0)
+        below = plate.translated(0, plate.height() + _ABOVE_PX)
         painter.drawText(below, Qt.AlignmentFlag.AlignHCenter, f"{length:g} mm")
-        painter.drawText(beside, Qt.AlignmentFlag.AlignVCenter, f"{width:g}")
+        # Upwards: beside the plate there may be no room for its unit.
+        painter.save()
+        painter.translate(plate.right() + _ABOVE_PX, plate.bottom())
+        painter.rotate(-90)
+        along = QRectF(0.0, 0.0, plate.height(), painter.fontMetrics().height())
+        painter.drawText(along, Qt.AlignmentFlag.AlignCenter, f"{width:g} mm")
+        painter.restore()
 
     def _draw_mark(self, painter: QPainter, theme: Theme, mark: PlateMark) -> None:
         at = self.to_screen(mark.at_mm)
@@ -179,11 +185,10 @@ class PlateView(QWidget):
         painter.drawText(self.words_begin(at, words), words)
 
     def words_begin(self, at: QPointF, words: str) -> QPointF:
-        """Where the words beside a mark begin: right of it and above, or where there is room."""
+        """Where the words beside a mark begin: right of it and above, or where the plate has room."""
         metrics, plate = self.fontMetrics(), self._plate()
-        edge = plate.right() if self._sketched else float(self.width())
         wide = metrics.horizontalAdvance(words)
-        left = at.x() + _NEAR_PX if at.x() + _NEAR_PX + wide <= edge else at.x() - _NEAR_PX - wide
+        left = at.x() + _NEAR_PX if at.x() + _NEAR_PX + wide <= plate.right() else at.x() - _NEAR_PX - wide
         above = at.y() - _ABOVE_PX
         fits = above - metrics.ascent() > plate.top()
         return QPointF(left, above if fits else at.y() + _ABOVE_PX + metrics.ascent())

@@ -26,7 +26,7 @@ class SamplesPane(QWidget):
         super().__init__()
         self.said = hint(_NONE)
         self.base = Plot(_TIME, Axis("Base", acceleration_unit().symbol), legend=False)
-        self.velocity = Plot(_TIME, Axis("Velocity", "mm/s"), legend=False)
+        self.velocity = Plot(_TIME, Axis("Velocity", "mm/s", symbol="v"), legend=False)
         self.velocity.setXLink(self.base)
         self.dwells = Dwells(self)
         self.dwells.read.connect(self._read)

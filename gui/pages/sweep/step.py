@@ -46,7 +46,7 @@ class StepPane(QWidget):
         self.words.setWordWrap(True)
         self.facts = {name: ElidedLabel("\u2013", tip) for name, tip in _FACTS.items()}
         self.base = Plot(_TIME, Axis("Base", acceleration_unit().symbol), legend=False)
-        self.velocity = Plot(_TIME, Axis("Velocity", "mm/s"), legend=False)
+        self.velocity = Plot(_TIME, Axis("Velocity", "mm/s", symbol="v"), legend=False)
         self.settling = Plot(
             Axis("Time since the last change of drive", "s"),
             Axis("Transient", "%", log=True),

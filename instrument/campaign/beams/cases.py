@@ -13,30 +13,35 @@ from instrument.campaign.beams.geometry import BEAMS, TrueBeam, beam_named
 from instrument.campaign.beams.hidden import HIDDEN, HiddenInBeam, Setting
 from instrument.campaign.beams.simulate import BuiltBeam, built, level_unit, reading, resonances
 from instrument.campaign.beams.stated import AXIAL_PA, beam_from, draw_stated, toml
-from instrument.campaign.noise import NoiseFigures
-from instrument.campaign.plates.materials import PlateMaterialLaw, draw_law, fits
+from instrument.campaign.law import TrueLaw
+from instrument.campaign.noise import draw_figures
+from instrument.campaign.plates.channel import ChannelError
+from instrument.campaign.plates.materials import draw_law, fits
 from instrument.campaign.plates.noise import PlateNoise, draw_noise
-from instrument.campaign.plates.schedule import Resonance, draw_schedule, seen_apart
-from instrument.campaign.plates.simulate import ChannelError
+from instrument.campaign.plates.schedule import (
+    BESIDE,
+    LARGEST_LOSS,
+    MOST_LAWS,
+    PROBES,
+    Resonance,
+    draw_schedule,
+    seen_apart,
+)
 from instrument.campaign.plates.stated import CAREFUL
-from instrument.campaign.schedule import Schedule
+from instrument.campaign.schedule import THREE_LEVELS_G, Schedule
 
 NONE = "none"
 KINDS = (NONE, *HIDDEN)
-_THREE_LEVELS = (0.25, 0.5, 1.0)
 _THREE_LEVELS_SHARE = 2 / 3
 """Of shaken beams that soften; the others have one level, which tells nothing where a force drives."""
 _POINTS, _POINTS_OF_THREE = (40, 76), (20, 36)
 """In a segment; where there are three levels."""
 _RESONANCES = (2, 4)
+_OF_PEAK = (0.003, 0.005)
+"""White noise over the peak: of a plate's campaign, on a quieter day."""
 _HIGHEST_HZ = 2500.0
-_LARGEST_LOSS = 0.35
-"""Of a resonance: beyond it no peak is left to measure around."""
 _LEAST_LOSS, _LEAST_OF_FREE_LAYER = 0.02, 0.005
 """The same where the core takes hardly a part any more: its stretching then counts beside its shear."""
-_MOST_LAWS = 200
-_PROBES = [PlateMaterialLaw("maxwell", (g, 1e3, 1e-3)) for g in (0.3e6, 2e6)]
-"""About the softest and the stiffest that is drawn: a law holds over all of what they reach."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +51,7 @@ class BeamTruth:
     beam: TrueBeam
     """As it really is, but for the effects."""
     effects: tuple[HiddenInBeam, ...]
-    law: PlateMaterialLaw
+    law: TrueLaw
     noise: PlateNoise
     channel: ChannelError
     resonances_hz: tuple[float, ...]
@@ -126,7 +131,7 @@ def draw_case(kind: str, seed: int, exact: bool = False, *, beam: str | None = N
     if true.ends == "clamped-clamped" and not exact:
         true = replace(true, axial_pa=AXIAL_PA * rng("axial").standard_normal())
     softens = kind == "amplitude_softening" and (true.force_m or chance.random() < _THREE_LEVELS_SHARE)
-    levels, points = (_THREE_LEVELS, _POINTS_OF_THREE) if softens else ((1.0,), _POINTS)
+    levels, points = (THREE_LEVELS_G, _POINTS_OF_THREE) if softens else ((1.0,), _POINTS)
     law, chosen = _law_and_resonances(rng("law"), true)
     schedule = draw_schedule(rng("schedule"), chosen, levels, points)
     hidden: tuple[HiddenInBeam, ...] = ()
@@ -139,14 +144,12 @@ def draw_case(kind: str, seed: int, exact: bool = False, *, beam: str | None = N
         schedule = draw_schedule(rng("schedule"), _moved(as_built, law, chosen), levels, points)
     schedule = reduce(lambda s, h: h.paused(s), hidden, schedule)
     chance = rng("stated")
-    off = chance.standard_normal(2)
-    phase = CAREFUL.phase_rad * rng("phase").standard_normal()
-    channel = ChannelError(float(np.exp(CAREFUL.gain * off[0])), CAREFUL.delay_s * off[1], phase)
+    off = *chance.standard_normal(2), rng("phase").standard_normal()
+    channel = ChannelError() if exact else ChannelError.within(CAREFUL, off)
     stated, tolerances = (true, None) if exact else (draw_stated(chance, true), CAREFUL)
-    middle = _middles(schedule)
+    middle = schedule.middles_hz
     # Every other lab knows what a clamp does to the width.
     text = toml(stated, tolerances, middle[len(middle) // 2], held_width=seed % 2 == 0)
-    channel = ChannelError() if exact else channel
     truth = BeamTruth(true, hidden, law, _noise(rng("noise figures")), channel, middle)
     level = level_unit(true) * schedule.level_g
     clean, without = (level * reading(b, law, schedule, channel) for b in (as_built, built(true)))
@@ -154,38 +157,32 @@ def draw_case(kind: str, seed: int, exact: bool = False, *, beam: str | None = N
     return BeamCase(kind, seed, exact, sweep, text, truth, clean, without)
 
 
-def _law_and_resonances(rng: np.random.Generator, true: TrueBeam) -> tuple[PlateMaterialLaw, list[Resonance]]:
+def _law_and_resonances(rng: np.random.Generator, true: TrueBeam) -> tuple[TrueLaw, list[Resonance]]:
     """A law that keeps within the campaign's limits over the segments that it leads to."""
     clean = built(true)
     least = _LEAST_LOSS if true.constraining is not None else _LEAST_OF_FREE_LAYER
-    soft, stiff = (seen_apart(resonances(clean, law, _HIGHEST_HZ)) for law in _PROBES)
-    band = 0.75 * soft[0].frequency_hz, 1.15 * stiff[: _RESONANCES[1]][-1].frequency_hz
-    for _ in range(_MOST_LAWS):
+    soft, stiff = (seen_apart(resonances(clean, law, _HIGHEST_HZ)) for law in PROBES)
+    band = BESIDE[0] * soft[0].frequency_hz, BESIDE[1] * stiff[: _RESONANCES[1]][-1].frequency_hz
+    for _ in range(MOST_LAWS):
         law, most = draw_law(rng, band), int(rng.integers(_RESONANCES[0], _RESONANCES[1] + 1))
         every = seen_apart(resonances(clean, law, _HIGHEST_HZ))
         chosen = [r for r in every if r.loss_factor > least][:most]
         inside = fits(law, np.array([r.frequency_hz for r in chosen]))
-        if len(chosen) >= _RESONANCES[0] and inside and max(r.loss_factor for r in chosen) < _LARGEST_LOSS:
+        if len(chosen) >= _RESONANCES[0] and inside and max(r.loss_factor for r in chosen) < LARGEST_LOSS:
             return law, chosen
     raise ArithmeticError(f"no law found that leaves two resonances on beam {true.name}")
 
 
-def _moved(beam: BuiltBeam, law: PlateMaterialLaw, chosen: list[Resonance]) -> list[Resonance]:
+def _moved(beam: BuiltBeam, law: TrueLaw, chosen: list[Resonance]) -> list[Resonance]:
     """The resonances where the effect has moved them."""
     every = resonances(beam, law)
     found = [min(every, key=lambda n: abs(np.log(n.frequency_hz / r.frequency_hz))) for r in chosen]
     return [replace(r, frequency_hz=n.frequency_hz) for r, n in zip(chosen, found, strict=True)]
 
 
-def _middles(schedule: Schedule) -> tuple[float, ...]:
-    """Of the segments, in ascending order."""
-    f, k = schedule.frequency_hz, schedule.segment
-    return tuple(sorted(float((f[k == n].min() + f[k == n].max()) / 2) for n in np.unique(k)))
-
-
 def _noise(rng: np.random.Generator) -> PlateNoise:
-    """A plate's, on a quieter day: 0.3 to 0.5 % of the peak, and what drifts."""
-    figures = NoiseFigures(float(rng.uniform(0.003, 0.005)), float(rng.uniform(0.0014, 0.0028)))
+    """White noise of a quiet day, and what drifts as on a plate."""
+    figures = draw_figures(rng, _OF_PEAK)
     return replace(draw_noise(rng), white=figures)
 
 
@@ -194,12 +191,4 @@ def _measured(truth: BeamTruth, clean: Complex, schedule: Schedule, rng: np.rand
     commanded, white = level_unit(truth.beam) * schedule.level_g, truth.noise.white
     drive = white.drive(rng, len(clean))
     velocity = clean * drive * truth.noise.factor(rng, schedule) + white.added(rng, clean, schedule.sweep)
-    return Sweep(
-        frequency_hz=schedule.frequency_hz,
-        velocity_m_s=velocity,
-        commanded_m_s2=commanded,
-        segment=schedule.segment,
-        sweep=schedule.sweep,
-        base_m_s2=commanded * drive,
-        time_s=schedule.time_s,
-    )
+    return schedule.read(velocity, commanded, commanded * drive)

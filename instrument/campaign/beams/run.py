@@ -1,9 +1,9 @@
 """A campaign on beams: cases identified and diagnosed in processes, a line kept of each.
 
-It goes on after a kill: `viscorig bench --beams FOLDER`, or `run_beams` with functions of one's own.
+It goes on after a kill: `viscorig campaign beams FOLDER`, or `run_beams` with functions of one's own.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -12,78 +12,37 @@ import numpy as np
 
 from instrument.campaign.beams.cases import KINDS, NONE, BeamCase, draw_case
 from instrument.campaign.beams.hidden import ON_REQUEST
-from instrument.campaign.plates.answers import (
-    Answer,
-    Band,
-    PlateOutcome,
-    judged,
-    outcome_from,
-)
+from instrument.campaign.plates.answers import PlateOutcome, outcome_from
+from instrument.campaign.plates.asked import Asked, run_asked
 from instrument.campaign.plates.score import named
 from instrument.campaign.plates.tables import summary
-from instrument.campaign.run import Job, in_rotation, run_campaign
+from instrument.campaign.run import Job, keep_summary
 from instrument.campaign.tables import markdown
 from instrument.progress import Progress, quiet
 
-SUMMARY = "summary.md"
 ROTATION = (*(kind for kind in KINDS if kind not in ON_REQUEST), *(NONE,) * 5)
 """Kinds of successive cases: each effect once, clean ones six times."""
-
-Identify = Callable[[BeamCase], Band]
-Diagnose = Callable[[BeamCase], Answer]
-Visible = Callable[[BeamCase], float | None]
-
-
-def beam_jobs(count: int, seed: int, kinds: Sequence[str] = ()) -> list[Job]:
-    """Kinds in rotation, seeds from `seed` on."""
-    return in_rotation(tuple(kinds) or ROTATION, count, seed)
-
-
-def judge_beam(
-    job: Job,
-    exact: bool,
-    identify: Identify | None,
-    diagnose: Diagnose | None,
-    visible: Visible | None,
-    least: float | None = None,
-) -> dict[str, Any]:
-    """Draw, identify, diagnose, compare. What raises leaves no answer and is tried again."""
-    return judged(draw_case(job.kind, job.seed, exact), identify, diagnose, visible, least)
 
 
 def run_beams(
     jobs: Sequence[Job],
     folder: Path,
+    asked: Asked[BeamCase],
     *,
     exact: bool = False,
-    identify: Identify | None = None,
-    diagnose: Diagnose | None = None,
-    visible: Visible | None = None,
-    least: float | None = None,
     workers: int = 2,
     progress: Progress = quiet,
 ) -> list[dict[str, Any]]:
-    """Lines of all jobs, with those an earlier run left. Raises `BadInput`, `StoppedByUser`.
-
-    `visible` says how plainly what is hidden shows; where that is less than `least`, nothing else is asked.
-    All three go to other processes: functions of a module.
-    """
-    judged_by = partial(
-        judge_beam, exact=exact, identify=identify, diagnose=diagnose, visible=visible, least=least
-    )
-    by = [f.__name__ for f in (identify, diagnose) if f is not None]
-    options = {"of": "beams", "exact": exact, "least": least, "by": by}
-    return run_campaign(
-        jobs, folder, workers=workers, judged_by=judged_by, options=options, progress=progress
-    )
+    """Lines of all jobs, with those an earlier run left. Raises `BadInput`, `StoppedByUser`."""
+    draw = partial(draw_case, exact=exact)
+    options = {"of": "beams", "exact": exact}
+    return run_asked(draw, asked, jobs, folder, options, workers=workers, progress=progress)
 
 
 def write_beam_summary(lines: Sequence[dict[str, Any]], folder: Path) -> str:
     """The score as Markdown, kept in the folder."""
     outcomes = [outcome_from(line) for line in lines]
-    text = f"{summary(outcomes, 'beams')}\n## Each\n\n{_each(outcomes)}\n"
-    (folder / SUMMARY).write_text(text, encoding="utf-8")
-    return text
+    return keep_summary(f"{summary(outcomes, 'beams')}\n## Each\n\n{_each(outcomes)}\n", folder)
 
 
 def _each(outcomes: Sequence[PlateOutcome]) -> str:

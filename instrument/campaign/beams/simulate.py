@@ -15,9 +15,9 @@ from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden import HiddenInBeam
 from instrument.campaign.beams.hidden.core import HiddenAmplitudeSoftening
-from instrument.campaign.plates.materials import PlateMaterialLaw
+from instrument.campaign.law import TrueLaw
+from instrument.campaign.plates.channel import ChannelError
 from instrument.campaign.plates.schedule import Resonance
-from instrument.campaign.plates.simulate import ChannelError
 from instrument.campaign.schedule import Schedule
 
 _MODULI_PA = np.geomspace(0.1e6, 10e6, 5)
@@ -54,7 +54,7 @@ class BuiltBeam:
         loss = sum(h.root_loss for h in self.hidden)
         return self.basis.K_faces.sum(axis=0) + (1 + 1j * loss) * self.basis.K_root
 
-    def modulus(self, law: PlateMaterialLaw, omega: Array | float) -> Complex:
+    def modulus(self, law: TrueLaw, omega: Array | float) -> Complex:
         """Of the core; shape of `omega`."""
         return self.true.stiffer * law.modulus(omega)
 
@@ -87,7 +87,7 @@ def _built(true: TrueBeam, build: BeamBuild, hidden: tuple[HiddenInBeam, ...], p
 
 @one_thread
 def reading(
-    beam: BuiltBeam, law: PlateMaterialLaw, schedule: Schedule, channel: ChannelError | None = None
+    beam: BuiltBeam, law: TrueLaw, schedule: Schedule, channel: ChannelError | None = None
 ) -> Complex:
     """Velocity per acceleration of the base, or per newton, at every point. Shape (points,)."""
     channel = channel or ChannelError()
@@ -114,7 +114,7 @@ def reading(
     return np.asarray(v)
 
 
-def _modulus(beam: BuiltBeam, law: PlateMaterialLaw, schedule: Schedule) -> Complex:
+def _modulus(beam: BuiltBeam, law: TrueLaw, schedule: Schedule) -> Complex:
     """At each point as warm as the core is. Shape (points,)."""
     omega = 2 * np.pi * schedule.frequency_hz
     factors = [h.frequency_factor(schedule.time_s) for h in beam.hidden]
@@ -155,7 +155,7 @@ def _strains(beam: BuiltBeam, q: Complex) -> Array:
 
 
 @one_thread
-def resonances(beam: BuiltBeam, law: PlateMaterialLaw, below_hz: float = np.inf) -> list[Resonance]:
+def resonances(beam: BuiltBeam, law: TrueLaw, below_hz: float = np.inf) -> list[Resonance]:
     """Those that the drive excites, in ascending order, the core's modulus taken at each frequency."""
     basis, whole = beam.basis, beam.basis.K_core.sum(axis=0)
     push = basis.w[_FORCE] if beam.true.force_m is not None else beam.load[:, 0]

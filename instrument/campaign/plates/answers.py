@@ -1,17 +1,17 @@
 """What an identification or a diagnosis said of a case, as plain data, beside the truth."""
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from itertools import product
 from math import isnan
-from typing import Any, Protocol, TypeVar
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from fitting.arrays import Array, Complex
 from fitting.sweep import Sweep
-from instrument.campaign.plates.materials import PlateMaterialLaw
+from instrument.campaign.law import TrueLaw
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.rows import LawRow
 from instrument.stream.jsonable import to_jsonable
@@ -114,7 +114,7 @@ class CaseTruth(Protocol):
         """That are there, each with `name`, `near` and `in_catalogue`."""
 
     @property
-    def law(self) -> PlateMaterialLaw:
+    def law(self) -> TrueLaw:
         """Of the core."""
 
     @property
@@ -154,9 +154,6 @@ class JudgedCase(Protocol):
         """What was hidden."""
 
 
-_Case = TypeVar("_Case", bound=JudgedCase)
-
-
 @dataclass(frozen=True)
 class PlateOutcome:
     """A case and what was said of it; bands are read at the three frequencies at which the law is judged."""
@@ -187,30 +184,6 @@ class PlateOutcome:
     def asked(self) -> bool:
         """Whether anything was: what is hidden may show too little."""
         return self.identified is not None or self.said is not None or bool(self.error)
-
-
-def judged(
-    case: _Case,
-    identify: Callable[[_Case], Band] | None,
-    diagnose: Callable[[_Case], Answer] | None,
-    visible: Callable[[_Case], float | None] | None,
-    least: float | None = None,
-) -> dict[str, Any]:
-    """A case's line: identified, diagnosed, compared. What raises leaves no answer and is tried again.
-
-    Where something is hidden that is visible by less than `least`, nothing is asked.
-    """
-    band: Band | None = None
-    said: Answer | None = None
-    error, shows = "", None
-    try:
-        shows = visible(case) if visible is not None else None
-        if least is None or shows is None or shows >= least:
-            band = identify(case) if identify is not None else None
-            said = diagnose(case) if diagnose is not None else None
-    except Exception as raised:
-        error = " ".join(f"{type(raised).__name__}: {raised}".split())
-    return line_of(outcome_of(case, band, said, error, shows))
 
 
 def outcome_of(

@@ -12,23 +12,19 @@ from typing import Any
 import numpy as np
 
 from instrument.campaign.plates.remeasured import RemeasuredPlate
-from instrument.campaign.plates.weak_effects import WEAK, draw_weak
-from instrument.campaign.run import SUMMARY, Job, run_campaign
+from instrument.campaign.plates.weak_effects import draw_weak
+from instrument.campaign.run import Job, keep_summary, run_campaign
 from instrument.models.diagnosis import Diagnosed
 from instrument.planning.follow_up import Possible, rank_follow_ups
 from instrument.progress import Progress, quiet
 
 _MOST = 2
 """Measurements after the first sweep."""
+_STREAM = 90
+"""Of random numbers of the first of them: no other draw of a case has it."""
 _GROUP = 0.01
 """Probability from which a member of a group is put into the table."""
 Line = dict[str, Any]
-
-
-def apart_jobs(count: int, seed: int, kinds: Sequence[str] = ()) -> list[Job]:
-    """Kinds in rotation, seeds from `seed` on."""
-    rotation = tuple(kinds) or WEAK
-    return [Job(rotation[k % len(rotation)], seed + k) for k in range(count)]
 
 
 def judge_apart(job: Job) -> Line:
@@ -45,7 +41,7 @@ def judge_apart(job: Job) -> Line:
         if not ranked:
             break
         best = ranked[0]
-        rig = rig.after(best, np.random.default_rng([job.seed, *job.kind.encode(), 90 + number]))
+        rig = rig.after(best, np.random.default_rng([job.seed, *job.kind.encode(), _STREAM + number]))
         found = rig.diagnosed()
         how = best.model_dump(include={"kind", "level_g", "spot_mm", "seconds", "separation"})
         how |= {"probability_resolved": best.probability_resolved, "ranking_cpu_s": cpu}
@@ -58,9 +54,7 @@ def run_apart(
     jobs: Sequence[Job], folder: Path, *, workers: int = 2, progress: Progress = quiet
 ) -> list[Line]:
     """Lines of all jobs, with those an earlier run left. Raises `BadInput`, `StoppedByUser`."""
-    return run_campaign(
-        jobs, folder, workers=workers, judged_by=judge_apart, options={"apart": True}, progress=progress
-    )
+    return run_campaign(jobs, folder, judge_apart, {"apart": True}, workers=workers, progress=progress)
 
 
 def write_apart_summary(lines: Sequence[Line], folder: Path) -> str:
@@ -82,8 +76,7 @@ def write_apart_summary(lines: Sequence[Line], folder: Path) -> str:
         *(row for line in groups for row in _rows(line)),
         "",
     ]
-    (folder / SUMMARY).write_text("\n".join(text), encoding="utf-8")
-    return "\n".join(text)
+    return keep_summary("\n".join(text), folder)
 
 
 def _said(rig: RemeasuredPlate, found: Diagnosed) -> Line:

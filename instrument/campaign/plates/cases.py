@@ -10,16 +10,20 @@ from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
+from instrument.campaign.law import TrueLaw
+from instrument.campaign.plates.channel import ChannelError
 from instrument.campaign.plates.geometry import PLATES, TruePlate, plate_named
 from instrument.campaign.plates.hammer import HammerTest
 from instrument.campaign.plates.hidden import HIDDEN, draw_hidden, names_of
 from instrument.campaign.plates.hidden.base import Hidden, Setting
 from instrument.campaign.plates.kept import clean_plate
-from instrument.campaign.plates.materials import PlateMaterialLaw, draw_law, fits
+from instrument.campaign.plates.materials import draw_law, fits
 from instrument.campaign.plates.noise import PlateNoise, draw_noise
 from instrument.campaign.plates.one_piece import draw_whole, in_one_piece, judged_of, of_one_range
-from instrument.campaign.plates.reduced import ReducedSolid
+from instrument.campaign.plates.reduced import MODES, ReducedSolid
 from instrument.campaign.plates.schedule import (
+    LARGEST_LOSS,
+    MOST_LAWS,
     Resonance,
     draw_schedule,
     known_to_hz,
@@ -27,20 +31,14 @@ from instrument.campaign.plates.schedule import (
     resonances,
     widest_band_hz,
 )
-from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, peaks_hz, reading, struck
+from instrument.campaign.plates.simulate import built, moduli_of, peaks_hz, reading, struck
 from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
-from instrument.campaign.schedule import Schedule
+from instrument.campaign.schedule import Schedule, draw_levels
 
 NONE, PAIR = "none", "pair"
 KINDS = (NONE, *HIDDEN, PAIR)
-_THREE_LEVELS = (0.25, 0.5, 1.0)
-_ONE_LEVEL_SHARE = {"amplitude_softening": 1 / 3}
-"""Of cases at 1 g alone; `_ONE_LEVEL_ELSE` of all others."""
-_ONE_LEVEL_ELSE = 0.9
 _HAMMER_SHARE = 0.5
-_LARGEST_LOSS = 0.35
-"""Of a resonance: beyond it no peak is left to measure around."""
-_MOST_LAWS = 200
+"""Of cases: with and without a hammer test are compared."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +48,7 @@ class PlateTruth:
     plate: TruePlate
     """As it really is, but for the effects."""
     effects: tuple[Hidden, ...]
-    law: PlateMaterialLaw
+    law: TrueLaw
     noise: PlateNoise
     channel: ChannelError
     resonances_hz: tuple[float, ...]
@@ -152,10 +150,9 @@ def draw_case(
     # A spot on the axis sees nothing of what is odd in y.
     able = [p for p in PLATES if "base_roll" not in names or abs(p.spot_m[1] - p.width_m / 2) > 1e-3]
     true = plate_named(plate) if plate else able[int(chance.integers(len(able)))]
-    alone = min((_ONE_LEVEL_SHARE.get(name, _ONE_LEVEL_ELSE) for name in names), default=_ONE_LEVEL_ELSE)
-    levels = (1.0,) if chance.random() < alone else _THREE_LEVELS
+    levels = draw_levels(chance, names)
     found, chosen, schedule = _law_and_schedule(rng("law"), true, law, levels, one_piece=one_piece)
-    middle = tuple(r.frequency_hz for r in chosen) if one_piece else _middles(schedule)
+    middle = tuple(r.frequency_hz for r in chosen) if one_piece else schedule.middles_hz
     at = Setting(true, middle, float(schedule.time_s.max()))
     hidden = draw_hidden(names, rng("effects"), at)
     plate_built = built(true, hidden, moduli_of(found, schedule.frequency_hz))
@@ -164,22 +161,14 @@ def draw_case(
         seen = peaks_hz(plate_built, true, hidden, found, [r.frequency_hz for r in chosen])
         moved = [replace(r, frequency_hz=f) for r, f in zip(chosen, seen, strict=True)]
         schedule = draw_schedule(rng("schedule"), moved, levels)
-        middle = _middles(schedule)
+        middle = schedule.middles_hz
     schedule = reduce(lambda s, h: h.paused(s), hidden, schedule)
     noise, chance = draw_noise(rng("noise figures")), rng("stated")
     if one_piece:
         noise = of_one_range(rng("floor"), noise)
     stated = draw_stated(chance, true)
-    off = chance.standard_normal(2)
-    channel = (
-        ChannelError()
-        if exact
-        else ChannelError(
-            float(np.exp(CAREFUL.gain * off[0])),
-            CAREFUL.delay_s * off[1],
-            CAREFUL.phase_rad * rng("phase").standard_normal(),
-        )
-    )
+    off = *chance.standard_normal(2), rng("phase").standard_normal()
+    channel = ChannelError() if exact else ChannelError.within(CAREFUL, off)
     stated = true if exact else stated
     text = toml(stated, None if exact else CAREFUL, middle[1])
     chance = rng("hammer")
@@ -199,17 +188,17 @@ def draw_case(
 
 def _law_and_schedule(
     rng: np.random.Generator, true: TruePlate, kind: str | None, levels: tuple[float, ...], *, one_piece: bool
-) -> tuple[PlateMaterialLaw, list[Resonance], Schedule]:
+) -> tuple[TrueLaw, list[Resonance], Schedule]:
     """A law that keeps within the campaign's limits where it is swept, and the resonances judged."""
     clean = clean_plate(true)
     band = widest_band_hz(clean, true)
-    for _ in range(_MOST_LAWS):
+    for _ in range(MOST_LAWS):
         law = draw_law(rng, band, kind)
         try:
             chosen, judged, schedule = _swept(rng, true, law, levels, one_piece=one_piece)
         except ArithmeticError:
             continue
-        if fits(law, schedule.frequency_hz) and max(r.loss_factor for r in chosen) < _LARGEST_LOSS:
+        if fits(law, schedule.frequency_hz) and max(r.loss_factor for r in chosen) < LARGEST_LOSS:
             return law, judged, schedule
     raise ArithmeticError(f"no law found that serves a sweep on plate {true.name}")
 
@@ -217,7 +206,7 @@ def _law_and_schedule(
 def _swept(
     rng: np.random.Generator,
     true: TruePlate,
-    law: PlateMaterialLaw,
+    law: TrueLaw,
     levels: tuple[float, ...],
     *,
     one_piece: bool,
@@ -234,18 +223,11 @@ def _swept(
     return chosen, chosen, draw_schedule(rng, chosen, levels)
 
 
-def _middles(schedule: Schedule) -> tuple[float, ...]:
-    """Of the three segments, in ascending order."""
-    f, k = schedule.frequency_hz, schedule.segment
-    middles = sorted(float((f[k == n].min() + f[k == n].max()) / 2) for n in np.unique(k))
-    return tuple(middles)
-
-
-def _share(clean: ReducedSolid, law: PlateMaterialLaw, frequency_hz: float) -> float:
+def _share(clean: ReducedSolid, law: TrueLaw, frequency_hz: float) -> float:
     """Of the core in the stiffness of the mode nearest to a frequency."""
     omega = 2 * np.pi * frequency_hz
     G = float(law.modulus(omega).real)
-    lam, phi = clean.modes(G, 14)
+    lam, phi = clean.modes(G, MODES)
     r = int(np.argmin(np.abs(np.sqrt(lam) - omega)))
     return float(G * (phi[:, r] @ clean.whole_core @ phi[:, r]) / lam[r])
 
@@ -263,12 +245,4 @@ def measured(truth: PlateTruth, plate: ReducedSolid, schedule: Schedule, rng: np
     base = commanded * white.drive(rng, len(commanded))
     velocity = ratio * base * truth.noise.factor(rng, schedule)
     velocity = velocity + white.added(rng, ratio * commanded, schedule.sweep)
-    return Sweep(
-        frequency_hz=schedule.frequency_hz,
-        velocity_m_s=velocity,
-        commanded_m_s2=commanded,
-        segment=schedule.segment,
-        sweep=schedule.sweep,
-        base_m_s2=base,
-        time_s=schedule.time_s,
-    )
+    return schedule.read(velocity, commanded, base)

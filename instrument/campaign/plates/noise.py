@@ -6,11 +6,15 @@ import numpy as np
 from scipy.signal import lfilter
 
 from fitting.arrays import Complex
-from instrument.campaign.noise import NoiseFigures
+from instrument.campaign.noise import NoiseFigures, draw_figures
 from instrument.campaign.schedule import Schedule
 
 _WHITE_SHARE = 0.5
 """Of cases; the others drift as well, in one of two ways."""
+_WANDER, _WANDER_POINTS = (0.0008, 0.0025), (4, 25)
+"""Size of a walk, about that of the white scatter; readings over which it forgets, less than a segment."""
+_SWING, _TURNS = (0.001, 0.004), (0.3, 0.8)
+"""Size of a slow swing of the gain, and turns of it in a segment: no smooth law looks like a whole one."""
 
 
 @dataclass(frozen=True)
@@ -41,16 +45,16 @@ class PlateNoise:
                 inside = np.flatnonzero(schedule.sweep == number)
                 t = schedule.time_s[inside]
                 share = (t - t.min()) / max(float(np.ptp(t)), 1e-9)
-                turns, phase = rng.uniform(0.3, 0.8), rng.uniform(0, 2 * np.pi)
+                turns, phase = rng.uniform(*_TURNS), rng.uniform(0, 2 * np.pi)
                 factor[inside] *= 1 + self.gain_drift * np.sin(2 * np.pi * turns * share + phase)
         return factor
 
 
 def draw_noise(rng: np.random.Generator) -> PlateNoise:
     """Figures of a rig in use."""
-    white = NoiseFigures(float(rng.uniform(0.003, 0.009)), float(rng.uniform(0.0014, 0.0028)))
-    kind, size = rng.random(), float(rng.uniform(0.0008, 0.0025))
-    points, swing = float(rng.uniform(4, 25)), float(rng.uniform(0.001, 0.004))
+    white = draw_figures(rng)
+    kind, size = rng.random(), float(rng.uniform(*_WANDER))
+    points, swing = float(rng.uniform(*_WANDER_POINTS)), float(rng.uniform(*_SWING))
     if kind < _WHITE_SHARE:
         return PlateNoise(white)
     if kind < (1 + _WHITE_SHARE) / 2:

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from instrument.campaign.draws import log_uniform, order_of_time
+from instrument.campaign.draws import log_uniform
 from instrument.campaign.noise import NoiseFigures
 from instrument.campaign.plates.noise import PlateNoise
-from instrument.campaign.plates.schedule import CYCLES, LATE_S, SECONDS, Resonance, between_s
+from instrument.campaign.plates.schedule import Resonance, in_passes
 from instrument.campaign.schedule import Schedule
 
 FEWEST = 5
@@ -18,6 +18,8 @@ _LINES = (400, 3200)
 """Of a sweep at one level; each number as likely in its logarithm."""
 _BEGINS, _ENDS = (0.4, 0.8), (1.04, 1.1)
 """Of the first resonance, and of the last one."""
+_UP_OR_DOWN = (0.8, 0.2)
+"""How often such a sweep goes up, and down: hardly anybody sweeps down."""
 _FLOOR = (3e-4, 2e-3)
 """Of the largest peak: one range serves all resonances, so what is read has 54 to 70 dB."""
 
@@ -46,23 +48,8 @@ def draw_whole(rng: np.random.Generator, chosen: list[Resonance], levels_g: tupl
     count = int(log_uniform(rng, *_LINES) / len(levels_g))
     low, high = chosen[0].frequency_hz * rng.uniform(*_BEGINS), chosen[-1].frequency_hz * rng.uniform(*_ENDS)
     f = np.round(np.linspace(low, high, count), 4)
-    along = str(rng.choice(["up", "down"], p=[0.8, 0.2]))
-    times, now = [], 0.0
-    for _ in levels_g:
-        order = order_of_time(rng, count, along)
-        when = now + np.cumsum(SECONDS + CYCLES / f[order] + rng.exponential(LATE_S, count))
-        now = float(when[-1]) + between_s(rng)
-        time = np.empty(count)
-        time[order] = when
-        times.append(np.round(time, 3))
-    passes = len(levels_g)
-    return Schedule(
-        frequency_hz=np.tile(f, passes),
-        segment=np.ones(count * passes, np.intp),
-        sweep=np.repeat(np.arange(1, passes + 1, dtype=np.intp), count),
-        level_g=np.repeat(np.array(levels_g, dtype=float), count),
-        time_s=np.concatenate(times),
-    )
+    up_or_down = str(rng.choice(["up", "down"], p=_UP_OR_DOWN))
+    return in_passes(rng, [f], [0], up_or_down, levels_g)
 
 
 def of_one_range(rng: np.random.Generator, noise: PlateNoise) -> PlateNoise:

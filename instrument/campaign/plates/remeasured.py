@@ -13,6 +13,7 @@ from fitting.stated.tolerances import STATED
 from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
 from instrument.campaign.plates.cases import PlateTruth, measured
+from instrument.campaign.plates.channel import ChannelError
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden import HIDDEN
 from instrument.campaign.plates.hidden.base import Hidden
@@ -20,12 +21,12 @@ from instrument.campaign.plates.hidden.clamp import HiddenClampCompliance, Hidde
 from instrument.campaign.plates.judged import models_of
 from instrument.campaign.plates.reduced import ReducedSolid
 from instrument.campaign.plates.response import remaining_damping
-from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, struck
-from instrument.campaign.plates.stated import CAREFUL
+from instrument.campaign.plates.schedule import takes_s
+from instrument.campaign.plates.simulate import built, moduli_of, struck
+from instrument.campaign.plates.stated import CAREFUL, STRUCK
 from instrument.campaign.plates.struck import LEFT_BEHIND, lines_about, mobility, struck_plate
 from instrument.campaign.schedule import Schedule
 from instrument.facts.follow_up import FollowUp
-from instrument.impact.mobility import GAIN as STRUCK_GAIN
 from instrument.models.diagnosis import Diagnosed, diagnose
 from instrument.models.files import File
 from instrument.models.set_up import Hammer
@@ -112,7 +113,7 @@ class RemeasuredPlate:
         f = np.array(follow_up.frequencies_hz)
         segment = np.array(follow_up.segments, dtype=np.intp)
         last = self.schedule
-        when = last.time_s.max() + _PAUSE_S + np.cumsum(1.2 + 30 / f)
+        when = last.time_s.max() + _PAUSE_S + np.cumsum(takes_s(f))
         level = np.full(len(f), follow_up.level_g)
         return Schedule(f, segment, last.sweep.max() + segment, level, when)
 
@@ -195,8 +196,7 @@ class RemeasuredPlate:
         v = mobility(plate, there.law, f, hit, spot, C_1)
         omega = 2 * np.pi * f
         v = reduce(lambda s, h: h.channel(s, omega, 0 * s), there.effects, v)
-        gain, delay = STRUCK_GAIN * rng.standard_normal(), CAREFUL.delay_s * rng.standard_normal()
-        v = v * ChannelError(np.exp(gain), delay, CAREFUL.phase_rad * rng.standard_normal()).factor(omega)
+        v = v * ChannelError.within(STRUCK, rng.standard_normal(3)).factor(omega)
         scatter = np.hypot(rng.uniform(*_BLOWS) * np.abs(v), _BLOWS_FLOOR * np.abs(v).max())
         v = v + scatter * (rng.standard_normal((len(f), 2)) @ np.array([1, 1j]))
         sweep = Sweep(f, v, np.ones(len(f)), segment, np.ones(len(f), np.intp))
@@ -238,7 +238,7 @@ def _staying(hidden: Sequence[Hidden], *, free: bool) -> list[Hidden]:
 
 
 def _stated_struck(stated: Specimen, force_m: Place, spot_m: Place | None, *, free: bool) -> Specimen:
-    tolerances = {**stated.tolerances, "gain": STRUCK_GAIN}
+    tolerances = {**stated.tolerances, "gain": STRUCK.gain}
     struck = replace(stated, force_m=force_m, pickup_m=spot_m or stated.pickup_m, tolerances=tolerances)
     return replace(struck, boundary="free", modal_ratios=()) if free else struck
 

@@ -1,20 +1,20 @@
 """What the rig would read without noise: the plate with its effects, moved and seen as it really is."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import reduce
 
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from instrument.campaign.law import TrueLaw
+from instrument.campaign.plates.channel import ChannelError
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.hammer import HammerTest, hammer_test
 from instrument.campaign.plates.hidden.base import Hidden
 from instrument.campaign.plates.hidden.core import HiddenAmplitudeSoftening
 from instrument.campaign.plates.kept import bare_plate, bare_solid, clean_plate
-from instrument.campaign.plates.materials import PlateMaterialLaw
-from instrument.campaign.plates.reduced import REFERENCE_MODULUS_PA, ReducedSolid, reduced
+from instrument.campaign.plates.reduced import MODES, REFERENCE_MODULUS_PA, ReducedSolid, reduced
 from instrument.campaign.plates.response import BaseMotion, Shaken, remaining_damping
 from instrument.campaign.plates.softening import softened
 from instrument.campaign.plates.solid import Build, Solid
@@ -23,19 +23,9 @@ from instrument.campaign.schedule import Schedule
 _LOOK, _LOOKED_AT = (0.62, 1.3), 90
 """Of a clean resonance's frequency: where an effect may have moved it."""
 _NEAR = 0.15
-
-
-@dataclass(frozen=True)
-class ChannelError:
-    """How far the velocity channel is off within its tolerance."""
-
-    gain: float = 1.0
-    delay_s: float = 0.0
-    phase_rad: float = 0.0
-
-    def factor(self, omega: Array) -> Complex:
-        """What it makes of a velocity. Shape (points,)."""
-        return np.asarray(self.gain * np.exp(1j * (self.phase_rad - omega * self.delay_s)))
+"""In the logarithm of frequency: how far a peak has moved that still counts for most."""
+_BEYOND, _ABOVE = 1.2, 1.5
+"""How far a basis goes beyond the stiffest core of a sweep, and beyond where remaining damping is stated."""
 
 
 def built(
@@ -44,30 +34,41 @@ def built(
     """The plate with its effects; without any, the one that is kept."""
     if not any(h.changes_solid for h in hidden):
         return clean_plate(true, fineness)
-    build, points = Build(), [at for h in hidden for at in h.points()]
-    for h in hidden:
-        build = h.build(build, true)
-    plate = reduce(lambda p, h: h.plate(p), hidden, true)
+    return with_effects(true, hidden, moduli_pa, fineness=fineness)
+
+
+def with_effects(
+    true: TruePlate,
+    hidden: Sequence[Hidden],
+    moduli_pa: Sequence[float],
+    *,
+    points_m: Sequence[tuple[float, float]] = (),
+    free: bool = False,
+    fineness: Fineness | None = None,
+    modes: int = MODES,
+) -> ReducedSolid:
+    """The plate with its effects, able to answer a force at points; `free` without its clamp."""
+    build = reduce(lambda b, h: h.build(b, true), hidden, Build(free=free))
+    solid = Solid(reduce(lambda p, h: h.plate(p), hidden, true), build, fineness)
     groups = {h.groups for h in hidden}
-    finest = next(g for g in ("bricks", "columns", "whole") if g in groups)
-    solid = Solid(plate, build, fineness)
     return reduced(
         solid,
         moduli_pa,
-        groups=finest,
-        points_m=points,
+        groups=next((g for g in ("bricks", "columns") if g in groups), "whole"),
+        points_m=[*points_m, *(at for h in hidden for at in h.points())],
         air_density_kg_m3=sum(h.air_kg_m3 for h in hidden),
         stirred=[
-            *(solid.core_with(field) for h in hidden for field in h.stirred(plate)),
+            *(solid.core_with(field) for h in hidden for field in h.stirred(solid.plate)),
             *([solid.rubbing] if build.root is not None and build.root.loss else []),
         ],
+        modes=modes,
     )
 
 
-def moduli_of(law: PlateMaterialLaw, frequency_hz: Array) -> tuple[float, ...]:
+def moduli_of(law: TrueLaw, frequency_hz: Array) -> tuple[float, ...]:
     """Where the basis of a plate with this law is made. Shape (n,)."""
     size = np.abs(law.modulus(2 * np.pi * np.array([frequency_hz.min(), frequency_hz.max()])))
-    low, high = min(size[0], REFERENCE_MODULUS_PA), max(1.2 * size[1], 1.5 * REFERENCE_MODULUS_PA)
+    low, high = min(size[0], REFERENCE_MODULUS_PA), max(_BEYOND * size[1], _ABOVE * REFERENCE_MODULUS_PA)
     return tuple(float(g) for g in np.geomspace(low, high, 3))
 
 
@@ -75,7 +76,7 @@ def reading(
     plate: ReducedSolid,
     true: TruePlate,
     hidden: Sequence[Hidden],
-    law: PlateMaterialLaw,
+    law: TrueLaw,
     schedule: Schedule,
     channel: ChannelError,
 ) -> Complex:
@@ -105,7 +106,7 @@ def peaks_hz(
     plate: ReducedSolid,
     true: TruePlate,
     hidden: Sequence[Hidden],
-    law: PlateMaterialLaw,
+    law: TrueLaw,
     expected_hz: Sequence[float],
 ) -> list[float]:
     """Where the response has its peak near each of the frequencies at which the clean plate has one."""
@@ -121,7 +122,7 @@ def peaks_hz(
 
 
 def _modulus(
-    plate: ReducedSolid, true: TruePlate, hidden: Sequence[Hidden], law: PlateMaterialLaw, schedule: Schedule
+    plate: ReducedSolid, true: TruePlate, hidden: Sequence[Hidden], law: TrueLaw, schedule: Schedule
 ) -> Complex:
     """Of each group of the core at each point, or of all alike."""
     omega = 2 * np.pi * schedule.frequency_hz

@@ -10,6 +10,7 @@ from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Specimen
 from instrument.campaign.plates.geometry import DampingLayer, Metal, TruePlate
 from instrument.files.specimen_file import SpecimenDocument, specimen_of
+from instrument.impact.mobility import GAIN
 
 _LEAST_APART_POISSON = 0.499
 
@@ -50,6 +51,8 @@ class CampaignTolerances:
 
 
 CAREFUL = CampaignTolerances()
+STRUCK = replace(CAREFUL, gain=GAIN)
+"""Of mobilities: a hammer's force is known less well than a base's acceleration."""
 
 
 def draw_stated(
@@ -112,18 +115,26 @@ def law_lines(middle_hz: float, stiffer: float = 1.0) -> list[str]:
     return ["[core.law]", 'kind = "fractional-zener"', *moduli, f"tau_s = {tau:.3g}", "alpha = 0.7", ""]
 
 
+def plate_lines(plate: TruePlate, boundary: str, middle_hz: float) -> list[str]:
+    """Of `[plate]`, its layers and the law."""
+    lines = ["[plate]", f"length_mm = {digits(1e3 * plate.length_m)}"]
+    lines += [f"width_mm = {digits(1e3 * plate.width_m)}", f'boundary = "{boundary}"', ""]
+    layers = {"substrate": plate.substrate, "constraining": plate.constraining, "core": plate.core}
+    for name, layer in layers.items():
+        assert layer is not None
+        lines += layer_lines(name, layer)
+    return [*lines, *law_lines(middle_hz)]
+
+
+def damping_lines(plate: TruePlate) -> list[str]:
+    """Of `[damping]`."""
+    ratios = ", ".join(digits(100 * r) for r in plate.ratios)
+    return ["[damping]", f"modal_percent = [{ratios}]", ""]
+
+
 def toml(plate: TruePlate, tolerances: CampaignTolerances | None, middle_hz: float) -> str:
     """The specimen file. No tolerances: all is exact. The law is where a fit starts, not the answer."""
-    core, faces = plate.core, (("substrate", plate.substrate), ("constraining", plate.constraining))
-    assert core is not None
-    lines = ["[plate]", f"length_mm = {digits(1e3 * plate.length_m)}"]
-    lines += [f"width_mm = {digits(1e3 * plate.width_m)}", 'boundary = "cantilever"', ""]
-    for name, face in faces:
-        assert face is not None
-        lines += layer_lines(name, face)
-    lines += [*layer_lines("core", core), *law_lines(middle_hz), "[damping]"]
-    ratios = ", ".join(digits(100 * r) for r in plate.ratios)
-    lines += [f"modal_percent = [{ratios}]", "", "[pickup]"]
+    lines = [*plate_lines(plate, "cantilever", middle_hz), *damping_lines(plate), "[pickup]"]
     lines += [f"x_mm = {digits(1e3 * plate.spot_m[0])}", f"y_mm = {digits(1e3 * plate.spot_m[1])}", ""]
     lines += ["[base]", f"acceleration_m_s2 = {PUBLISHED_G_M_S2}", "", "[tolerances]"]
     lines += ["exact = true"] if tolerances is None else tolerances.lines()

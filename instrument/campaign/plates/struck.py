@@ -1,19 +1,18 @@
 """Solid plates struck at points and read at others, free or clamped: mobilities, phasors of e^{i w t}."""
 
 from collections.abc import Sequence
-from functools import reduce
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drivers.simulated.plant.one_thread import one_thread
 from fitting.arrays import Array, Complex
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.hidden.base import Hidden
-from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.reduced import ReducedSolid, reduced
-from instrument.campaign.plates.simulate import moduli_of
+from instrument.campaign.plates.simulate import moduli_of, with_effects
 from instrument.campaign.plates.solid import Build, Patch, Solid
 
 Points = Sequence[tuple[float, float]]
@@ -28,7 +27,7 @@ _REACH, _LEAST = 1.5, 0.03
 @one_thread
 def mobilities_of_free(
     true: TruePlate,
-    law: PlateMaterialLaw,
+    law: TrueLaw,
     frequency_hz: Array,
     forces_m: Points,
     spots_m: Points,
@@ -62,29 +61,16 @@ def struck_plate(
 
     Raises `ValueError` for what hangs on it.
     """
-    if any(h.points() for h in hidden if not (free and h.place in LEFT_BEHIND)):
-        raise ValueError("what hangs on the plate is not struck here")
     kept = [h for h in hidden if not (free and h.place in LEFT_BEHIND)]
-    build = reduce(lambda b, h: h.build(b, true), kept, Build(free=free))
-    solid = Solid(reduce(lambda p, h: h.plate(p), kept, true), build, fineness)
-    groups = {h.groups for h in kept}
-    return reduced(
-        solid,
-        moduli_pa,
-        groups=next((g for g in ("bricks", "columns") if g in groups), "whole"),
-        points_m=[force_m],
-        air_density_kg_m3=sum(h.air_kg_m3 for h in kept),
-        stirred=[
-            *(solid.core_with(field) for h in kept for field in h.stirred(solid.plate)),
-            *([solid.rubbing] if build.root is not None and build.root.loss else []),
-        ],
-    )
+    if any(h.points() for h in kept):
+        raise ValueError("what hangs on the plate is not struck here")
+    return with_effects(true, kept, moduli_pa, points_m=[force_m], free=free, fineness=fineness)
 
 
 @one_thread
 def mobility(
     plate: ReducedSolid,
-    law: PlateMaterialLaw,
+    law: TrueLaw,
     frequency_hz: Array,
     force_m: tuple[float, float],
     spot_m: tuple[float, float],
@@ -100,7 +86,7 @@ def mobility(
 
 
 def lines_about(
-    plate: ReducedSolid, law: PlateMaterialLaw, low_hz: float, high_hz: float, most: int, count: int
+    plate: ReducedSolid, law: TrueLaw, low_hz: float, high_hz: float, most: int, count: int
 ) -> tuple[Array, NDArray[np.intp]]:
     """Lines about the lowest resonances of a band, which a spectrum shows, and whose each is.
 
@@ -117,7 +103,7 @@ def lines_about(
     return np.concatenate(found), np.repeat(np.arange(len(found)), count)
 
 
-def resonance(plate: ReducedSolid, law: PlateMaterialLaw, r: int, near_hz: float) -> tuple[float, float]:
+def resonance(plate: ReducedSolid, law: TrueLaw, r: int, near_hz: float) -> tuple[float, float]:
     """Frequency and loss factor of the r-th mode, the modulus taken at its own frequency."""
     f, loss = near_hz, 0.0
     for _ in range(_ROUNDS):

@@ -1,6 +1,6 @@
 """A case of a struck plate: an FRF over a whole band, free or in its clamp, read at one to three points."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import reduce
 from typing import Any
 
@@ -11,7 +11,9 @@ from fitting.discrepancy.theory_error import theory_error
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.campaign.draws import log_uniform
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates.blows import Blows, draw_blows
+from instrument.campaign.plates.channel import ChannelError
 from instrument.campaign.plates.geometry import PLATES, TruePlate, plate_named
 from instrument.campaign.plates.hidden.base import Hidden
 from instrument.campaign.plates.hidden.struck import (
@@ -23,15 +25,16 @@ from instrument.campaign.plates.hidden.struck import (
     Place,
     draw_hidden_in_struck,
 )
-from instrument.campaign.plates.materials import PlateMaterialLaw, draw_law, fits
+from instrument.campaign.plates.materials import draw_law, fits
 from instrument.campaign.plates.reduced import ReducedSolid
-from instrument.campaign.plates.simulate import ChannelError
+from instrument.campaign.plates.schedule import MOST_LAWS
 from instrument.campaign.plates.stated import (
     CAREFUL,
+    STRUCK,
+    damping_lines,
     digits,
     draw_stated,
-    law_lines,
-    layer_lines,
+    plate_lines,
     specimen_from,
 )
 from instrument.campaign.plates.struck import resonance
@@ -44,7 +47,6 @@ from instrument.campaign.plates.struck_readings import (
     struck_so,
     through_channels,
 )
-from instrument.impact.mobility import GAIN
 
 _FREE = 0.75
 """Of cases; the others stand in their clamp."""
@@ -60,8 +62,12 @@ _BEGINS, _ENDS = (0.5, 0.8), (1.03, 1.08)
 _STATED_NOISE = 0.5
 """Of cases; the others leave it to the scatter of neighbouring lines."""
 _FORCE_M = 1e-3
-_MOST_LAWS = 200
+_STILL = 0.2
+"""Of the length, from a clamp: where a plate hardly moves."""
+_BELOW = 0.6
+"""Of the first resonance of the softest core: where a law's band begins."""
 _JUDGED = 5
+"""Resonances, from the first to the last of the band."""
 _STIFF_PA, _SOFT_PA = 2e6, 0.3e6
 
 
@@ -71,7 +77,7 @@ class StruckTruth:
 
     plate: TruePlate
     free: bool
-    law: PlateMaterialLaw
+    law: TrueLaw
     blows: Blows
     force_m: Place
     spots_m: tuple[Place, ...]
@@ -129,7 +135,7 @@ def draw_struck(
     hangs = kind in OF_FREE or (hangs and kind not in OF_CLAMPED)
     at = chance.permutation(len(PLACES))[: 2 + int(chance.integers(3))]
     # In a clamp what is next to it hardly moves.
-    places = [PLACES[k] for k in at if hangs or PLACES[k][0] > 0.2]
+    places = [PLACES[k] for k in at if hangs or PLACES[k][0] > _STILL]
     if len(places) < 2:
         places = [PLACES[4], PLACES[7]]
     force, *spots = ((x * true.length_m, y * true.width_m) for x, y in places)
@@ -146,14 +152,14 @@ def draw_struck(
 
 def _law_and_resonances(
     rng: np.random.Generator, true: TruePlate, solid: ReducedSolid, *, free: bool
-) -> tuple[PlateMaterialLaw, list[float]]:
+) -> tuple[TrueLaw, list[float]]:
     first = 6 if free else 0
     low, high = (
         np.sqrt(solid.modes(g, first + n + 1)[0][-1]) / (2 * np.pi)
         for g, n in ((_SOFT_PA, 0), (_STIFF_PA, _MOST // 2))
     )
-    for _ in range(_MOST_LAWS):
-        law = draw_law(rng, (0.6 * float(low), min(float(high), _HIGHEST_HZ)))
+    for _ in range(MOST_LAWS):
+        law = draw_law(rng, (_BELOW * float(low), min(float(high), _HIGHEST_HZ)))
         most = int(rng.integers(_FEWEST, _MOST + 1))
         found: list[float] = []
         for r in range(first, first + most):
@@ -166,7 +172,7 @@ def _law_and_resonances(
     raise ArithmeticError(f"no law found that serves a spectrum of plate {true.name}")
 
 
-def _held_by_theory(true: TruePlate, law: PlateMaterialLaw, frequency_hz: float) -> bool:
+def _held_by_theory(true: TruePlate, law: TrueLaw, frequency_hz: float) -> bool:
     at = _specimen_of(true)
     G = law.modulus(2 * np.pi * frequency_hz)
     return bool(theory_error(at, [frequency_hz], G).excess[0] < _THEORY)
@@ -192,8 +198,7 @@ def _measured(truth: StruckTruth, solid: ReducedSolid, f: Array, rng: np.random.
     ]
     ratios = reduce(lambda r, h: h.ratios(r), hidden, np.array([] if truth.free else truth.plate.ratios))
     each = mobilities(solid, truth.law, f, hits, spots, hidden, ratios)
-    gain, delay, phase = np.array([GAIN, CAREFUL.delay_s, CAREFUL.phase_rad]) * rng.standard_normal(3)
-    channels = ChannelError(np.exp(gain), delay, phase).factor(2 * np.pi * f)
+    channels = ChannelError.within(STRUCK, rng.standard_normal(3)).factor(2 * np.pi * f)
     blows = struck_so(truth.blows, hidden)
     seen = [through_channels(own, 2 * np.pi * f, hidden, k) for k, own in enumerate(each)]
     found = [blows.read(rng, f, own * channels) for own in seen]
@@ -218,22 +223,11 @@ def _stated(rng: np.random.Generator, truth: StruckTruth) -> str:
 
 
 def _toml(plate: TruePlate, force_m: Place, spots_m: Any, *, free: bool, middle_hz: float) -> str:
-    core, faces = plate.core, (("substrate", plate.substrate), ("constraining", plate.constraining))
-    assert core is not None
-    lines = ["[plate]", f"length_mm = {digits(1e3 * plate.length_m)}"]
-    lines += [f"width_mm = {digits(1e3 * plate.width_m)}"]
-    lines += [f'boundary = "{"free" if free else "cantilever"}"', ""]
-    for name, face in faces:
-        assert face is not None
-        lines += layer_lines(name, face)
-    lines += [*layer_lines("core", core), *law_lines(middle_hz)]
-    if not free:
-        ratios = ", ".join(digits(100 * r) for r in plate.ratios)
-        lines += ["[damping]", f"modal_percent = [{ratios}]", ""]
+    lines = plate_lines(plate, "free" if free else "cantilever", middle_hz)
+    lines += [] if free else damping_lines(plate)
     for x, y in spots_m:
         lines += ["[[pickup]]", f"x_mm = {digits(1e3 * x)}", f"y_mm = {digits(1e3 * y)}", ""]
     lines += ["[excitation]", 'kind = "force"']
     lines += [f"x_mm = {digits(1e3 * force_m[0])}", f"y_mm = {digits(1e3 * force_m[1])}", "", "[tolerances]"]
-    said = replace(CAREFUL, gain=GAIN).lines()
-    lines += [line for line in said if not (free and line.startswith("damping"))]
+    lines += [line for line in STRUCK.lines() if not (free and line.startswith("damping"))]
     return "\n".join([*lines, f"force_mm = {1e3 * _FORCE_M:g}"]) + "\n"

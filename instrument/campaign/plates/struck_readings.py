@@ -8,15 +8,15 @@ import numpy as np
 
 from drivers.simulated.plant.one_thread import one_thread
 from fitting.arrays import Array, Complex
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates import kept
 from instrument.campaign.plates.blows import Blows
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden.base import Hidden
 from instrument.campaign.plates.hidden.struck import PLACES, HiddenOfBlows, Place
-from instrument.campaign.plates.materials import PlateMaterialLaw
-from instrument.campaign.plates.reduced import MODULI_PA, ReducedSolid, reduced
+from instrument.campaign.plates.reduced import MODULI_PA, ReducedSolid
 from instrument.campaign.plates.response import BaseMotion, remaining_damping
-from instrument.campaign.plates.solid import Build, Solid
+from instrument.campaign.plates.simulate import with_effects
 
 
 def places_on(true: TruePlate) -> tuple[Place, ...]:
@@ -28,14 +28,13 @@ def solid_of(true: TruePlate, hidden: Sequence[Hidden], *, free: bool) -> Reduce
     """The plate with its effects, able to answer forces at `PLACES`; without any, the one that is kept."""
     if not any(h.changes_solid for h in hidden):
         return kept.struck_plate(true, places_on(true), free=free)
-    build = reduce(lambda b, h: h.build(b, true), hidden, Build(free=free))
-    solid = Solid(plate_of(true, hidden), build, kept.WHERE_FREE if free else kept.WHERE_CLAMPED)
-    return reduced(
-        solid,
+    return with_effects(
+        true,
+        hidden,
         MODULI_PA,
-        points_m=[*places_on(true), *(at for h in hidden for at in h.points())],
-        air_density_kg_m3=sum(h.air_kg_m3 for h in hidden),
-        stirred=[solid.rubbing] if build.root is not None and build.root.loss else [],
+        points_m=places_on(true),
+        free=free,
+        fineness=kept.WHERE_FREE if free else kept.WHERE_CLAMPED,
         modes=kept.STRUCK_MODES,
     )
 
@@ -48,7 +47,7 @@ def plate_of(true: TruePlate, hidden: Sequence[Hidden]) -> TruePlate:
 @one_thread
 def mobilities(
     solid: ReducedSolid,
-    law: PlateMaterialLaw,
+    law: TrueLaw,
     frequency_hz: Array,
     hits_m: Sequence[Place],
     spots_m: Sequence[Place],

@@ -8,13 +8,20 @@ from numpy.typing import NDArray
 from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.campaign.draws import either_sign, log_uniform
 from instrument.campaign.plates.cases import draw_case, measured
+from instrument.campaign.plates.channel import ChannelError
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden import HIDDEN
 from instrument.campaign.plates.hidden.base import Hidden
-from instrument.campaign.plates.hidden.clamp import HiddenClampCompliance, HiddenClampFriction
+from instrument.campaign.plates.hidden.clamp import (
+    BETWEEN,
+    BOLTS,
+    REACH,
+    HiddenClampCompliance,
+    HiddenClampFriction,
+)
+from instrument.campaign.plates.hidden.sizes import ACROSS, AIR_KG_M3, FRICTION_LOSS
 from instrument.campaign.plates.judged import models_of
 from instrument.campaign.plates.remeasured import RemeasuredPlate
-from instrument.campaign.plates.simulate import ChannelError
 from instrument.campaign.plates.stated import CAREFUL, CampaignTolerances, draw_stated, specimen_from, toml
 from instrument.campaign.schedule import Schedule
 from instrument.models.files import File
@@ -40,34 +47,43 @@ MEASURED_WELL = CampaignTolerances(
     **{f.name: (1.0 if f.name in _AS_CAREFUL else SHARE) * getattr(CAREFUL, f.name) for f in fields(CAREFUL)}
 )
 
+_SIZES = {
+    "substrate_stiffness": (0.03, 0.06),
+    "gain_error": (0.007, 0.014),
+    "amplitude_softening": (0.012, 0.04),
+    "spot_offset": (1.6e-3, 3e-3),
+    "clamp_compliance": (2e-3, 8e-3),
+}
+"""Of stiffness, gain and modulus, in m, and of a root's softness: one sweep may leave a group of each."""
+
 
 def weak(kind: str, rng: np.random.Generator, plate: TruePlate) -> Hidden:
     """An effect of a size that one sweep may not tell from others. Raises `KeyError` for another kind."""
     if kind == "substrate_stiffness":
-        return HIDDEN[kind](scale=1 + either_sign(rng, 0.03, 0.06))  # type: ignore[call-arg]
+        return HIDDEN[kind](scale=1 + either_sign(rng, *_SIZES["substrate_stiffness"]))  # type: ignore[call-arg]
     if kind == "gain_error":
-        return HIDDEN[kind](factor=1 + either_sign(rng, 0.007, 0.014))  # type: ignore[call-arg]
+        return HIDDEN[kind](factor=1 + either_sign(rng, *_SIZES["gain_error"]))  # type: ignore[call-arg]
     if kind == "air_added_mass":
-        return HIDDEN[kind](density_kg_m3=float(rng.uniform(1.1, 1.25)))  # type: ignore[call-arg]
+        return HIDDEN[kind](density_kg_m3=float(rng.uniform(*AIR_KG_M3)))  # type: ignore[call-arg]
     if kind == "amplitude_softening":
-        return HIDDEN[kind](k=log_uniform(rng, 0.012, 0.04), most=0.5)  # type: ignore[call-arg]
+        return HIDDEN[kind](k=log_uniform(rng, *_SIZES["amplitude_softening"]), most=0.5)  # type: ignore[call-arg]
     if kind == "spot_offset":
-        size, angle = rng.uniform(1.6e-3, 3e-3), rng.uniform(0, 2 * np.pi)
+        size, angle = rng.uniform(*_SIZES["spot_offset"]), rng.uniform(0, 2 * np.pi)
         return HIDDEN[kind](dx_m=float(size * np.cos(angle)), dy_m=float(size * np.sin(angle)))  # type: ignore[call-arg]
     if kind == "clamp_friction":
         held = _clamp(rng, plate)
-        return HiddenClampFriction(**held.facts, loss=float(rng.uniform(0.2, 0.6)))
+        return HiddenClampFriction(**held.facts, loss=float(rng.uniform(*FRICTION_LOSS)))
     if kind == "clamp_compliance":
         return _clamp(rng, plate)
     raise KeyError(kind)
 
 
 def _clamp(rng: np.random.Generator, plate: TruePlate) -> HiddenClampCompliance:
-    along_x = plate.substrate.young_pa / (log_uniform(rng, 2e-3, 8e-3) * plate.length_m)
-    bolts = int(rng.integers(3, 6))
-    reach = float(rng.uniform(0.12, 0.25)) * plate.width_m / bolts
-    along_z = along_x * float(rng.uniform(0.5, 2))
-    return HiddenClampCompliance(along_x, along_z, bolts, reach, float(rng.uniform(0.15, 0.5)))
+    along_x = plate.substrate.young_pa / (log_uniform(rng, *_SIZES["clamp_compliance"]) * plate.length_m)
+    bolts = int(rng.integers(*BOLTS))
+    reach = float(rng.uniform(*REACH)) * plate.width_m / bolts
+    along_z = along_x * float(rng.uniform(*ACROSS))
+    return HiddenClampCompliance(along_x, along_z, bolts, reach, float(rng.uniform(*BETWEEN)))
 
 
 def draw_weak(kind: str, seed: int) -> RemeasuredPlate:
@@ -77,11 +93,8 @@ def draw_weak(kind: str, seed: int) -> RemeasuredPlate:
     sweep = clean.sweep.take(_thinned(clean.sweep.segment, clean.sweep.commanded_m_s2))
     rng = np.random.default_rng([seed, *kind.encode()])
     true = clean.truth.plate
-    gain, delay = rng.standard_normal(2)
-    phase = MEASURED_WELL.phase_rad * np.random.default_rng([seed, *b"phase"]).standard_normal()
-    channel = ChannelError(
-        float(np.exp(MEASURED_WELL.gain * gain)), MEASURED_WELL.delay_s * float(delay), phase
-    )
+    off = *rng.standard_normal(2), np.random.default_rng([seed, *b"phase"]).standard_normal()
+    channel = ChannelError.within(MEASURED_WELL, off)
     truth = replace(clean.truth, effects=(weak(kind, rng, true),), channel=channel)
     text = toml(draw_stated(rng, true, MEASURED_WELL), MEASURED_WELL, clean.truth.resonances_hz[1])
     assert sweep.time_s is not None

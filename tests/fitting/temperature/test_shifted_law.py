@@ -7,6 +7,7 @@ import pytest
 from temperature_cases import LAW, REFERENCE, T, wlf
 
 from fitting.temperature.shifted_law import ShiftedLaw
+from fitting.temperature.shifts import ZERO_K, Shift
 from fitting.temperature.start import start_of
 
 OMEGA = 2 * np.pi * np.geomspace(14.0, 300.0, 9)
@@ -37,3 +38,12 @@ def test_curves_of_one_law_are_laid_over_each_other():
     assert shift == pytest.approx(log_a, abs=1e-3)
     np.testing.assert_allclose(law.modulus(OMEGA), LAW.modulus(OMEGA), rtol=1e-3)
     assert shift[2] == 0.0
+
+
+def test_factors_that_bend_the_wrong_way_begin_no_flatter_than_arrhenius_s():
+    """Noise may turn the curvature of few factors round; from C1 and C2 without end no fit comes back."""
+    T_c = np.array([5.0, 13.0, 21.0, 29.0, 37.0])
+    shift = Shift("wlf", T_c, 21.0)
+    c1, c2 = shift.near(np.array([2.47, 1.40, 0.0, -1.82, -3.52]))
+    assert c2 <= 21.0 + ZERO_K
+    assert 1 < c1 < 100

@@ -80,3 +80,10 @@ def test_a_choice_that_makes_the_rows_anew_keeps_the_keyboard(qtbot, form):
     form._build_later()
     qtbot.waitUntil(lambda: plan() is not before)
     assert QApplication.focusWidget() is plan()
+
+
+def test_a_form_without_faults_is_not_scrolled_sideways(form):
+    form.resize(600, 300)
+    QApplication.processEvents()
+    assert form.said == []
+    assert form.horizontalScrollBar().maximum() == 0

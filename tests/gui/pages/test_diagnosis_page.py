@@ -248,7 +248,7 @@ def test_other_data_can_be_diagnosed_without_a_session(qtbot, window, tmp_path):
     sweep.write_text("frequency_hz,velocity_re_m_s,velocity_im_m_s\n" + rows)
     window.open(sweep)
     qtbot.waitUntil(page.others.isVisible)
-    assert [action.text() for action in page.others.menu().actions()] == ["sweep.csv ..."]
+    assert [action.text() for action in page.others.menu().actions()] == ["sweep.csv..."]
     with qtbot.waitSignal(window.controller.refused, timeout=LONG_MS) as refused:
         window.controller.rediagnosis.start(DiagnosisAsked(sweep, tmp_path / "none.toml"))
     assert "none.toml" in refused.args[0]

@@ -8,6 +8,7 @@ from diagnosis_cases import diagnosis
 from result_cases import identification
 
 from fitting.numerics.chances import Z_95
+from gui.elided import ElidedLabel
 from gui.pages.diagnosis.candidates import Candidates
 from gui.pages.diagnosis.comparison import HeldOutBars, LawChange
 from gui.pages.diagnosis.finding import Finding, headline
@@ -110,6 +111,16 @@ def test_the_residual_of_every_segment_is_drawn_before_and_after(made, qtbot):
     before, after = plots.plots[1, "before"], plots.plots[1, "after"]
     before.setXRange(17.0, 19.0, padding=0)
     assert after.viewRange()[0] == before.viewRange()[0] == pytest.approx([17.0, 19.0])
+
+
+def test_what_the_grey_band_is_stands_in_whole_on_a_laptops_screen(made, qtbot):
+    plots = made(ResidualPlots())
+    plots.resize(735, 440)
+    plots.show()
+    plots.show_diagnosis(diagnosis())
+    qtbot.waitUntil(lambda: plots.drawn)
+    (grey,) = plots.findChildren(ElidedLabel)
+    assert grey.text() == grey.said
 
 
 def test_what_is_accepted_as_nothing_has_no_residual_after_it(made, qtbot):

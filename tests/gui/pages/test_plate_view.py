@@ -46,6 +46,20 @@ def test_the_words_of_a_mark_stay_on_a_sketch_of_the_plate(qtbot, at_mm):
     qtbot.addWidget(view)
     view.setFixedSize(260, 180)
     view.show_place(read_specimen(case_file("specimen.toml")), at_mm, "hit")
+    assert_words_lie_on_the_plate(view, at_mm)
+
+
+def test_the_words_of_a_mark_that_can_be_dragged_cross_no_edge_of_the_plate(qtbot):
+    view = PlateView()
+    qtbot.addWidget(view)
+    view.resize(600, 420)
+    experiment = Draft.of(case_file("experiment.toml"), ExperimentDocument)
+    view.show_drafts(Drafts(experiment, None, Draft.of(case_file("specimen.toml"), SpecimenDocument)))
+    for mark in view.marks:
+        assert_words_lie_on_the_plate(view, mark.at_mm)
+
+
+def assert_words_lie_on_the_plate(view, at_mm):
     words = f"hit {at_mm[0]:g}, {at_mm[1]:g}"
     begin, metrics = view.words_begin(view.to_screen(at_mm), words), view.fontMetrics()
     low, high = view.to_screen((0.0, 0.0)), view.to_screen(view.size_mm)

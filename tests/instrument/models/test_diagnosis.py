@@ -12,7 +12,7 @@ from fitting.effects.treatment_not_gripped import TreatmentEndsShortEffect
 from fitting.errors import OutsideModel
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.stated.patches import Patch
-from instrument.campaign.cases import draw
+from instrument.campaign.plant.cases import draw
 from instrument.campaign.plates.cases import draw_case
 from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen

@@ -220,7 +220,7 @@ def test_what_no_core_and_no_mistake_explains_is_another_plate(monkeypatch, plat
     nonsense = times(np.exp(rng.normal(0, 3, len(F)) + 1j * rng.uniform(0, 6, len(F))))(right)
     said = data_doubt(nonsense, plate)
     assert said.startswith("no core makes this plate answer so (typically ")
-    assert said.endswith("another specimen or layer, unit, level or pickup")
+    assert said.endswith("another specimen or layer, unit, level, pickup or way it reads")
 
 
 def test_a_sweep_of_very_many_lines_is_looked_at_in_a_part_of_them(monkeypatch, plate, right):
@@ -271,3 +271,33 @@ def test_a_shear_pair_is_looked_at_too():
 
 
 OMEGA_1 = 2j * np.pi * pair_data()[0].frequency_hz
+
+
+@pytest.fixture(scope="module")
+def finer(zn1):
+    return replace(zn1, elements=(7, 5))
+
+
+@pytest.fixture(scope="module")
+def steep(finer):
+    """A few points about three resonances: its core loses much more at the second than at the first."""
+    f = np.concatenate([np.geomspace(16, 30, 13), np.geomspace(90, 125, 13), np.geomspace(240, 290, 12)])
+    law = finer.core.law
+    steeper = law.with_values(law.values * np.array([1.1, 1.1, 1.0, 1.0]))
+    v = Models.of(finer, f).predict(steeper, f)
+    one = np.ones(len(f), dtype=np.intp)
+    return Sweep(f, v, np.full(len(f), finer.base_acceleration_m_s2), one, one)
+
+
+def test_a_loss_that_rises_steeply_does_not_hide_what_an_amplitude_is(steep, finer):
+    assert data_doubt(steep, finer) == ""
+    for factor, what in ((0.5**0.5, "rms"), (2.0, "peak to peak")):
+        spoilt = replace(steep, velocity_m_s=steep.velocity_m_s * factor)
+        said = f"it looks as if the pickup's reading is {what} and the base acceleration an amplitude"
+        assert data_doubt(spoilt, finer).startswith(said)
+
+
+def test_absolute_velocities_at_few_points_are_the_diagnosis_s_to_name(steep, finer):
+    base = finer.base_acceleration_m_s2 / (1j * steep.omega)
+    absolute = replace(steep, velocity_m_s=steep.velocity_m_s + base)
+    assert data_doubt(absolute, finer) == ""

@@ -159,7 +159,9 @@ def test_an_angle_between_two_accelerometers_is_not_taken_for_the_core(without):
     # With time stamps a gain and a drift did as well: certain, and the modulus off by a quarter.
     found = diagnose_together(turned(-3.0), without=without).found.result
     (effect,) = found.effects
-    assert (found.verdict, effect.name) == ("effect", "phase_offset")
+    # The prior of the angle alone speaks for it: the law takes up what it does to the readings.
+    assert found.equivalent == {"phase_offset": ("phase_offset", "unlisted")}
+    assert effect.probability > 0.9
     assert effect.parameters["phase"].value == pytest.approx(np.radians(-3.0), abs=2e-3)
     assert law_error(found.after.law).max() < 0.02
 
@@ -167,7 +169,7 @@ def test_an_angle_between_two_accelerometers_is_not_taken_for_the_core(without):
 @among("phase_offset", "phase_scale", "gain_error", "channel_delay")
 def test_an_angle_of_four_deviations_is_an_effect_or_the_tolerance_of_one(without):
     found = diagnose_together(turned(-2.0), without=without).found.result
-    assert found.equivalent == {"phase_offset": ("phase_offset", "none")}
+    assert found.equivalent == {"phase_offset": ("phase_offset", "none", "unlisted")}
     assert law_error(found.after.law).max() < 0.02
 
 

@@ -12,3 +12,8 @@ def test_what_is_there_or_not_has_no_size_and_a_factor_no_unit():
     assert unseen_row(UNSEEN[1])[1] == "-"
     factor = UNSEEN[0].but(parameter="scale", size=1.00042, unit="1")
     assert unseen_row(factor)[1] == "scale 1.0004"
+
+
+def test_a_number_without_unit_that_is_no_factor_has_three_digits():
+    grade = UNSEEN[0].but(parameter="grade_x", size=0.064741, unit="1")
+    assert unseen_row(grade)[1] == "grade_x 0.0647"

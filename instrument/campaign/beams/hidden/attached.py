@@ -12,12 +12,30 @@ from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden.base import HiddenInBeam, Hung, Setting
 from instrument.campaign.draws import either_sign, log_uniform
 from instrument.campaign.plates.hidden.base import felt_kg
+from instrument.campaign.plates.hidden.sizes import (
+    AIR_KG_M3,
+    CABLE_LOSS,
+    LOOSE_LOSS,
+    LOOSE_MASS,
+    LOOSE_NEAR,
+    LOOSE_POWER,
+    MASS,
+)
+
+_OF_BRIDGE = (0.3, 0.7)
+"""Where a beam clamped at both ends moves most, of its span."""
+_FROM_END = 0.02
+"""Of the span: nothing hangs on the very end."""
+_CABLE = (0.01, 0.05)
+"""A cable's stiffness over what the first mode moves its tip against: a beam is light beside its cable."""
+_ASIDE_M = (2e-3, 6e-3)
+"""Of a spot: a laser pointed by hand, or measured from a wrong edge."""
 
 
 def _place(rng: np.random.Generator, beam: TrueBeam, least: float) -> float:
     """Where a clamped beam moves, or anywhere on a free one."""
-    low, high = (0.3, 0.7) if beam.ends == "clamped-clamped" else (least, 0.98)
-    return beam.span_m * float(rng.uniform(low if beam.clamped else 0.02, high))
+    low, high = _OF_BRIDGE if beam.ends == "clamped-clamped" else (least, 1 - _FROM_END)
+    return beam.span_m * float(rng.uniform(low if beam.clamped else _FROM_END, high))
 
 
 class _OnTheBeam(HiddenInBeam):
@@ -44,7 +62,7 @@ class HiddenAddedMass(_OnTheBeam):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAddedMass":
-        return cls(at.beam.mass_kg * log_uniform(rng, 0.006, 0.02), _place(rng, at.beam, 0.5))
+        return cls(at.beam.mass_kg * log_uniform(rng, *MASS), _place(rng, at.beam, 0.5))
 
     def hung(self, omega: Array, pitch: Complex, force_driven: bool) -> tuple[Hung, ...]:
         force = -self.mass_kg * (1 + self.x_m * pitch)
@@ -66,9 +84,9 @@ class HiddenTether(_OnTheBeam):
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTether":
         omega = 2 * np.pi * at.resonances_hz[0]
         # A cantilever's first mode moves its tip as a quarter of its mass on a spring would.
-        stiffness = at.beam.mass_kg / 4 * omega**2 * log_uniform(rng, 0.01, 0.05)
+        stiffness = at.beam.mass_kg / 4 * omega**2 * log_uniform(rng, *_CABLE)
         x = _place(rng, at.beam, 0.5)
-        return cls(stiffness, stiffness * log_uniform(rng, 0.05, 0.4) / omega, x, bool(rng.random() < 0.5))
+        return cls(stiffness, stiffness * log_uniform(rng, *CABLE_LOSS) / omega, x, bool(rng.random() < 0.5))
 
     def hung(self, omega: Array, pitch: Complex, force_driven: bool) -> tuple[Hung, ...]:
         k = np.asarray(self.stiffness_n_m + 1j * omega * self.damping_ns_m)
@@ -93,9 +111,11 @@ class HiddenLoosePart(_OnTheBeam):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenLoosePart":
-        near = at.resonances_hz[int(rng.integers(len(at.resonances_hz)))] * (1 + either_sign(rng, 0.0, 0.08))
-        mass, loss = at.beam.mass_kg * log_uniform(rng, 0.003, 0.012), log_uniform(rng, 0.02, 0.1)
-        return cls(mass, near, loss, _place(rng, at.beam, 0.5), float(rng.uniform(-0.3, 1.0)))
+        near = at.resonances_hz[int(rng.integers(len(at.resonances_hz)))] * (
+            1 + either_sign(rng, *LOOSE_NEAR)
+        )
+        mass, loss = at.beam.mass_kg * log_uniform(rng, *LOOSE_MASS), log_uniform(rng, *LOOSE_LOSS)
+        return cls(mass, near, loss, _place(rng, at.beam, 0.5), float(rng.uniform(*LOOSE_POWER)))
 
     def hung(self, omega: Array, pitch: Complex, force_driven: bool) -> tuple[Hung, ...]:
         felt = felt_kg(omega, self.mass_kg, self.frequency_hz, self.loss_factor, self.power)
@@ -113,7 +133,7 @@ class HiddenAirAddedMass(HiddenInBeam):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAirAddedMass":
-        return cls(float(rng.uniform(1.1, 1.25)))
+        return cls(float(rng.uniform(*AIR_KG_M3)))
 
     @property
     def air_kg_m3(self) -> float:
@@ -130,7 +150,7 @@ class HiddenSpotOffset(HiddenInBeam):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenSpotOffset":
-        dx = either_sign(rng, 2e-3, 6e-3)
+        dx = either_sign(rng, *_ASIDE_M)
         inside = 0 < at.beam.spot_m + dx < at.beam.span_m
         return cls(dx if inside else -dx)
 

@@ -11,6 +11,13 @@ from fitting.arrays import Array, Complex
 from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting, driven_by_base
 from instrument.campaign.draws import either_sign, log_uniform
+from instrument.campaign.plates.hidden.fixture import FixtureResonance
+from instrument.campaign.plates.hidden.sizes import FIXTURE_DAMPING, FIXTURE_FROM, FIXTURE_GAIN, FIXTURE_PITCH
+
+_PITCH = (0.02, 0.08)
+"""Times the length: what the far end moves by more than the root."""
+_FIXTURE_TO = 1.3
+"""Highest own frequency of a fixture over the last resonance: beyond it hardly anything is seen of it."""
 
 
 @dataclass(frozen=True)
@@ -27,27 +34,15 @@ class HiddenBaseRocking(HiddenInBeam):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenBaseRocking":
-        return cls(either_sign(rng, 0.02, 0.08) / at.beam.length_m)
+        return cls(either_sign(rng, *_PITCH) / at.beam.length_m)
 
     def pitch(self, omega: Array) -> Complex:
         return np.full(len(omega), self.pitch_rad_m, complex)
 
 
 @dataclass(frozen=True)
-class HiddenFixtureResonance(HiddenInBeam):
-    """The fixture yields between reference sensor and root, and it pitches.
-
-    The root moves by 1 + gain r^2/(1 - r^2) of the reference, r the frequency over that of the fixture.
-    """
-
-    name: ClassVar[str] = "fixture_resonance"
-    near: ClassVar[tuple[str, ...]] = ("base_rocking",)
-
-    frequency_hz: float
-    damping_ratio: float
-    gain: float
-    pitch_rad_m: float
-    """Per acceleration of the reference, times the same r^2/(1 - r^2)."""
+class HiddenFixtureResonance(FixtureResonance, HiddenInBeam):
+    """Near or beyond the resonances that are measured."""
 
     @classmethod
     def able(cls, beam: TrueBeam) -> bool:
@@ -55,18 +50,14 @@ class HiddenFixtureResonance(HiddenInBeam):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenFixtureResonance":
-        low, high = at.resonances_hz[0] * 1.5, at.resonances_hz[-1] * 1.3
-        pitch = either_sign(rng, 0.005, 0.03) / at.beam.length_m
+        low, high = at.resonances_hz[0] * FIXTURE_FROM, at.resonances_hz[-1] * _FIXTURE_TO
+        pitch = either_sign(rng, *FIXTURE_PITCH) / at.beam.length_m
         return cls(
-            log_uniform(rng, low, high), log_uniform(rng, 0.01, 0.05), either_sign(rng, 0.01, 0.05), pitch
+            log_uniform(rng, low, high),
+            log_uniform(rng, *FIXTURE_DAMPING),
+            either_sign(rng, *FIXTURE_GAIN),
+            pitch,
         )
 
-    def _swing(self, omega: Array) -> Complex:
-        r = omega / (2 * np.pi * self.frequency_hz)
-        return np.asarray(r**2 / (1 - r**2 + 2j * self.damping_ratio * r))
-
-    def pitch(self, omega: Array) -> Complex:
-        return np.asarray(self.pitch_rad_m * self._swing(omega) / (1 + self.gain * self._swing(omega)))
-
     def reference(self, omega: Array) -> Complex:
-        return np.asarray(1 / (1 + self.gain * self._swing(omega)))
+        return np.asarray(1 / self.root(omega))

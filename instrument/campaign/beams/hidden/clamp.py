@@ -11,6 +11,16 @@ from drivers.simulated.plant.solid_beam import BeamBuild, RootSprings
 from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting
 from instrument.campaign.draws import either_sign, log_uniform
+from instrument.campaign.plates.hidden.sizes import ACROSS, CLAMP_LINE_M, FRICTION_LOSS
+
+_SOFT = (0.004, 0.02)
+"""What the first mode falls by: a short beam strains its clamp more than a plate does."""
+_WHOLE_JAWS, _WORN = 0.6, (0.1, 0.3)
+"""Share of jaws that hold all of the edge; of the others, what of the substrate's height is not held."""
+_SHORT_M = (1e-3, 8e-3)
+"""How far a treatment ends short of the jaw, where it does not end at it."""
+_PULLS, _PULLED, _PRESSED = 0.6, (0.5, 2.0), (0.3, 0.6)
+"""Share of clamps that pull; stress over what buckles the faces: pressed harder a beam would buckle."""
 
 
 @dataclass(frozen=True)
@@ -40,9 +50,9 @@ class HiddenClampCompliance(HiddenInBeam):
         beam, layers = at.beam, at.beam.solid.sheets if at.beam.constraining else (at.beam.substrate,)
         height = sum(s.thickness_m for s in layers)
         rigidity = 2 * beam.substrate.young_pa * (beam.substrate.thickness_m / height) ** 3
-        x = rigidity / (log_uniform(rng, 0.004, 0.02) * beam.span_m)
-        y, z = (x * log_uniform(rng, 0.5, 2) for _ in range(2))
-        return x, y, z, 0.0 if beam.both_sides or rng.random() < 0.6 else float(rng.uniform(0.1, 0.3))
+        x = rigidity / (log_uniform(rng, *_SOFT) * beam.span_m)
+        y, z = (x * log_uniform(rng, *ACROSS) for _ in range(2))
+        return x, y, z, 0.0 if beam.both_sides or rng.random() < _WHOLE_JAWS else float(rng.uniform(*_WORN))
 
     def build(self, build: BeamBuild, true: TrueBeam) -> BeamBuild:
         unheld = self.worn * true.substrate.thickness_m
@@ -61,7 +71,7 @@ class HiddenClampFriction(HiddenClampCompliance):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenClampFriction":
-        return cls(*cls._springs(rng, at), float(rng.uniform(0.2, 0.6)))
+        return cls(*cls._springs(rng, at), float(rng.uniform(*FRICTION_LOSS)))
 
     @property
     def root_loss(self) -> float:
@@ -82,7 +92,7 @@ class HiddenClampLine(HiddenInBeam):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenClampLine":
-        return cls(either_sign(rng, 1.5e-3, 4e-3))
+        return cls(either_sign(rng, *CLAMP_LINE_M))
 
     def beam(self, true: TrueBeam) -> TrueBeam:
         halves = 1 if true.whole else 2
@@ -106,7 +116,7 @@ class HiddenTreatmentNotGripped(HiddenInBeam):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTreatmentNotGripped":
-        return cls(0.0 if rng.random() < 0.5 else float(rng.uniform(1e-3, 8e-3)))
+        return cls(0.0 if rng.random() < 0.5 else float(rng.uniform(*_SHORT_M)))
 
     def build(self, build: BeamBuild, true: TrueBeam) -> BeamBuild:
         gripped = true.solid.heights_m(true.solid.substrate)
@@ -133,7 +143,7 @@ class HiddenAxialStress(HiddenInBeam):
         faces = [beam.substrate] + ([beam.constraining] if beam.constraining is not None else [])
         rigidity = sum(f.young_pa * f.thickness_m**3 for f in faces) / 12
         buckles = 4 * np.pi**2 * rigidity / beam.length_m**2 / sum(f.thickness_m for f in faces)
-        share = log_uniform(rng, 0.5, 2.0) if rng.random() < 0.6 else -log_uniform(rng, 0.3, 0.6)
+        share = log_uniform(rng, *_PULLED) if rng.random() < _PULLS else -log_uniform(rng, *_PRESSED)
         return cls(float(share * buckles))
 
     def beam(self, true: TrueBeam) -> TrueBeam:

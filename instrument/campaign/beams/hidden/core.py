@@ -14,7 +14,20 @@ from instrument.campaign.beams.geometry import TrueBeam
 from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting
 from instrument.campaign.draws import either_sign
 from instrument.campaign.plates.hidden.base import Softening, draw_softening
-from instrument.campaign.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
+from instrument.campaign.plates.hidden.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
+from instrument.campaign.plates.hidden.sizes import (
+    ACTIVATION_J_MOL,
+    BOND_EDGE,
+    COOLS,
+    DEBONDED,
+    DRIFT_K,
+    DRIFT_TIME,
+)
+
+_GRADED = (0.25, 0.6)
+"""Slope of a core's modulus from one end to the other, over its mean: a beam shows less of it."""
+_AT_CLAMP, _LEFT = 0.6, (0.01, 0.05)
+"""Share of loose strips that are at the clamp, where it shows most; what is left of the stiffness within."""
 
 
 def _times(build: BeamBuild, factor: Callable[[Array], Array]) -> BeamBuild:
@@ -33,7 +46,7 @@ class HiddenGradedCore(HiddenInBeam):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenGradedCore":
-        return cls(either_sign(rng, 0.25, 0.6))
+        return cls(either_sign(rng, *_GRADED))
 
     def build(self, build: BeamBuild, true: TrueBeam) -> BeamBuild:
         return _times(build, lambda x: 1 + self.slope * (x / true.span_m - 0.5))
@@ -59,12 +72,10 @@ class HiddenPartialDebond(HiddenInBeam):
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenPartialDebond":
         span = at.beam.span_m
-        wide = span * float(rng.uniform(0.06, 0.16))
+        wide = span * float(rng.uniform(*DEBONDED))
         # At the free end most of it slips freely as it is: what comes loose there shows little.
-        begin = 0.0 if rng.random() < 0.6 else span - wide
-        return cls(
-            begin, begin + wide, span * float(rng.uniform(0.008, 0.025)), float(rng.uniform(0.01, 0.05))
-        )
+        begin = 0.0 if rng.random() < _AT_CLAMP else span - wide
+        return cls(begin, begin + wide, span * float(rng.uniform(*BOND_EDGE)), float(rng.uniform(*_LEFT)))
 
     def build(self, build: BeamBuild, true: TrueBeam) -> BeamBuild:
         low = -1.0 if self.from_m <= 0 else self.from_m
@@ -91,9 +102,9 @@ class HiddenTemperatureDrift(HiddenInBeam):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTemperatureDrift":
-        sign = -1.0 if rng.random() < 0.25 else 1.0
-        time = at.duration_s * float(rng.uniform(0.3, 1.0))
-        return cls(sign * float(rng.uniform(3, 7)), time, float(rng.uniform(70e3, 130e3)))
+        sign = -1.0 if rng.random() < COOLS else 1.0
+        time = at.duration_s * float(rng.uniform(*DRIFT_TIME))
+        return cls(sign * float(rng.uniform(*DRIFT_K)), time, float(rng.uniform(*ACTIVATION_J_MOL)))
 
     def frequency_factor(self, time_s: Array) -> Array | None:
         kelvin = -self.kelvin * np.expm1(-time_s / self.time_constant_s)

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from instrument.campaign.draws import two_apart
 from instrument.campaign.plates.hidden import attached, base_motion, channels, clamp, core, layers, strange
 from instrument.campaign.plates.hidden.base import Hidden, Setting
 
@@ -58,11 +59,7 @@ def names_of(kind: str, rng: np.random.Generator) -> tuple[str, ...]:
         return ()
     if kind != "pair":
         return (kind,)
-    able = [name for name in HIDDEN if name not in STRANGE]
-    while True:
-        first, second = (str(name) for name in rng.choice(able, 2, replace=False))
-        if HIDDEN[first].place != HIDDEN[second].place:
-            return first, second
+    return two_apart(rng, {h.name: h.place for h in _CLASSES if h.in_catalogue})
 
 
 def draw_hidden(names: tuple[str, ...], rng: np.random.Generator, at: Setting) -> tuple[Hidden, ...]:

@@ -16,8 +16,24 @@ from instrument.campaign.plates.hidden.base import (
     Setting,
     felt_kg,
 )
+from instrument.campaign.plates.hidden.sizes import (
+    AIR_KG_M3,
+    CABLE_LOSS,
+    LOOSE_LOSS,
+    LOOSE_MASS,
+    LOOSE_NEAR,
+    LOOSE_POWER,
+    MASS,
+)
 from instrument.campaign.plates.response import BaseMotion
 from instrument.campaign.plates.solid import Build, Patch
+
+_SIDE_M = (0.006, 0.014)
+"""Of the square that a mass covers: a small accelerometer's foot."""
+_APART = 0.3
+"""Of the length, between two masses: nearer ones are as good as one."""
+_CABLE = (0.005, 0.04)
+"""A cable's stiffness over what the first mode moves its tip against."""
 
 
 def plate_mass_kg(true: TruePlate) -> float:
@@ -30,10 +46,10 @@ def plate_mass_kg(true: TruePlate) -> float:
 
 def _patch(rng: np.random.Generator, true: TruePlate, least: float) -> tuple[float, float, float, float]:
     """Mass, x, y, side."""
-    side = float(rng.uniform(0.006, 0.014))
+    side = float(rng.uniform(*_SIDE_M))
     x = float(rng.uniform(least * true.length_m, true.length_m - side / 2))
     y = float(rng.uniform(side / 2, true.width_m - side / 2))
-    return plate_mass_kg(true) * log_uniform(rng, 0.006, 0.02), x, y, side
+    return plate_mass_kg(true) * log_uniform(rng, *MASS), x, y, side
 
 
 @dataclass(frozen=True)
@@ -78,7 +94,7 @@ class HiddenAddedMasses(Hidden):
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAddedMasses":
         while True:
             first, second = _patch(rng, at.plate, 0.4), _patch(rng, at.plate, 0.4)
-            if np.hypot(first[1] - second[1], first[2] - second[2]) > 0.3 * at.plate.length_m:
+            if np.hypot(first[1] - second[1], first[2] - second[2]) > _APART * at.plate.length_m:
                 return cls(*first[:3], *second[:3], first[3])
 
     def build(self, build: Build, true: TruePlate) -> Build:
@@ -99,7 +115,7 @@ class HiddenAirAddedMass(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAirAddedMass":
-        return cls(float(rng.uniform(1.1, 1.25)))
+        return cls(float(rng.uniform(*AIR_KG_M3)))
 
     @property
     def air_kg_m3(self) -> float:
@@ -125,9 +141,9 @@ class HiddenTether(Hidden):
         true = at.plate
         # A cantilever's first mode moves its tip as a quarter of its mass on a spring would.
         tip = plate_mass_kg(true) / 4 * (2 * np.pi * at.resonances_hz[0]) ** 2
-        stiffness = tip * log_uniform(rng, 0.005, 0.04)
+        stiffness = tip * log_uniform(rng, *_CABLE)
         # Loss factor of the cable at the first resonance.
-        damping = stiffness * log_uniform(rng, 0.05, 0.4) / (2 * np.pi * at.resonances_hz[0])
+        damping = stiffness * log_uniform(rng, *CABLE_LOSS) / (2 * np.pi * at.resonances_hz[0])
         x, y = true.length_m * rng.uniform(0.5, 0.98), true.width_m * rng.uniform(0.05, 0.95)
         return cls(stiffness, damping, float(x), float(y), bool(rng.random() < 0.5))
 
@@ -162,10 +178,10 @@ class HiddenLoosePart(Hidden):
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenLoosePart":
         true = at.plate
         x, y = true.length_m * rng.uniform(0.5, 0.95), true.width_m * rng.uniform(0.1, 0.9)
-        near = at.resonances_hz[int(rng.integers(3))] * (1 + either_sign(rng, 0.0, 0.08))
-        mass = plate_mass_kg(true) * log_uniform(rng, 0.003, 0.012)
-        loss = log_uniform(rng, 0.02, 0.1)
-        return cls(mass, near, loss, float(x), float(y), float(rng.uniform(-0.3, 1.0)))
+        near = at.resonances_hz[int(rng.integers(3))] * (1 + either_sign(rng, *LOOSE_NEAR))
+        mass = plate_mass_kg(true) * log_uniform(rng, *LOOSE_MASS)
+        loss = log_uniform(rng, *LOOSE_LOSS)
+        return cls(mass, near, loss, float(x), float(y), float(rng.uniform(*LOOSE_POWER)))
 
     def points(self) -> tuple[tuple[float, float], ...]:
         return ((self.x_m, self.y_m),)

@@ -16,6 +16,13 @@ from instrument.campaign.plates.response import BaseMotion
 from instrument.campaign.plates.solid import Build, Field
 from instrument.campaign.schedule import Schedule
 
+_LOST, _MOST_LOST = (0.05, 0.2), (0.4, 0.7)
+"""Of the modulus, at the reference strain, and at all: a filled rubber's over the strains of a sweep."""
+_POWER, _BEND = (0.8, 1.3), (0.4, 0.9)
+"""About Kraus' exponents, one and a half."""
+_RUBBING = (0.0, 0.25)
+"""Loss gained, over what can be lost: none to what carbon black does."""
+
 
 def times(first: Field | None, second: Field) -> Field:
     """The product of two factors over the plate."""
@@ -34,8 +41,8 @@ def felt_kg(omega: Array, mass_kg: float, own_hz: float, loss_factor: float, pow
 
 def draw_softening(rng: np.random.Generator) -> tuple[float, float, float, float, float]:
     """Numbers of `Softening`, as filled rubbers have them."""
-    lost = log_uniform(rng, 0.05, 0.2), float(rng.uniform(0.4, 0.7)), float(rng.uniform(0.8, 1.3))
-    return (*lost, float(rng.uniform(0.0, 0.25)), float(rng.uniform(0.4, 0.9)))
+    lost = log_uniform(rng, *_LOST), float(rng.uniform(*_MOST_LOST)), float(rng.uniform(*_POWER))
+    return (*lost, float(rng.uniform(*_RUBBING)), float(rng.uniform(*_BEND)))
 
 
 @dataclass(frozen=True)

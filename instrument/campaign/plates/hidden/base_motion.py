@@ -10,7 +10,14 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from instrument.campaign.draws import either_sign, log_uniform
 from instrument.campaign.plates.hidden.base import Hidden, Setting
+from instrument.campaign.plates.hidden.fixture import FixtureResonance
+from instrument.campaign.plates.hidden.sizes import FIXTURE_DAMPING, FIXTURE_FROM, FIXTURE_GAIN, FIXTURE_PITCH
 from instrument.campaign.plates.response import BaseMotion
+
+_PITCH, _ROLL = (0.01, 0.06), (0.08, 0.4)
+"""Times length and width: what the far edge moves by more than the root. A roll shows less."""
+_FIXTURE_TO = 1.6
+"""Highest own frequency of a fixture over the last resonance: beyond it hardly anything is seen of it."""
 
 
 @dataclass(frozen=True)
@@ -24,7 +31,7 @@ class HiddenBaseRocking(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenBaseRocking":
-        return cls(either_sign(rng, 0.01, 0.06) / at.plate.length_m)
+        return cls(either_sign(rng, *_PITCH) / at.plate.length_m)
 
     def motion(self, motion: BaseMotion, omega: Array) -> BaseMotion:
         return BaseMotion(motion.pitch_rad_m + self.pitch_rad_m, motion.roll_rad_m)
@@ -41,48 +48,30 @@ class HiddenBaseRoll(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenBaseRoll":
-        return cls(either_sign(rng, 0.08, 0.4) / at.plate.width_m)
+        return cls(either_sign(rng, *_ROLL) / at.plate.width_m)
 
     def motion(self, motion: BaseMotion, omega: Array) -> BaseMotion:
         return BaseMotion(motion.pitch_rad_m, motion.roll_rad_m + self.roll_rad_m)
 
 
 @dataclass(frozen=True)
-class HiddenFixtureResonance(Hidden):
-    """The fixture yields between reference sensor and root, and it pitches.
+class HiddenFixtureResonance(FixtureResonance, Hidden):
+    """Near or beyond the resonances that are measured."""
 
-    The root moves by 1 + gain r^2/(1 - r^2) of the reference, r the frequency over that of the fixture.
-    """
-
-    name: ClassVar[str] = "fixture_resonance"
     place: ClassVar[str] = "base"
-    near: ClassVar[tuple[str, ...]] = ("base_rocking",)
-
-    frequency_hz: float
-    damping_ratio: float
-    gain: float
-    pitch_rad_m: float
-    """Per acceleration of the reference, times the same r^2/(1 - r^2)."""
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenFixtureResonance":
-        low, high = at.resonances_hz[0] * 1.5, at.resonances_hz[2] * 1.6
+        low, high = at.resonances_hz[0] * FIXTURE_FROM, at.resonances_hz[2] * _FIXTURE_TO
         return cls(
             log_uniform(rng, low, high),
-            log_uniform(rng, 0.01, 0.05),
-            either_sign(rng, 0.01, 0.05),
-            either_sign(rng, 0.005, 0.03) / at.plate.length_m,
+            log_uniform(rng, *FIXTURE_DAMPING),
+            either_sign(rng, *FIXTURE_GAIN),
+            either_sign(rng, *FIXTURE_PITCH) / at.plate.length_m,
         )
-
-    def _resonance(self, omega: Array) -> Complex:
-        r = omega / (2 * np.pi * self.frequency_hz)
-        return np.asarray(r**2 / (1 - r**2 + 2j * self.damping_ratio * r))
 
     def motion(self, motion: BaseMotion, omega: Array) -> BaseMotion:
-        swing = self._resonance(omega)
-        return BaseMotion(
-            motion.pitch_rad_m + self.pitch_rad_m * swing / (1 + self.gain * swing), motion.roll_rad_m
-        )
+        return BaseMotion(motion.pitch_rad_m + self.pitch(omega), motion.roll_rad_m)
 
     def reference(self, base: Complex, omega: Array) -> Complex:
-        return np.asarray(base / (1 + self.gain * self._resonance(omega)))
+        return np.asarray(base / self.root(omega))

@@ -12,6 +12,19 @@ from instrument.campaign.draws import either_sign, log_uniform
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden.base import Hidden, Setting
 
+_ASIDE_M = (2e-3, 6e-3)
+"""Of a spot: a laser pointed by hand, or measured from a wrong edge."""
+_LATE_S = (30e-6, 150e-6)
+"""Ten tolerances of a delay and more: what a decoder takes."""
+_GAIN = (0.015, 0.04)
+"""Five tolerances of a gain and more."""
+_LOWPASS_HZ, _AC_HZ = (1e3, 5e3), (0.3, 2.0)
+"""Corners of filters beyond either end of what is swept, which reach into it."""
+_DEGREES = (1.02, 1.05)
+"""What a phase meter shows over what it should."""
+_MORE_DAMPING = (1.5, 3.0)
+"""Of the treated plate over the bare one: edges, cables and glue."""
+
 
 @dataclass(frozen=True)
 class HiddenSpotOffset(Hidden):
@@ -25,7 +38,7 @@ class HiddenSpotOffset(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenSpotOffset":
-        size, angle = float(rng.uniform(2e-3, 6e-3)), float(rng.uniform(-np.pi / 3, np.pi / 3))
+        size, angle = float(rng.uniform(*_ASIDE_M)), float(rng.uniform(-np.pi / 3, np.pi / 3))
         return cls(float(rng.choice([-1, 1])) * size * float(np.cos(angle)), size * float(np.sin(angle)))
 
     def spot(self, spot_m: tuple[float, float], true: TruePlate) -> tuple[float, float]:
@@ -59,7 +72,7 @@ class HiddenChannelDelay(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenChannelDelay":
-        return cls(float(rng.uniform(30e-6, 150e-6)))
+        return cls(float(rng.uniform(*_LATE_S)))
 
     def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
         return np.asarray(velocity_s * np.exp(-1j * omega * self.delay_s))
@@ -76,7 +89,7 @@ class HiddenGainError(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenGainError":
-        return cls(1 + either_sign(rng, 0.015, 0.04))
+        return cls(1 + either_sign(rng, *_GAIN))
 
     def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
         return velocity_s * self.factor
@@ -93,7 +106,7 @@ class HiddenSensorLowpass(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenSensorLowpass":
-        return cls(log_uniform(rng, 1e3, 5e3))
+        return cls(log_uniform(rng, *_LOWPASS_HZ))
 
     def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
         return np.asarray(velocity_s / (1 + 1j * omega / (2 * np.pi * self.corner_hz)))
@@ -110,7 +123,7 @@ class HiddenAcCoupling(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAcCoupling":
-        return cls(log_uniform(rng, 0.3, 2.0))
+        return cls(log_uniform(rng, *_AC_HZ))
 
     def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
         return np.asarray(velocity_s / (1 + 2 * np.pi * self.corner_hz / (1j * omega)))
@@ -127,7 +140,7 @@ class HiddenPhaseScale(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenPhaseScale":
-        return cls(float(rng.uniform(1.02, 1.05)))
+        return cls(float(rng.uniform(*_DEGREES)))
 
     def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
         phase = np.angle(velocity_s) % (2 * np.pi)
@@ -145,7 +158,7 @@ class HiddenViscousDamping(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenViscousDamping":
-        return cls(float(rng.uniform(1.5, 3.0)))
+        return cls(float(rng.uniform(*_MORE_DAMPING)))
 
     def ratios(self, ratios: Array) -> Array:
         return ratios * self.scale

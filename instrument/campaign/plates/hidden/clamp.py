@@ -11,7 +11,21 @@ from fitting.arrays import Array
 from instrument.campaign.draws import either_sign, log_uniform
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden.base import Hidden, Setting
+from instrument.campaign.plates.hidden.sizes import ACROSS, CLAMP_LINE_M, FRICTION_LOSS
 from instrument.campaign.plates.solid import Build, RootSprings
+
+BOLTS = (3, 6)
+"""How many: at least, and one more than at most."""
+REACH = (0.12, 0.25)
+"""Standard deviation of a bolt's hold, over the distance between bolts: a few plate thicknesses."""
+BETWEEN = (0.15, 0.5)
+"""What is left of the hold between bolts, if the jaw is stiff or soft."""
+_SOFT, _SOFT_UNEVEN = (0.0012, 0.008), (0.0012, 0.007)
+"""Softness of a root: the first mode falls by twice as much, which is more than tolerances take up."""
+_UNEVEN = (1.5, 3.5)
+"""ln of the ratio of both edges: four to thirty times better held on one."""
+_SHORT_M = (1e-3, 3e-3)
+"""How far a treatment ends short of the jaw, where it does not end at it."""
 
 
 def _springs(at: Setting, softness: float) -> float:
@@ -38,10 +52,10 @@ class HiddenClampCompliance(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenClampCompliance":
-        along_x = _springs(at, log_uniform(rng, 0.0012, 0.008))
-        bolts = int(rng.integers(3, 6))
-        reach = float(rng.uniform(0.12, 0.25)) * at.plate.width_m / bolts
-        return cls(along_x, along_x * log_uniform(rng, 0.5, 2), bolts, reach, float(rng.uniform(0.15, 0.5)))
+        along_x = _springs(at, log_uniform(rng, *_SOFT))
+        bolts = int(rng.integers(*BOLTS))
+        reach = float(rng.uniform(*REACH)) * at.plate.width_m / bolts
+        return cls(along_x, along_x * log_uniform(rng, *ACROSS), bolts, reach, float(rng.uniform(*BETWEEN)))
 
     def build(self, build: Build, true: TruePlate) -> Build:
         places = true.width_m * (np.arange(self.bolts) + 0.5) / self.bolts
@@ -65,7 +79,7 @@ class HiddenClampFriction(HiddenClampCompliance):
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenClampFriction":
         held = HiddenClampCompliance.draw(rng, at)
-        return cls(**held.facts, loss=float(rng.uniform(0.2, 0.6)))
+        return cls(**held.facts, loss=float(rng.uniform(*FRICTION_LOSS)))
 
     def build(self, build: Build, true: TruePlate) -> Build:
         held = super().build(build, true)
@@ -89,7 +103,7 @@ class HiddenUnevenClamp(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenUnevenClamp":
-        return cls(_springs(at, log_uniform(rng, 0.0012, 0.007)), either_sign(rng, 1.5, 3.5))
+        return cls(_springs(at, log_uniform(rng, *_SOFT_UNEVEN)), either_sign(rng, *_UNEVEN))
 
     def build(self, build: Build, true: TruePlate) -> Build:
         def hold(y: Array) -> Array:
@@ -110,7 +124,7 @@ class HiddenClampLine(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenClampLine":
-        return cls(either_sign(rng, 1.5e-3, 4e-3))
+        return cls(either_sign(rng, *CLAMP_LINE_M))
 
     def plate(self, true: TruePlate) -> TruePlate:
         x, y = true.spot_m
@@ -133,7 +147,7 @@ class HiddenTreatmentNotGripped(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTreatmentNotGripped":
-        return cls(0.0 if rng.random() < 0.5 else float(rng.uniform(1e-3, 3e-3)))
+        return cls(0.0 if rng.random() < 0.5 else float(rng.uniform(*_SHORT_M)))
 
     def build(self, build: Build, true: TruePlate) -> Build:
         return replace(build, treatment_from_m=self.begins_m)

@@ -17,8 +17,22 @@ from instrument.campaign.plates.hidden.base import (
     draw_softening,
     times,
 )
+from instrument.campaign.plates.hidden.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
+from instrument.campaign.plates.hidden.sizes import (
+    ACTIVATION_J_MOL,
+    BOND_EDGE,
+    COOLS,
+    DEBONDED,
+    DRIFT_K,
+    DRIFT_TIME,
+    LOOSENED,
+)
 from instrument.campaign.plates.solid import Build, Field
-from instrument.campaign.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
+
+_GRADED = (0.2, 0.4)
+"""Slope of a core's modulus from one end to the other, over its mean."""
+_GRADIENT = (0.1, 0.6)
+"""Of a drift, between both ends: the clamp is a sink, or a source, of heat."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +49,7 @@ class HiddenGradedCore(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenGradedCore":
-        return cls(str(rng.choice(["x", "y"])), either_sign(rng, 0.2, 0.4))
+        return cls(str(rng.choice(["x", "y"])), either_sign(rng, *_GRADED))
 
     def build(self, build: Build, true: TruePlate) -> Build:
         def factor(x: Array, y: Array) -> Array:
@@ -64,12 +78,12 @@ class HiddenPartialDebond(Hidden):
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenPartialDebond":
         along = str(rng.choice(["x", "y"]))
         side = at.plate.length_m if along == "x" else at.plate.width_m
-        wide = side * float(rng.uniform(0.06, 0.16))
+        wide = side * float(rng.uniform(*DEBONDED))
         begin = float(rng.uniform(0, side - wide))
         if along == "y":
             # Where it comes loose along the length it begins at an edge.
             begin = 0.0 if rng.random() < 0.5 else side - wide
-        return cls(along, begin, begin + wide, side * float(rng.uniform(0.008, 0.025)))
+        return cls(along, begin, begin + wide, side * float(rng.uniform(*BOND_EDGE)))
 
     def build(self, build: Build, true: TruePlate) -> Build:
         def factor(x: Array, y: Array) -> Array:
@@ -78,7 +92,7 @@ class HiddenPartialDebond(Hidden):
             low = -1.0 if self.from_m <= 0 else self.from_m
             high = side + 1.0 if self.to_m >= side * (1 - 1e-9) else self.to_m
             into = (np.tanh((at - low) / self.edge_m) - np.tanh((at - high) / self.edge_m)) / 2
-            return np.asarray(1 - 0.985 * into)
+            return np.asarray(1 - LOOSENED * into)
 
         changed = replace(build, core_factor=times(build.core_factor, factor))
         ends = tuple(e + d for e in (self.from_m, self.to_m) for d in (-self.edge_m, self.edge_m))
@@ -105,12 +119,12 @@ class HiddenTemperatureDrift(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTemperatureDrift":
-        sign = -1.0 if rng.random() < 0.25 else 1.0
+        sign = -1.0 if rng.random() < COOLS else 1.0
         return cls(
-            sign * float(rng.uniform(3, 7)),
-            at.duration_s * float(rng.uniform(0.3, 1.0)),
-            either_sign(rng, 0.1, 0.6),
-            float(rng.uniform(70e3, 130e3)),
+            sign * float(rng.uniform(*DRIFT_K)),
+            at.duration_s * float(rng.uniform(*DRIFT_TIME)),
+            either_sign(rng, *_GRADIENT),
+            float(rng.uniform(*ACTIVATION_J_MOL)),
         )
 
     def stirred(self, true: TruePlate) -> tuple[Field, ...]:

@@ -11,69 +11,64 @@ from fitting.arrays import Array
 from instrument.campaign.draws import either_sign
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden.base import Hidden, Setting, times
+from instrument.campaign.plates.hidden.scaled import (
+    ConstrainingStiffness,
+    ConstrainingThickness,
+    CoreThickness,
+    ScaledLayer,
+    SubstrateStiffness,
+)
 from instrument.campaign.plates.solid import Build
 
+_ROLLED = (0.03, 0.06)
+"""Difference of a sheet's moduli over their mean: three tolerances of a modulus and more."""
+_GONE = (0.08, 0.2)
+"""Side of a corner that is gone, of the shorter side."""
+
 
 @dataclass(frozen=True)
-class HiddenConstrainingStiffness(Hidden):
-    """Young's modulus of the constraining layer."""
+class _ScaledInPlate(ScaledLayer, Hidden):
+    """One number of one layer by a factor."""
 
-    name: ClassVar[str] = "constraining_stiffness"
-    place: ClassVar[str] = "constraining layer"
     changes_solid: ClassVar[bool] = True
 
-    scale: float
-
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenConstrainingStiffness":
-        return cls(1 + either_sign(rng, 0.05, 0.1))
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "_ScaledInPlate":
+        return cls(1 + either_sign(rng, *cls.sizes))
 
     def plate(self, true: TruePlate) -> TruePlate:
-        c = true.constraining
-        assert c is not None
-        return replace(true, constraining=replace(c, young_pa=c.young_pa * self.scale))
+        return self.scaled(true)
 
 
 @dataclass(frozen=True)
-class HiddenConstrainingThickness(Hidden):
-    """Thickness of the constraining layer."""
+class HiddenConstrainingStiffness(ConstrainingStiffness, _ScaledInPlate):
+    """A constraining layer of another alloy, or of another sheet."""
 
-    name: ClassVar[str] = "constraining_thickness"
     place: ClassVar[str] = "constraining layer"
-    changes_solid: ClassVar[bool] = True
-
-    scale: float
-
-    @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenConstrainingThickness":
-        return cls(1 + either_sign(rng, 0.05, 0.1))
-
-    def plate(self, true: TruePlate) -> TruePlate:
-        c = true.constraining
-        assert c is not None
-        return replace(true, constraining=replace(c, thickness_m=c.thickness_m * self.scale))
 
 
 @dataclass(frozen=True)
-class HiddenSubstrateStiffness(Hidden):
-    """Young's modulus of the substrate."""
+class HiddenConstrainingThickness(ConstrainingThickness, _ScaledInPlate):
+    """A constraining layer of another gauge than it is sold as."""
 
-    name: ClassVar[str] = "substrate_stiffness"
+    place: ClassVar[str] = "constraining layer"
+
+
+@dataclass(frozen=True)
+class HiddenSubstrateStiffness(SubstrateStiffness, _ScaledInPlate):
+    """The bare plate that is struck has it too."""
+
     place: ClassVar[str] = "substrate"
-    changes_solid: ClassVar[bool] = True
-
-    scale: float
-
-    @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenSubstrateStiffness":
-        return cls(1 + either_sign(rng, 0.04, 0.08))
-
-    def plate(self, true: TruePlate) -> TruePlate:
-        s = true.substrate
-        return replace(true, substrate=replace(s, young_pa=s.young_pa * self.scale))
 
     def at_hammer(self, plate: TruePlate, build: Build) -> tuple[TruePlate, Build]:
         return self.plate(plate), build
+
+
+@dataclass(frozen=True)
+class HiddenCoreThickness(CoreThickness, _ScaledInPlate):
+    """A core that was pressed or filled otherwise than it is stated."""
+
+    place: ClassVar[str] = "core"
 
 
 @dataclass(frozen=True)
@@ -89,33 +84,13 @@ class HiddenOrthotropicSubstrate(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenOrthotropicSubstrate":
-        return cls(either_sign(rng, 0.03, 0.06))
+        return cls(either_sign(rng, *_ROLLED))
 
     def plate(self, true: TruePlate) -> TruePlate:
         return replace(true, substrate=replace(true.substrate, rolled=self.rolled))
 
     def at_hammer(self, plate: TruePlate, build: Build) -> tuple[TruePlate, Build]:
         return self.plate(plate), build
-
-
-@dataclass(frozen=True)
-class HiddenCoreThickness(Hidden):
-    """Thickness of the core."""
-
-    name: ClassVar[str] = "core_thickness"
-    place: ClassVar[str] = "core"
-    changes_solid: ClassVar[bool] = True
-
-    scale: float
-
-    @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenCoreThickness":
-        return cls(1 + either_sign(rng, 0.1, 0.15))
-
-    def plate(self, true: TruePlate) -> TruePlate:
-        c = true.core
-        assert c is not None
-        return replace(true, core=replace(c, thickness_m=c.thickness_m * self.scale))
 
 
 @dataclass(frozen=True)
@@ -134,7 +109,7 @@ class HiddenMissingPiece(Hidden):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenMissingPiece":
-        return cls(float(rng.uniform(0.08, 0.2)) * min(at.plate.length_m, at.plate.width_m))
+        return cls(float(rng.uniform(*_GONE)) * min(at.plate.length_m, at.plate.width_m))
 
     def build(self, build: Build, true: TruePlate) -> Build:
         start = true.length_m - self.side_m

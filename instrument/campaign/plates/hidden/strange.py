@@ -10,7 +10,19 @@ import numpy as np
 from fitting.arrays import Array
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden.base import Hidden, Setting, times
+from instrument.campaign.plates.hidden.sizes import LOOSENED
 from instrument.campaign.plates.solid import Build, Patch
+
+_CRACK_X, _CRACK_REACHES = (0.08, 0.5), (0.3, 0.7)
+"""Where it is, of the length, since plates break near their clamp; and how far it goes, of the width."""
+_CRACK_HALF, _CRACK_LEFT = 0.5, (0.15, 0.4)
+"""Half of the soft line's width, of the thickness; what is left of the stiffness: it does not go through."""
+_WAVY, _WAVY_LOST = (0.06, 0.12), (0.4, 0.75)
+"""Size of the wavy region, of the length; and what a wave takes of its stiffness."""
+_BLISTER, _BLISTER_EDGE = (0.08, 0.2), (0.1, 0.3)
+"""Radius of a blister, of the shorter side; and of that radius, over what the bond recovers."""
+_STUCK_ON = (1.0, 4.0)
+"""What sticks on, over the constraining layer under it."""
 
 
 @dataclass(frozen=True)
@@ -33,10 +45,10 @@ class HiddenCrackedSubstrate(Hidden):
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenCrackedSubstrate":
         length, width = at.plate.length_m, at.plate.width_m
         return cls(
-            float(rng.uniform(0.08, 0.5)) * length,
-            float(rng.uniform(0.3, 0.7)) * width,
-            0.5 * at.plate.substrate.thickness_m,
-            float(rng.uniform(0.15, 0.4)),
+            float(rng.uniform(*_CRACK_X)) * length,
+            float(rng.uniform(*_CRACK_REACHES)) * width,
+            _CRACK_HALF * at.plate.substrate.thickness_m,
+            float(rng.uniform(*_CRACK_LEFT)),
         )
 
     def _with_crack(self, build: Build) -> Build:
@@ -80,7 +92,7 @@ class HiddenWrinkledConstraining(Hidden):
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenWrinkledConstraining":
         length, width = at.plate.length_m, at.plate.width_m
         x, y = length * rng.uniform(0.15, 0.7), width * rng.uniform(0.2, 0.8)
-        return cls(float(x), float(y), length * float(rng.uniform(0.06, 0.12)), float(rng.uniform(0.4, 0.75)))
+        return cls(float(x), float(y), length * float(rng.uniform(*_WAVY)), float(rng.uniform(*_WAVY_LOST)))
 
     def build(self, build: Build, true: TruePlate) -> Build:
         def factor(x: Array, y: Array) -> Array:
@@ -109,14 +121,14 @@ class HiddenBlister(Hidden):
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenBlister":
         sides = np.array([at.plate.length_m, at.plate.width_m])
-        radius = float(rng.uniform(0.08, 0.2) * sides.min())
+        radius = float(rng.uniform(*_BLISTER) * sides.min())
         x, y = (rng.uniform(0.05, 0.95, 2) * sides).tolist()
-        return cls(x, y, radius, radius * float(rng.uniform(0.1, 0.3)))
+        return cls(x, y, radius, radius * float(rng.uniform(*_BLISTER_EDGE)))
 
     def build(self, build: Build, true: TruePlate) -> Build:
         def factor(x: Array, y: Array) -> Array:
             away = np.hypot(x - self.x_m, y - self.y_m)
-            return np.asarray(1 - 0.985 * (1 - np.tanh((away - self.radius_m) / self.edge_m)) / 2)
+            return np.asarray(1 - LOOSENED * (1 - np.tanh((away - self.radius_m) / self.edge_m)) / 2)
 
         return replace(build, core_factor=times(build.core_factor, factor))
 
@@ -144,7 +156,7 @@ class HiddenStiffener(Hidden):
         corner = rng.uniform([0.1, 0.0], [0.6, 0.4]) * sides
         constraining = at.plate.constraining
         assert constraining is not None
-        more = float(rng.uniform(1.0, 4.0))
+        more = float(rng.uniform(*_STUCK_ON))
         under = float(np.prod(size)) * constraining.thickness_m * constraining.density_kg_m3
         first, last = corner.tolist(), (corner + size).tolist()
         return cls((first[0], first[1]), (last[0], last[1]), 1 + more, more * under)

@@ -14,6 +14,7 @@ from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden import HIDDEN
 from instrument.campaign.plates.hidden.attached import HiddenTether, plate_mass_kg
 from instrument.campaign.plates.hidden.base import Attachment, Hidden, Setting
+from instrument.campaign.plates.hidden.sizes import CABLE_LOSS
 from instrument.campaign.plates.response import BaseMotion
 
 Place = tuple[float, float]
@@ -34,6 +35,17 @@ _CABLE_N_M = (150.0, 1500.0)
 """Thin coaxial cables to thick ones, taped down a hand's width away."""
 _ON_PADS = (0.12, 0.3)
 """Of the first resonance: where a plate bounces on pads that are not soft. A tenth is the rule."""
+
+_FOAM = (0.1, 0.4)
+"""Loss factor of pads."""
+_ASIDE_M, _EVERY_SPOT = (4e-3, 7e-3), 0.3
+"""From where a point should be, several tolerances; share of wrong corners that are wrong for all spots."""
+_GAIN = (0.04, 0.1)
+"""Of a mistyped sensitivity: beyond what a hammer's is known to."""
+_BOUNCE, _BOUNCE_S = (0.1, 0.5), (4e-3, 4e-2)
+"""Of a second blow: its size over the first one's, and how much later."""
+_RECORD_S, _WEIGHTED_TO = (0.8, 2.0), (1e-3, 5e-2)
+"""Length of records that are weighted by an exponential window, and what is left at their ends."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +74,7 @@ class HiddenOfBlows(Hidden):
 
 
 def _aside(rng: np.random.Generator) -> Place:
-    size, angle = float(rng.uniform(4e-3, 7e-3)), float(rng.uniform(-np.pi, np.pi))
+    size, angle = float(rng.uniform(*_ASIDE_M)), float(rng.uniform(-np.pi, np.pi))
     return size * float(np.cos(angle)), size * float(np.sin(angle))
 
 
@@ -79,7 +91,7 @@ class HiddenSpotElsewhere(HiddenOfBlows):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenSpotElsewhere":
-        return cls(*_aside(rng), every=bool(rng.random() < 0.3))
+        return cls(*_aside(rng), every=bool(rng.random() < _EVERY_SPOT))
 
     def of_spot(self, number: int, spot_m: Place) -> Place:
         return (spot_m[0] + self.dx_m, spot_m[1] + self.dy_m) if self.every or not number else spot_m
@@ -116,7 +128,7 @@ class HiddenGainOfASpot(HiddenOfBlows):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenGainOfASpot":
-        return cls(1 + either_sign(rng, 0.04, 0.1))
+        return cls(1 + either_sign(rng, *_GAIN))
 
     def of_reading(self, number: int, mobility: Complex) -> Complex:
         return mobility if number else mobility * self.factor
@@ -136,7 +148,7 @@ class HiddenDoubleHit(HiddenOfBlows):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenDoubleHit":
-        return cls(log_uniform(rng, 0.1, 0.5), log_uniform(rng, 4e-3, 4e-2))
+        return cls(log_uniform(rng, *_BOUNCE), log_uniform(rng, *_BOUNCE_S))
 
     def of_blows(self, blows: Blows) -> Blows:
         others = blows.bounce[1:], blows.late_s[1:]
@@ -156,8 +168,9 @@ class HiddenExponentialWindow(HiddenOfBlows):
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenExponentialWindow":
-        # Of records of a second or two, weighted down to 0.1 to 5 % at their ends.
-        return cls(float(rng.uniform(0.8, 2.0)) / -np.log(log_uniform(rng, 1e-3, 5e-2)), int(rng.integers(2)))
+        return cls(
+            float(rng.uniform(*_RECORD_S)) / -np.log(log_uniform(rng, *_WEIGHTED_TO)), int(rng.integers(2))
+        )
 
     def weighted(self) -> tuple[float, int]:
         return 1 / self.tau_s, self.integrations
@@ -172,7 +185,7 @@ class HiddenCable(HiddenTether):
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenCable":
         k, (x, y) = log_uniform(rng, *_CABLE_N_M), PLACES[int(rng.integers(1, len(PLACES)))]
-        damping = k * log_uniform(rng, 0.05, 0.4) / (2 * np.pi * at.resonances_hz[0])
+        damping = k * log_uniform(rng, *CABLE_LOSS) / (2 * np.pi * at.resonances_hz[0])
         return cls(k, damping, x * at.plate.length_m, y * at.plate.width_m, to_floor=True)
 
 
@@ -194,7 +207,7 @@ class HiddenPads(Hidden):
         bounces = 2 * np.pi * at.resonances_hz[0] * float(rng.uniform(*_ON_PADS))
         stiffness = float(plate_mass_kg(at.plate) * bounces**2 / 4)
         corners = tuple((x * at.plate.length_m, y * at.plate.width_m) for x, y in PLACES[:4])
-        return cls(stiffness, float(rng.uniform(0.1, 0.4)), corners)
+        return cls(stiffness, float(rng.uniform(*_FOAM)), corners)
 
     def points(self) -> tuple[Place, ...]:
         return self.corners_m

@@ -154,3 +154,38 @@ def test_another_place_is_one_in_every_file():
     assert len(found) == len(part.elsewhere(plate, u)) > 5
     assert all(one[-1] == 0.0 and (one[:3] == u[:3]).all() for one in found)
     assert not OfFiles(CATALOGUE["gain_error"], 2).elsewhere(plate, np.array([1.0, 0.0]))
+
+
+def test_two_masses_count_for_two_causes_among_files_too():
+    forms = among(CATALOGUE["added_masses"], 2, ()).variants()
+    assert {e.causes for e in forms} == {2}
+
+
+def test_what_is_of_one_segment_is_so_at_several_spots():
+    assert OfFiles(CATALOGUE["segment_gain"], 1, spots=(0, 1)).of_a_segment
+
+
+def test_a_drift_too_fast_to_believe_in_any_file_is_beyond():
+    drift = CATALOGUE["temperature_drift"]
+    calm, wild = np.array([1.0, 600.0]), np.array([20.0, 1.0])
+    each = OfFiles(drift, 2, EACH)
+    assert drift.is_beyond(wild)
+    assert each.is_beyond(np.array([*calm, *wild, EACH]))
+    assert not each.is_beyond(np.array([*calm, *calm, EACH]))
+    assert OfFiles(drift, 2, 2).is_beyond(np.array([*wild, 2]))
+
+
+def test_a_part_that_swings_between_the_points_of_all_files_is_not_shown_by_itself():
+    part = CATALOGUE["loose_part"].variants()[0]
+    points = SimpleNamespace(omega=2 * np.pi * np.linspace(50.0, 60.0, 101))
+    frequency = [q.key for q in part.parameters].index("frequency")
+    seen = np.array([q.typical for q in part.parameters])
+    seen[frequency] = 55.0
+    unseen = seen.copy()
+    unseen[frequency] = 90.0
+    poles = np.empty(0, complex)
+    common = OfFiles(part, 2)
+    assert common.shows(points, poles, np.append(seen, 0.0))
+    assert not common.shows(points, poles, np.append(unseen, 0.0))
+    each = OfFiles(part, 2, EACH)
+    assert each.shows(points, poles, np.array([*unseen, *seen, EACH]))

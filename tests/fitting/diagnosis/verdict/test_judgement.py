@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from verdict_cases import POOR_NONE, judged, scored
 
 from fitting.diagnosis.thresholds import VERDICT
-from fitting.diagnosis.verdict.judgement import judged_by_hand
+from fitting.diagnosis.verdict.judgement import beside_another_law, judged_by_hand
 from fitting.diagnosis.verdict.names import NONE
 from fitting.effects import CATALOGUE
 
@@ -326,3 +326,16 @@ def test_two_effects_of_which_one_has_no_size_are_not_sure(unsized, verdict):
     found = judged(POOR_NONE, pair, off={(): 9.0})
     assert found.verdict == verdict
     assert found.accepted is pair
+
+
+def test_another_law_is_not_told_from_what_data_show_as_one():
+    said = judged(POOR_NONE, scored("core_law", cost=0.0))
+    assert said.verdict == "effect"
+    beside = beside_another_law(said, ("amplitude_softening",))
+    assert (beside.verdict, beside.equivalent) == (
+        "ambiguous",
+        {"core_law": ("core_law", "amplitude_softening")},
+    )
+    assert beside_another_law(said, ()) is said
+    gain = judged(POOR_NONE, scored("gain_error", cost=0.0))
+    assert beside_another_law(gain, ("amplitude_softening",)) is gain

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from fitting.diagnosis.verdict.result import Diagnosis, Stage
 from fitting.identification.quoted import REFERENCE_FREQUENCIES_HZ
 from fitting.laws import CoreLaw
-from instrument.campaign.cases import Case
-from instrument.campaign.materials import TrueLaw
+from instrument.campaign.law import TrueLaw
+from instrument.campaign.plant.cases import Case
 from instrument.stream.jsonable import to_jsonable
 
 

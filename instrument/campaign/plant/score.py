@@ -7,9 +7,9 @@ from itertools import permutations
 
 import numpy as np
 
-from instrument.campaign.cases import KINDS, NONE, PAIR
-from instrument.campaign.outcome import Outcome, Said, StageFacts
-from instrument.campaign.severities import OF_THE_CHANNELS_ALONE, PLACES
+from instrument.campaign.plant.cases import KINDS, NONE, PAIR
+from instrument.campaign.plant.outcome import Outcome, Said, StageFacts
+from instrument.campaign.plant.severities import OF_THE_CHANNELS_ALONE, PLACES
 
 MOST_IN_GROUP = 3
 """A larger group names nothing."""

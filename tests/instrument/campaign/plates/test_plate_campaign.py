@@ -9,8 +9,10 @@ from coarse_solid import COARSE, MODULI, P2
 
 from fitting.dynamics.real_modes import real_modes
 from fitting.plate.plate import Plate
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates import cases, kept, simulate
 from instrument.campaign.plates.cases import NONE, PAIR, draw_case
+from instrument.campaign.plates.channel import ChannelError
 from instrument.campaign.plates.geometry import PLATES, plate_named
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.hidden import HIDDEN, STRANGE
@@ -23,15 +25,15 @@ from instrument.campaign.plates.hidden.base import Setting
 from instrument.campaign.plates.hidden.core import HiddenAmplitudeSoftening
 from instrument.campaign.plates.hidden.layers import HiddenMissingPiece
 from instrument.campaign.plates.materials import KINDS as LAWS
-from instrument.campaign.plates.materials import LOSS, STORAGE_PA, PlateMaterialLaw, draw_law
+from instrument.campaign.plates.materials import LOSS, STORAGE_PA, draw_law
 from instrument.campaign.plates.reduced import reduced
 from instrument.campaign.plates.response import BaseMotion, Shaken, remaining_damping
 from instrument.campaign.plates.schedule import Schedule
-from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, reading
+from instrument.campaign.plates.simulate import built, moduli_of, reading
 from instrument.campaign.plates.solid import Build, RootSprings, Solid, factorised
 from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
 
-LAW = PlateMaterialLaw("fractional-zener", (0.4e6, 8e6, 2e-4, 0.7))
+LAW = TrueLaw("fractional-zener", (0.4e6, 8e6, 2e-4, 0.7))
 
 pytestmark = pytest.mark.usefixtures("coarse_plates")
 

@@ -10,11 +10,11 @@ from scipy.sparse.linalg import splu
 from fitting.dynamics.damping import viscous_damping
 from fitting.dynamics.direct import displacement_direct
 from fitting.plate.plate import Plate
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates.geometry import plate_named
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.hidden import HIDDEN
 from instrument.campaign.plates.hidden.clamp import HiddenClampCompliance
-from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.simulate import moduli_of
 from instrument.campaign.plates.solid import Build, Patch, Solid
 from instrument.campaign.plates.struck import lines_about, mobilities_of_free, mobility, struck_plate
@@ -23,7 +23,7 @@ from instrument.files.specimen_file import read_specimen
 
 COARSE = Fineness(5, 3, (0.5, 2.0), (1.0,))
 P2 = plate_named("P2")
-LAW = PlateMaterialLaw("fractional-zener", (0.4e6, 8e6, 2e-4, 0.7))
+LAW = TrueLaw("fractional-zener", (0.4e6, 8e6, 2e-4, 0.7))
 FORCES_M = [(0.03, 0.02), (0.31, 0.16), (0.18, 0.17)]
 SPOTS_M = [(0.05, 0.15), (0.27, 0.03)]
 MASS = Patch(8e-3, 0.241, 0.052, 0.01)

@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 
 from fitting.laws.fractional_zener import FractionalZener
-from instrument.campaign.cases import draw
-from instrument.campaign.outcome import (
+from instrument.campaign.plant.cases import draw
+from instrument.campaign.plant.outcome import (
     Outcome,
     Said,
     StageFacts,
@@ -16,8 +16,18 @@ from instrument.campaign.outcome import (
     line_of,
     outcome_of,
 )
-from instrument.campaign.score import answer, confusion, in_group, law_errors, of_hidden, right, score, scores
-from instrument.campaign.tables import markdown, summary
+from instrument.campaign.plant.score import (
+    answer,
+    confusion,
+    in_group,
+    law_errors,
+    of_hidden,
+    right,
+    score,
+    scores,
+)
+from instrument.campaign.plant.tables import summary
+from instrument.campaign.tables import markdown
 
 BEFORE = StageFacts(9.0, 4.0, 5.0, 2, (10.0, -20.0, 30.0), (1.0, 1.0, -60.0))
 AFTER = StageFacts(1.1, 0.9, 1.2, 0, (0.1, -0.2, 0.3), (0.4, 0.5, -0.6))

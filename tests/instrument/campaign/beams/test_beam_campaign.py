@@ -34,18 +34,20 @@ from instrument.campaign.beams.hidden.core import (
 )
 from instrument.campaign.beams.hidden.layers import HiddenCoreThickness, HiddenSubstrateStiffness
 from instrument.campaign.beams.judged import diagnosed, identified
-from instrument.campaign.beams.run import ROTATION, beam_jobs, run_beams, write_beam_summary
+from instrument.campaign.beams.run import ROTATION, run_beams, write_beam_summary
 from instrument.campaign.beams.simulate import BuiltBeam, built, level_unit, reading, resonances
 from instrument.campaign.beams.stated import beam_from, draw_stated, toml
 from instrument.campaign.beams.visible import visible_chi2
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates.answers import Answer, Band, outcome_of
-from instrument.campaign.plates.materials import PlateMaterialLaw
+from instrument.campaign.plates.asked import Asked
 from instrument.campaign.plates.score import named
 from instrument.campaign.plates.stated import CAREFUL
+from instrument.campaign.run import in_rotation
 from instrument.campaign.schedule import Schedule
-from instrument.cli.bench import bench
+from instrument.cli.campaign import campaign
 
-LAW = PlateMaterialLaw("fractional-zener", (0.4e6, 8e6, 1e-4, 0.7))
+LAW = TrueLaw("fractional-zener", (0.4e6, 8e6, 1e-4, 0.7))
 STRIP, STRUCK, FREE = beam_named("strip"), beam_named("struck"), beam_named("free")
 
 
@@ -102,7 +104,7 @@ def test_without_poissons_ratio_the_solid_is_the_beam_of_the_fit():
         constraining=replace(STRIP.constraining, poisson=0.0),
     )
     specimen = beam_from(toml(flat, None, 100.0))
-    law = PlateMaterialLaw("fractional-zener", tuple(specimen.core.law.values))
+    law = TrueLaw("fractional-zener", tuple(specimen.core.law.values))
     f = np.array([15.0, 29.0, 100.0, 172.0, 300.0, 470.0])
     found = level_unit(flat) * reading(built(flat, pieces=16), law, at(*f))
     np.testing.assert_allclose(found, small_velocity(specimen, f), rtol=0.02)
@@ -241,8 +243,8 @@ def honest(case):
 
 
 def test_a_campaign_is_scored_and_told(tmp_path):
-    jobs = beam_jobs(2, 11, ("none", "spot_offset"))
-    lines = run_beams(jobs, tmp_path, identify=right, diagnose=honest, workers=1)
+    jobs = in_rotation(("none", "spot_offset"), 2, 11)
+    lines = run_beams(jobs, tmp_path, Asked(identify=right, diagnose=honest), workers=1)
     text = write_beam_summary(lines, tmp_path)
     assert "# 2 sweeps of" in text
     assert "solid beams" in text
@@ -254,9 +256,9 @@ def test_a_campaign_is_scored_and_told(tmp_path):
 
 
 def test_the_command_runs_it(tmp_path, monkeypatch):
-    monkeypatch.setattr("instrument.cli.bench.beam_identified", right)
+    monkeypatch.setattr("instrument.cli.campaign.beam_identified", right)
     options = ["--count", "1", "--kind", NONE, "--workers", "1", "--law-alone"]
-    said = CliRunner().invoke(bench, ["--beams", str(tmp_path), *options])
+    said = CliRunner().invoke(campaign, ["beams", str(tmp_path), *options])
     assert said.exit_code == 0, said.output
     assert "| none | identify |" in said.output
 
@@ -270,7 +272,7 @@ def test_what_shows_is_what_no_law_takes_up():
 
 
 def test_every_kind_is_in_rotation():
-    assert {job.kind for job in beam_jobs(len(ROTATION), 0)} == set(KINDS) - set(ON_REQUEST)
+    assert set(ROTATION) == set(KINDS) - set(ON_REQUEST)
 
 
 @pytest.mark.long

@@ -9,8 +9,10 @@ import pytest
 from click.testing import CliRunner
 
 from fitting.gravity import PUBLISHED_G_M_S2
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates import apart, kept, remeasured, weak_effects
 from instrument.campaign.plates.cases import PlateTruth, measured
+from instrument.campaign.plates.channel import ChannelError
 from instrument.campaign.plates.geometry import plate_named
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.hidden import HIDDEN
@@ -19,22 +21,21 @@ from instrument.campaign.plates.hidden.clamp import (
     HiddenClampFriction,
     HiddenClampLine,
 )
-from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.noise import draw_noise
 from instrument.campaign.plates.remeasured import RemeasuredPlate
-from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, reading
+from instrument.campaign.plates.simulate import built, moduli_of, reading
 from instrument.campaign.plates.stated import specimen_from, toml
 from instrument.campaign.plates.struck import struck_plate
 from instrument.campaign.run import Job
 from instrument.campaign.schedule import Schedule
-from instrument.cli.bench import bench
+from instrument.cli.campaign import campaign
 from instrument.facts.follow_up import FollowUp
 from instrument.models.files import File
 
 COARSE = Fineness(5, 3, (0.5, 2.0), (1.0,))
 MODULI = (0.3e6, 1e6, 4e6)
 P2 = plate_named("P2")
-LAW = PlateMaterialLaw("fractional-zener", (0.35e6, 6e6, 1e-4, 0.6))
+LAW = TrueLaw("fractional-zener", (0.35e6, 6e6, 1e-4, 0.6))
 CLAMP = HiddenClampCompliance(3e13, 3e13, 4, 0.02, 0.4)
 OFFSET_M = 3e-3
 
@@ -279,13 +280,11 @@ def test_a_certain_wrong_name_is_told_from_a_group_that_stays(monkeypatch, tmp_p
 
 def test_the_command_draws_kinds_in_turn_and_refuses_those_that_it_has_not(monkeypatch, tmp_path):
     asked = []
-    monkeypatch.setattr("instrument.cli.bench.run_apart", lambda jobs, *a, **k: asked.extend(jobs) or [])
-    monkeypatch.setattr("instrument.cli.bench.write_apart_summary", lambda *a: "said")
-    result = CliRunner().invoke(bench, ["--apart", str(tmp_path), "--count", "8", "--seed", "3"])
+    monkeypatch.setattr("instrument.cli.campaign.run_apart", lambda jobs, *a, **k: asked.extend(jobs) or [])
+    monkeypatch.setattr("instrument.cli.campaign.write_apart_summary", lambda *a: "said")
+    result = CliRunner().invoke(campaign, ["apart", str(tmp_path), "--count", "8", "--seed", "3"])
     assert result.output.strip() == "said"
     assert [job.kind for job in asked] == [*weak_effects.WEAK, weak_effects.WEAK[0]]
     assert [job.seed for job in asked] == list(range(3, 11))
-    refused = CliRunner().invoke(bench, ["--apart", str(tmp_path), "--kind", "mains_hum"])
+    refused = CliRunner().invoke(campaign, ["apart", str(tmp_path), "--kind", "mains_hum"])
     assert refused.exit_code != 0
-    both = CliRunner().invoke(bench, ["--apart", str(tmp_path), "--plates", str(tmp_path)])
-    assert "expected one of them" in str(both.exception)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from coarse_solid import COARSE, MODULI, P2
 
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.plates.blows import draw_blows
 from instrument.campaign.plates.hidden import HIDDEN
 from instrument.campaign.plates.hidden.attached import plate_mass_kg
@@ -22,7 +23,6 @@ from instrument.campaign.plates.hidden.struck import (
     HiddenSpotElsewhere,
     draw_hidden_in_struck,
 )
-from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.reduced import reduced
 from instrument.campaign.plates.solid import Build, Solid
 from instrument.campaign.plates.struck_readings import (
@@ -35,7 +35,7 @@ from instrument.campaign.plates.struck_readings import (
     through_channels,
 )
 
-LAW = PlateMaterialLaw("fractional-zener", (0.4e6, 8e6, 2e-4, 0.7))
+LAW = TrueLaw("fractional-zener", (0.4e6, 8e6, 2e-4, 0.7))
 OF = 110.0, 260.0, 380.0
 F = np.array([2.0, 60.0, 150.0, 310.0])
 HITS, SPOTS = [(0.03, 0.02)], [(0.27, 0.03), (0.05, 0.15)]

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from instrument.campaign.beams.run import ROTATION as BEAMS
+from instrument.campaign.plant.schedule import draw_schedule
 from instrument.campaign.plates.cases import KINDS
+from instrument.campaign.plates.hidden.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
 from instrument.campaign.plates.run import ROTATION as PLATES
-from instrument.campaign.room import RoomCycles, RoomStep, arrhenius, draw_cycles, draw_step
-from instrument.campaign.schedule import draw_schedule
 
 
 def test_it_goes_up_and_down_in_straight_lines_about_its_mean():

@@ -10,13 +10,15 @@ from click.testing import CliRunner
 from fitting.data.noise import noise_of
 from instrument.campaign.plates import visible
 from instrument.campaign.plates.answers import Answer, Band, line_of, outcome_from, outcome_of
+from instrument.campaign.plates.asked import Asked
 from instrument.campaign.plates.cases import KINDS, NONE, draw_case
 from instrument.campaign.plates.hidden import ON_REQUEST
 from instrument.campaign.plates.judged import left_out
-from instrument.campaign.plates.run import plate_jobs, run_plates
+from instrument.campaign.plates.run import ROTATION, run_plates
 from instrument.campaign.plates.score import reliability, score, traces
 from instrument.campaign.plates.tables import summary
-from instrument.cli.bench import bench
+from instrument.campaign.run import in_rotation
+from instrument.cli.campaign import campaign
 from instrument.errors import BadInput
 
 pytestmark = pytest.mark.usefixtures("coarse_plates")
@@ -117,16 +119,19 @@ def no_effect(case):
     return answered(case, "none", stated={"none": 1.0}).said
 
 
+ASKED = Asked(identify=true_band, diagnose=no_effect)
+
+
 def test_a_campaign_goes_on_where_it_was_stopped(tmp_path):
-    jobs = plate_jobs(3, seed=11, kinds=(NONE, "gain_error"))
-    first = run_plates(jobs[:2], tmp_path, identify=true_band, diagnose=no_effect, workers=1)
+    jobs = in_rotation((NONE, "gain_error"), 3, 11)
+    first = run_plates(jobs[:2], tmp_path, ASKED, workers=1)
     with open(tmp_path / "outcomes.jsonl", "a", encoding="utf-8") as file:
         file.write('{"kind": "none", "se')
-    lines = run_plates(jobs, tmp_path, identify=true_band, diagnose=no_effect, workers=1)
+    lines = run_plates(jobs, tmp_path, ASKED, workers=1)
     assert [line["seed"] for line in lines] == [11, 12, 13]
     assert lines[:2] == first
     with pytest.raises(BadInput, match="other sources or options"):
-        run_plates(jobs, tmp_path, exact=True, identify=true_band, diagnose=no_effect, workers=1)
+        run_plates(jobs, tmp_path, ASKED, exact=True, workers=1)
 
 
 def test_what_contains_the_true_one_is_left_out_with_it():
@@ -142,14 +147,14 @@ def test_what_contains_the_true_one_is_left_out_with_it():
 
 def summary_of_one(folder, kind, how):
     options = ["--count", "1", "--seed", "11", "--kind", kind, "--workers", "1"]
-    result = CliRunner().invoke(bench, ["--plates", str(folder), how, *options])
+    result = CliRunner().invoke(campaign, ["plates", str(folder), how, *options])
     assert result.exit_code == 0, result.output
     return result.output
 
 
 def test_the_command_runs_it_and_keeps_the_summary(tmp_path, monkeypatch):
-    monkeypatch.setattr("instrument.cli.bench.diagnosed_without_the_truth", no_effect)
-    monkeypatch.setattr("instrument.cli.bench.visible_chi2", thirty)
+    monkeypatch.setattr("instrument.cli.campaign.diagnosed_without_the_truth", no_effect)
+    monkeypatch.setattr("instrument.cli.campaign.visible_chi2", thirty)
     said = summary_of_one(tmp_path, "gain_error", "--without-truth")
     assert "gain_error" in said
     assert "| 20 to 40 | 1 | 0 | 0 | 0 |" in said
@@ -157,36 +162,42 @@ def test_the_command_runs_it_and_keeps_the_summary(tmp_path, monkeypatch):
 
 
 def test_the_law_alone_can_be_asked_for_and_nothing_is_said_of_names(tmp_path, monkeypatch):
-    monkeypatch.setattr("instrument.cli.bench.identified", true_band)
+    monkeypatch.setattr("instrument.cli.campaign.identified", true_band)
     said = summary_of_one(tmp_path, "none", "--law-alone")
     assert "| none | identify | 3 | 1.00 | 1.00 |" in said
     assert "Naming" not in said
 
 
 def test_the_command_takes_kinds_of_one_campaign_only(tmp_path):
-    result = CliRunner().invoke(bench, ["--plates", str(tmp_path), "--kind", "mains_hum"])
-    assert isinstance(result.exception, BadInput)
+    result = CliRunner().invoke(campaign, ["plates", str(tmp_path), "--kind", "mains_hum"])
+    assert result.exit_code == 2
+    assert "'mains_hum' is not one of" in result.output
 
 
 def test_every_kind_is_in_rotation():
-    assert {job.kind for job in plate_jobs(60, 0)} == set(KINDS) - set(ON_REQUEST)
+    assert set(ROTATION) == set(KINDS) - set(ON_REQUEST)
 
 
 @pytest.mark.parametrize(("least", "diagnosed"), [("20", True), ("40", False)])
 def test_what_shows_too_little_is_drawn_and_not_diagnosed(tmp_path, monkeypatch, least, diagnosed):
-    monkeypatch.setattr("instrument.cli.bench.diagnosed", no_effect)
-    monkeypatch.setattr("instrument.cli.bench.visible_chi2", thirty)
+    monkeypatch.setattr("instrument.cli.campaign.diagnosed", no_effect)
+    monkeypatch.setattr("instrument.cli.campaign.visible_chi2", thirty)
     options = ["--count", "2", "--seed", "11", "--kind", "gain_error", "--workers", "1", "--shows", least]
-    said = CliRunner().invoke(bench, ["--plates", str(tmp_path), *options]).output
+    said = CliRunner().invoke(campaign, ["plates", str(tmp_path), *options]).output
     assert said.startswith(f"# {2 * diagnosed} sweeps")
     assert ("2 more were drawn in which what is hidden shows too little." in said) is not diagnosed
 
 
-@pytest.mark.parametrize("more", [[], ["--plates", "x", "--law-alone"], ["--apart", "x"]])
-def test_what_shows_is_asked_of_diagnoses_on_solids_alone(tmp_path, monkeypatch, more):
-    monkeypatch.chdir(tmp_path)
-    if not more:
-        more = ["--diagnosis", "x"]
-    found = CliRunner().invoke(bench, [*more, "--shows", "20"])
+@pytest.mark.parametrize(
+    "asked", [["plates", "--shows", "20"], ["plates", "--without-truth"], ["beams", "--shows", "20"]]
+)
+def test_what_is_of_diagnoses_is_refused_beside_the_law_alone(tmp_path, asked):
+    of, *more = asked
+    found = CliRunner().invoke(campaign, [of, str(tmp_path), "--law-alone", *more])
     assert isinstance(found.exception, BadInput)
-    assert "--shows is of diagnoses with --plates or --beams" in str(found.exception)
+    assert f"{more[0]} is of diagnoses" in str(found.exception)
+
+
+@pytest.mark.parametrize("of", ["plant", "apart"])
+def test_what_shows_is_asked_of_solids_that_are_diagnosed_once(tmp_path, of):
+    assert CliRunner().invoke(campaign, [of, str(tmp_path), "--shows", "20"]).exit_code == 2

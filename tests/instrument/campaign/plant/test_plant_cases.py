@@ -9,14 +9,16 @@ from hypothesis import strategies as st
 
 from drivers.simulated.plant.effects import Effects
 from fitting.data.noise import noise_of
-from instrument.campaign.cases import KINDS, Truth, clean, draw, measured, nominal_specimen
-from instrument.campaign.channels import TrueChannels
-from instrument.campaign.materials import TrueLaw, deviation, draw_strange_material, nearest_zener
+from instrument.campaign.law import TrueLaw
 from instrument.campaign.noise import DRIVE_PHASE_RAD, NoiseFigures, peaks
-from instrument.campaign.plant_sweep import Steady, steady
-from instrument.campaign.schedule import Schedule, draw_schedule
-from instrument.campaign.severities import OF_THE_CHANNELS_ALONE, PLACES
-from instrument.campaign.visibility import visible_chi2
+from instrument.campaign.plant.cases import KINDS, Truth, clean, draw, measured, nominal_specimen
+from instrument.campaign.plant.channels import TrueChannels
+from instrument.campaign.plant.materials import deviation, draw_strange_material, nearest_zener
+from instrument.campaign.plant.response import Steady, steady
+from instrument.campaign.plant.schedule import draw_schedule
+from instrument.campaign.plant.severities import OF_THE_CHANNELS_ALONE, PLACES
+from instrument.campaign.plant.visible import visible_chi2
+from instrument.campaign.schedule import Schedule
 
 ZENER = TrueLaw("fractional-zener", (0.27e6, 4.1e6, 1.21e-4, 0.83))
 FIGURES = NoiseFigures(0.006, 0.002)
@@ -37,7 +39,7 @@ def quick_plate(monkeypatch):
         v = 1j * omega / ((2 * np.pi * 19.0) ** 2 * (1 + 0.3j) - omega**2)
         return Steady(v, np.abs(v), modulus(omega))
 
-    monkeypatch.setattr("instrument.campaign.cases.steady", one_resonance)
+    monkeypatch.setattr("instrument.campaign.plant.cases.steady", one_resonance)
 
 
 def phasors(case):
@@ -166,14 +168,6 @@ def test_strange_laws_are_off_every_fractional_zener_and_plain_ones_are_not():
     assert all(deviation(law, omega) > 0.015 for law in strange)
     assert deviation(ZENER, omega) < 1e-6
     np.testing.assert_allclose(nearest_zener(ZENER, omega).values, ZENER.values, rtol=1e-4)
-
-
-def test_a_ghm_core_goes_from_rest_to_glass_and_takes_energy():
-    law = TrueLaw("ghm", (0.2e6, 1.0, 3.0, 1e3, 6.0, 2.0, 2e4))
-    low, high = law.modulus(np.array([1e-6, 1e9]))
-    assert low == pytest.approx(0.2e6)
-    assert high == pytest.approx(0.2e6 * 8, rel=1e-3)
-    assert (law.modulus(np.geomspace(1, 1e6, 50)).imag > 0).all()
 
 
 def test_softening_is_stated_at_the_first_mode_at_one_g():

@@ -8,7 +8,7 @@ import pytest
 from instrument.campaign.beams.cases import draw_case as draw_beam
 from instrument.campaign.beams.hidden.clamp import HiddenTreatmentNotGripped
 from instrument.campaign.beams.judged import diagnosed as beam_diagnosed
-from instrument.campaign.cases import PAIR, draw
+from instrument.campaign.plant.cases import PAIR, draw
 from instrument.campaign.plates.cases import draw_case
 from instrument.campaign.plates.judged import diagnosed
 from instrument.models.diagnosis import diagnose

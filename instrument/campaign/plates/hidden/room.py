@@ -7,11 +7,21 @@ import numpy as np
 
 from fitting.arrays import Array
 from instrument.campaign.draws import either_sign, log_uniform
+from instrument.campaign.plates.hidden.sizes import ACTIVATION_J_MOL
 from instrument.campaign.schedule import Schedule
 
 GAS_J_MOL_K = 8.314
 ROOM_K = 296.0
 _SHORTEST_S = 120.0
+"""Of a cycle: an air conditioning does not go on and off within less."""
+_CYCLES, _UP = (1.2, 6.0), (0.3, 0.7)
+"""Cycles within a sweep; share of each in which it warms."""
+_SWING_K = (0.4, 1.5)
+"""Of the core, either way: half of a room's, or less."""
+_SHORTEST_DAY_S, _PAUSES = 600.0, (1.5, 60.0)
+"""Pauses over the sweep's own duration, or this where it is shorter: a break to some days."""
+_ANOTHER_DAY_K = (0.7, 3.5)
+"""What a room is warmer or colder by another day."""
 
 
 def arrhenius(kelvin: Array, activation_j_mol: float) -> Array:
@@ -48,9 +58,9 @@ class RoomCycles:
 
 def draw_cycles(rng: np.random.Generator, duration_s: float) -> tuple[float, float, float, float, float]:
     """Numbers of `RoomCycles` that matter: of core temperatures, which follow a room's by half or less."""
-    period = max(duration_s / log_uniform(rng, 1.2, 6.0), _SHORTEST_S)
-    shape = float(rng.uniform(0, 1)), float(rng.uniform(0.3, 0.7))
-    return (float(rng.uniform(0.4, 1.5)), period, *shape, float(rng.uniform(70e3, 130e3)))
+    period = max(duration_s / log_uniform(rng, *_CYCLES), _SHORTEST_S)
+    shape = float(rng.uniform(0, 1)), float(rng.uniform(*_UP))
+    return (float(rng.uniform(*_SWING_K)), period, *shape, float(rng.uniform(*ACTIVATION_J_MOL)))
 
 
 @dataclass(frozen=True)
@@ -80,5 +90,5 @@ class RoomStep:
 def draw_step(rng: np.random.Generator, duration_s: float, passes: int) -> tuple[float, int, float, float]:
     """Numbers of `RoomStep` that matter."""
     after = int(rng.integers(1, passes))
-    pause = max(duration_s, 600.0) * log_uniform(rng, 1.5, 60.0)
-    return either_sign(rng, 0.7, 3.5), after, pause, float(rng.uniform(70e3, 130e3))
+    pause = max(duration_s, _SHORTEST_DAY_S) * log_uniform(rng, *_PAUSES)
+    return either_sign(rng, *_ANOTHER_DAY_K), after, pause, float(rng.uniform(*ACTIVATION_J_MOL))

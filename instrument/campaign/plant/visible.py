@@ -8,8 +8,9 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from fitting.arrays import Array
-from instrument.campaign.cases import Case, Truth, clean
-from instrument.campaign.materials import TrueLaw, nearest_zener
+from instrument.campaign.law import TrueLaw
+from instrument.campaign.plant.cases import Case, Truth, clean
+from instrument.campaign.plant.materials import nearest_zener
 from instrument.campaign.schedule import Schedule
 
 _MOST_EVALUATIONS = 8

@@ -1,13 +1,10 @@
 """The core's true laws: fractional Zener as the model has it, and others that it cannot follow."""
 
-from dataclasses import dataclass
-
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.optimize import least_squares
 
-from drivers.simulated.plant.law import MaxwellLaw, fractional_zener
 from fitting.arrays import Array, Complex
+from instrument.campaign.law import TrueLaw
 
 _LEAST_RMS = 0.015
 """Relative deviation of a strange law from the nearest fractional Zener over the measured frequencies."""
@@ -15,35 +12,6 @@ _MOST_RMS = 0.08
 _PLAIN_PA = (0.15e6, 3e6)
 """Storage modulus that a core has between 14 and 310 Hz."""
 _PLAIN_LOSS = (0.1, 1.6)
-
-
-@dataclass(frozen=True)
-class TrueLaw:
-    """G*(omega) by its kind and numbers, in SI units.
-
-    fractional-zener: g0, ginf, tau, alpha. maxwell: g_inf, then pairs g, tau. ghm (Golla, Hughes 1985):
-    g_inf, then triples a, zeta, w; s = i omega, with which
-    G* = g_inf (1 + sum a (s^2 + 2 zeta w s) / (s^2 + 2 zeta w s + w^2)).
-    """
-
-    kind: str
-    values: tuple[float, ...]
-
-    def modulus(self, omega: ArrayLike) -> Complex:
-        """In Pa, of the shape of `omega` (rad/s). Raises `ValueError` for an unknown kind."""
-        w = np.asarray(omega, dtype=float)
-        if self.kind == "fractional-zener":
-            return fractional_zener(*self.values)(w)
-        first, *rest = self.values
-        if self.kind == "maxwell":
-            return MaxwellLaw(first, tuple(rest[0::2]), tuple(rest[1::2])).modulus(w)
-        if self.kind == "ghm":
-            s = 1j * w
-            G = np.ones(w.shape, dtype=complex)
-            for a, zeta, wk in zip(rest[0::3], rest[1::3], rest[2::3], strict=True):
-                G += a * (s**2 + 2 * zeta * wk * s) / (s**2 + 2 * zeta * wk * s + wk**2)
-            return np.asarray(first * G)
-        raise ValueError(f"law kind {self.kind!r}, expected fractional-zener, maxwell or ghm")
 
 
 def draw_material(rng: np.random.Generator) -> TrueLaw:

@@ -10,11 +10,11 @@ from drivers.simulated.plant.law import ZN1
 from drivers.simulated.plant.shaken import ShakenPlate
 from drivers.simulated.plant.slow_change import SlowChange
 from fitting.identification.bare_plate import fit_bare_plate
-from instrument.campaign.cases import nominal_specimen
-from instrument.campaign.channels import TrueChannels
-from instrument.campaign.hammer import hammer_test
-from instrument.campaign.materials import TrueLaw
-from instrument.campaign.plant_sweep import steady
+from instrument.campaign.law import TrueLaw
+from instrument.campaign.plant.cases import nominal_specimen
+from instrument.campaign.plant.channels import TrueChannels
+from instrument.campaign.plant.hammer import hammer_test
+from instrument.campaign.plant.response import steady
 
 FREQUENCIES_HZ = np.array([14.5, 19.3, 100.5, 109.0, 281.1, 305.0])
 REACHED = 5e-6

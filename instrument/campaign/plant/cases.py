@@ -25,24 +25,24 @@ from drivers.simulated.plant.effects import (
 from fitting.arrays import Array, Complex
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
-from instrument.campaign.channels import TrueChannels
-from instrument.campaign.hammer import hammer_test
-from instrument.campaign.materials import TrueLaw, draw_material, draw_strange_material
-from instrument.campaign.noise import NoiseFigures, draw_noise, peaks
-from instrument.campaign.plant_sweep import steady
-from instrument.campaign.schedule import Schedule, draw_schedule
-from instrument.campaign.severities import OF_THE_CHANNELS_ALONE, PLACES, Severity, draw_severity
+from instrument.campaign.draws import two_apart
+from instrument.campaign.law import TrueLaw
+from instrument.campaign.noise import NoiseFigures, draw_figures, peaks
+from instrument.campaign.plant.channels import TrueChannels
+from instrument.campaign.plant.hammer import hammer_test
+from instrument.campaign.plant.materials import draw_material, draw_strange_material
+from instrument.campaign.plant.response import steady
+from instrument.campaign.plant.schedule import draw_schedule
+from instrument.campaign.plant.severities import OF_THE_CHANNELS_ALONE, PLACES, Severity, draw_severity
+from instrument.campaign.schedule import Schedule, draw_levels
 from instrument.files.specimen_file import read_specimen
 from instrument.simulated_case import case_file
 
 NONE, PAIR = "none", "pair"
 KINDS = (NONE, *PLACES, PAIR)
 """`none`, each effect by its name, `pair`."""
-_THREE_LEVELS = (0.25, 0.5, 1.0)
-_ONE_LEVEL_SHARE = {"amplitude_softening": 1 / 3}
-"""Of cases at 1 g alone; `_ONE_LEVEL_ELSE` of all others."""
-_ONE_LEVEL_ELSE = 0.9
 _HAMMER_SHARE = 0.5
+"""Of cases: with and without a hammer test are compared."""
 
 _PLANT: dict[str, Any] = {
     "clamp_compliance": ClampCompliance,
@@ -99,8 +99,7 @@ def draw(kind: str, seed: int) -> Case:
     """A random case of one of `KINDS`, always the same for the same seed."""
     rng = np.random.default_rng([seed, *kind.encode()])
     names = _names(kind, rng)
-    alone = min((_ONE_LEVEL_SHARE.get(name, _ONE_LEVEL_ELSE) for name in names), default=_ONE_LEVEL_ELSE)
-    schedule = draw_schedule(rng, (1.0,) if rng.random() < alone else _THREE_LEVELS)
+    schedule = draw_schedule(rng, draw_levels(rng, names))
     strange = "core_law" in names
     law = draw_strange_material(rng, schedule.frequency_hz) if strange else draw_material(rng)
     severities = {name: draw_severity(name, rng) for name in names}
@@ -108,7 +107,7 @@ def draw(kind: str, seed: int) -> Case:
     if "amplitude_softening" in severities:
         reference = _first_mode_strain(law, schedule, specimen.base_acceleration_m_s2)
         severities["amplitude_softening"]["reference_strain"] = reference
-    truth = Truth(severities, law, draw_noise(rng))
+    truth = Truth(severities, law, draw_figures(rng))
     sweep = measured(truth, schedule, specimen.base_acceleration_m_s2, rng)
     hammer = hammer_test(plant_effects(severities), rng) if rng.random() < _HAMMER_SHARE else None
     return Case(kind, seed, sweep, specimen, hammer, truth)
@@ -121,11 +120,7 @@ def _names(kind: str, rng: np.random.Generator) -> tuple[str, ...]:
         if kind not in PLACES:
             raise ValueError(f"kind {kind!r}, expected one of {', '.join(KINDS)}")
         return (kind,)
-    able = [name for name in PLACES if name not in OF_THE_CHANNELS_ALONE]
-    while True:
-        first, second = (str(name) for name in rng.choice(able, 2, replace=False))
-        if PLACES[first] != PLACES[second]:
-            return first, second
+    return two_apart(rng, {name: at for name, at in PLACES.items() if name not in OF_THE_CHANNELS_ALONE})
 
 
 def _first_mode_strain(law: TrueLaw, schedule: Schedule, g_m_s2: float) -> float:
@@ -191,12 +186,4 @@ def measured(truth: Truth, schedule: Schedule, g_m_s2: float, rng: np.random.Gen
         of_noise = truth.noise.fraction_of_peak * np.median(peaks(np.abs(still), schedule.sweep))
         humming = replace(channels, hum_m_s=float(hum["noises"]) * float(of_noise))
         velocity = velocity + humming.hum(schedule.frequency_hz, rng)
-    return Sweep(
-        frequency_hz=schedule.frequency_hz,
-        velocity_m_s=velocity,
-        commanded_m_s2=commanded,
-        segment=schedule.segment,
-        sweep=schedule.sweep,
-        base_m_s2=base,
-        time_s=schedule.time_s,
-    )
+    return schedule.read(velocity, commanded, base)
