@@ -6,7 +6,7 @@ import numpy as np
 
 from fitting.diagnosis.inference.marginal import cost
 from fitting.diagnosis.inference.refit import refit
-from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.inference.refitted import Refitted, by_chi2
 from fitting.diagnosis.search.catalogue_search import ScoredFit
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -82,4 +82,4 @@ def _without(begun: BegunModal, k: int) -> Refitted | None:
             found.append(refit(begun.problem.response(), begun.evidence, law, 0 * begun.none.u, points=rest))
         except (OutsideModel, np.linalg.LinAlgError):
             continue
-    return min(found, key=lambda fit: fit.chi2, default=None)
+    return min(found, key=by_chi2, default=None)
