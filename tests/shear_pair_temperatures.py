@@ -33,11 +33,11 @@ def alone(each):
 
 
 def fitted(laws, kind="free", *, vertical=False, known=True):
-    """The task, the fit, and each temperature by itself."""
+    """The problem, the fit, and each temperature by itself."""
     each = [begun(k, law, known=known) for k, law in enumerate(laws)]
-    task = TemperatureProblem(Sweeps.of(each), Shift(kind, T, REFERENCE), vertical)
-    z = task.stated([b.none.z for b in each])
-    return task, fit_shifted(task, [b.none.law for b in each], z), each
+    problem = TemperatureProblem(Sweeps.of(each), Shift(kind, T, REFERENCE), vertical)
+    z = problem.stated([b.none.z for b in each])
+    return problem, fit_shifted(problem, [b.none.law for b in each], z), each
 
 
 def shifted(b=(1.0, 1.0, 1.0)):

@@ -6,7 +6,7 @@ One rule: a line that was begun before it was asked for is no answer. It may be 
 import time
 
 from drivers.chamber import ascii_line
-from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
+from drivers.errors import Garbled, Refused
 from drivers.serial_line import SLICE_S, SerialLine
 
 
@@ -49,17 +49,7 @@ class SerialThermometer:
 
     def temperature_c(self) -> float:
         """Of a line that began after this was asked."""
-        problem: DriverError = TimedOut("no attempt")
-        for _ in range(self._retries + 1):
-            try:
-                return ascii_line.decode(self._next_line())
-            except (TimedOut, Garbled) as error:
-                problem = error
-            except OSError as error:
-                # pyserial's errors are OSErrors: unplugged. The next attempt opens it again.
-                problem = Unreachable(f"{error}: is it plugged in and on?")
-                self.close()
-        raise type(problem)(f"{self._me}: {problem}, {self._retries + 1} attempts")
+        return self._line.attempts(self._retries + 1, lambda: ascii_line.decode(self._next_line()), self._me)
 
     def set_point_c(self) -> float | None:
         """None."""
@@ -83,7 +73,9 @@ class SerialThermometer:
         self._fall_silent()
         if self._query:
             self._line.write(self._query)
-        return self._read_line()
+        deadline = time.monotonic() + self._timeout_s
+        # Some end a line with a carriage return alone, some begin with one.
+        return self._line.read_line(bytearray(), deadline, longest=ascii_line.LONGEST_LINE, ends=b"\r\n")
 
     def _fall_silent(self) -> None:
         """Drop what lies in the line, and the rest of what is just being said until there is a pause."""
@@ -91,18 +83,3 @@ class SerialThermometer:
         while self._line.read():
             if time.monotonic() > deadline:
                 raise Garbled(f"it talks without a pause of {SLICE_S:g} s, lines expected")
-
-    def _read_line(self) -> bytes:
-        deadline, received = time.monotonic() + self._timeout_s, b""
-        while True:
-            received += self._line.read()
-            # Some end a line with a carriage return alone, some begin with one.
-            line, end, _ = received.lstrip(b"\r\n").replace(b"\r", b"\n").partition(b"\n")
-            if end and line.strip():
-                return line
-            if len(received) > ascii_line.LONGEST_LINE:
-                raise Garbled(f"{len(received)} bytes without an end of line")
-            if time.monotonic() > deadline:
-                if received.strip():
-                    raise Garbled(f"{received[:40]!r} and no end of line in {self._timeout_s:g} s")
-                raise TimedOut(f"no line in {self._timeout_s:g} s")

@@ -22,7 +22,7 @@ from drivers.simulated.lan_xi_measurement import Acquired, Measurement, Source
 __all__ = ["Acquired", "LanXiServer", "Source"]
 
 _DETECTION_POLLS = 2
-_SIDE_DOOR = "/simulated/"
+_OPERATOR_CHANNEL = "/simulated/"
 
 
 class LanXiServer:
@@ -40,7 +40,7 @@ class LanXiServer:
         Of HTTP; 0 takes a free one.
     pace
         "real": by the wall clock; "asked": virtual time, see `lan_xi_measurement`.
-    side_door
+    operator_channel
         What a person would do at a rig: told the name and the JSON of PUT `/simulated/<name>`. Refusals are
         `ValueError` or `Refused`. `/simulated/hang` is the server's own: see `hang`.
     transducers
@@ -57,12 +57,12 @@ class LanXiServer:
         pace: Literal["real", "asked"] = "real",
         ranges_v: tuple[float, ...] = (10.0, 31.6),
         serial: str = "000001",
-        side_door: Callable[[str, Any], None] | None = None,
+        operator_channel: Callable[[str, Any], None] | None = None,
         transducers: Mapping[int, dict[str, Any]] = MappingProxyType({}),
     ) -> None:
         rates_hz = tuple(sorted(float(rate) for rate in sample_rates))
         self.info = ModuleInfo("SIM-LAN-XI", serial, channels, rates_hz, tuple(sorted(ranges_v)))
-        self._source, self._pace, self._side_door = source, pace, side_door
+        self._source, self._pace, self._operator_channel = source, pace, operator_channel
         self._transducers = [transducers.get(number) for number in range(1, channels + 1)]
         self._recorder = Lock()
         self._state, self._tag, self._detecting = documents.IDLE, 0, 0
@@ -174,8 +174,8 @@ class LanXiServer:
             ("PUT", "/finish"): ((documents.CONFIGURING, documents.STREAMING), self._finish),
             ("PUT", "/close"): ((documents.OPENED,), lambda _: self._go(documents.IDLE)),
         }
-        if method == "PUT" and path.startswith(_SIDE_DOOR) and self._side_door is not None:
-            return self._at_side_door(path.removeprefix(_SIDE_DOOR), body)
+        if method == "PUT" and path.startswith(_OPERATOR_CHANNEL) and self._operator_channel is not None:
+            return self._at_operator_channel(path.removeprefix(_OPERATOR_CHANNEL), body)
         states, request = requests.get((method, path.removeprefix("/rest/rec")), ((), None))
         if request is None or not path.startswith("/rest/rec/"):
             return 404, "no such request"
@@ -187,13 +187,13 @@ class LanXiServer:
             except (ValueError, Garbled, Refused) as error:
                 return 400, str(error)
 
-    def _at_side_door(self, name: str, body: bytes) -> tuple[int, str]:
-        assert self._side_door is not None
+    def _at_operator_channel(self, name: str, body: bytes) -> tuple[int, str]:
+        assert self._operator_channel is not None
         try:
             if name == "hang":
                 self.hang()
             else:
-                self._side_door(name, json.loads(body) if body else None)
+                self._operator_channel(name, json.loads(body) if body else None)
             return 200, "null"
         except (ValueError, KeyError, TypeError, Refused) as error:
             return 400, str(error)

@@ -129,7 +129,7 @@ class SimulatedRig:
                     sample_rates=SAMPLE_RATES_HZ,
                     port=self._ports.front_end,
                     pace="asked" if world.virtual else "real",
-                    side_door=world.at_side_door,
+                    operator_channel=world.at_operator_channel,
                     transducers=self._transducers,
                 )
             )

@@ -19,8 +19,8 @@ from types import TracebackType
 from drivers.errors import Garbled
 from drivers.vibrometer import polytec
 from drivers.vibrometer.interface import Range
-from drivers.vibrometer.models import MODELS, Model
 from drivers.vibrometer.polytec import PolytecCommand
+from drivers.vibrometer.polytec_models import MODELS, PolytecModel
 
 DECODER = 1
 """Index of the velocity decoder; index 0 is an empty slot, as in many real controllers."""
@@ -223,7 +223,7 @@ class VibrometerServer:
         return texts[asked]() if asked in texts else None
 
     @property
-    def _model(self) -> Model:
+    def _model(self) -> PolytecModel:
         return MODELS[self.head.model]
 
 

@@ -8,7 +8,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -17,6 +17,13 @@ from drivers.errors import Refused
 from drivers.front_end.lan_xi_documents import HEADROOM
 from drivers.simulated.drive import DrivePiece
 from drivers.simulated.lan_xi_measurement import Acquired
+from drivers.simulated.mounted_plate import (
+    CanBeChanged,
+    CanBeHit,
+    CanBePlaced,
+    CanBeStruck,
+    MountedPlate,
+)
 from drivers.simulated.sensors import Converted, Input, SimulatedSensor, hum
 
 _UNATTENDED_S = 0.1
@@ -24,18 +31,6 @@ _UNATTENDED_S = 0.1
 _TICK_S = 0.01
 _NOTHING = SimulatedSensor("nothing", 0.0, 5e-6, 10.0)
 """An input with nothing on it."""
-
-
-class MountedPlate(Protocol):
-    """What is mounted: driven, and asked what it does at uniform times."""
-
-    def drive(self, piece: DrivePiece) -> None:
-        """The shaker's output from now on."""
-        ...
-
-    def at(self, output: str, first_s: float, step_s: float, count: int) -> Array:
-        """An output by its name. Shape (count,)."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -161,7 +156,7 @@ class World:
         for plate in self.plates.values():
             plate.drive(piece)
 
-    def at_side_door(self, name: str, body: Any) -> None:
+    def at_operator_channel(self, name: str, body: Any) -> None:
         """What only a person can do: mount, clamp, aim, load, strike, hit. Raises `Refused`, `KeyError`."""
         if name == "strike":
             # Not under the lock: a plate that nobody has hung yet is built first, which takes seconds.
@@ -175,65 +170,62 @@ class World:
                 self.laser.aimed_at = self._aim(body["point"])
                 self._look_at(body.get("at_m"))
             elif name == "load":
-                self._load(float(body["mass_kg"]), (float(body["at_m"][0]), float(body["at_m"][1])))
+                self._load(float(body["mass_kg"]), _pair(body["at_m"]))
             elif name == "clamp":
                 self._clamp()
             elif name == "hit":
                 self._hit()
             else:
                 known = "mount, clamp, aim, load, strike or hit"
-                raise Refused(f"no {name!r} at the side door, expected {known}")
+                raise Refused(f"no {name!r} in the operator channel, expected {known}")
 
     def _aim(self, point: str) -> str:
         if point not in ("base", "pickup"):
             raise Refused(f"no point {point!r} to aim at, expected base or pickup")
         return point
 
+    @property
+    def _plate(self) -> MountedPlate:
+        return self.plates[self.mounted]
+
     def _look_at(self, at_m: Any) -> None:
         """Another spot of the plate, or the one that it always is."""
-        look_at = getattr(self.plates[self.mounted], "look_at", None)
-        if look_at is not None and self.laser.aimed_at == "pickup":
-            look_at(None if at_m is None else (float(at_m[0]), float(at_m[1])))
+        if isinstance(plate := self._plate, CanBeChanged) and self.laser.aimed_at == "pickup":
+            plate.look_at(None if at_m is None else _pair(at_m))
 
     def _mount(self, plate: str) -> None:
         if plate not in self.plates:
             raise Refused(f"no plate {plate!r} here, expected one of {', '.join(self.plates)}")
         self.mounted = plate
-        unload = getattr(self.plates[plate], "unload", None)
-        if unload is not None:
-            unload()
+        if isinstance(mounted := self._plate, CanBeChanged):
+            mounted.unload()
 
     def _clamp(self) -> None:
-        """The mounted plate once more, by other hands."""
-        clamp = getattr(self.plates[self.mounted], "clamp", None)
-        if clamp is not None:
-            clamp()
+        """The mounted plate once more, by another person."""
+        if isinstance(plate := self._plate, CanBeChanged):
+            plate.clamp()
 
     def _load(self, mass_kg: float, at_m: tuple[float, float]) -> None:
         """A known mass on the mounted plate."""
-        load = getattr(self.plates[self.mounted], "load", None)
-        if load is not None:
-            load(mass_kg, at_m)
+        if isinstance(plate := self._plate, CanBeChanged):
+            plate.load(mass_kg, at_m)
 
     def _strike(self, body: dict[str, Any]) -> None:
         """The mounted plate ready for blows, hung free or in its clamp; the laser on the plate."""
-        strike = getattr(self.plates[self.mounted], "strike", None)
-        if strike is None:
+        if not isinstance(plate := self._plate, CanBeStruck):
             raise Refused(f"the {self.mounted} plate is not for striking")
-        hit, read = ((float(at[0]), float(at[1])) if at else None for at in (body["hit_m"], body["read_m"]))
+        hit, read = _pair(body["hit_m"]), body["read_m"]
         self.laser.aimed_at = "pickup"
-        strike(hit, read, free=bool(body["free"]))
+        plate.strike(hit, _pair(read) if read else None, free=bool(body["free"]))
 
     def _place(self, body: dict[str, Any]) -> None:
-        place = getattr(self.plates[self.mounted], "place", None)
-        if place is not None:
-            place(tuple(body["hit_m"]), tuple(body["response_m"]))
+        if isinstance(plate := self._plate, CanBePlaced):
+            plate.place(tuple(body["hit_m"]), tuple(body["response_m"]))
 
     def _hit(self) -> None:
-        hit = getattr(self.plates[self.mounted], "hit", None)
-        if hit is None:
+        if not isinstance(plate := self._plate, CanBeHit):
             raise Refused(f"the {self.mounted} plate is not for hitting")
-        hit(self._time_s)
+        plate.hit(self._time_s)
 
     # Samples
 
@@ -259,7 +251,7 @@ class World:
         return one.convert(self._signal(one.sensor.quantity, first_s, step, count), buzz)
 
     def _signal(self, quantity: str, first_s: float, step: float, count: int) -> Array:
-        plate = self.plates[self.mounted]
+        plate = self._plate
         if quantity == "laser":
             laser = self.laser
             at = first_s - laser.delay_s, step, count
@@ -270,6 +262,10 @@ class World:
         if quantity == "nothing":
             return np.zeros(count)
         return plate.at(quantity, first_s, step, count)
+
+
+def _pair(at: Any) -> tuple[float, float]:
+    return float(at[0]), float(at[1])
 
 
 def _joined(parts: list[Acquired]) -> Acquired:

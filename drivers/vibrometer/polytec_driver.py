@@ -6,7 +6,7 @@ from pydantic import Field
 
 from drivers.vibrometer.driver import VibrometerDriver, VibrometerOptions
 from drivers.vibrometer.interface import Range, Vibrometer
-from drivers.vibrometer.models import model_named
+from drivers.vibrometer.polytec_models import model_named
 
 
 class PolytecOptions(VibrometerOptions):
@@ -20,7 +20,7 @@ class PolytecOptions(VibrometerOptions):
 
     @property
     def model_name(self) -> str:
-        """As in `drivers.vibrometer.models`."""
+        """As in `drivers.vibrometer.polytec_models`."""
         return self.model
 
 
@@ -35,6 +35,6 @@ class PolytecDriver(VibrometerDriver[PolytecOptions]):
 
     def open(self, options: PolytecOptions) -> Vibrometer:
         """On its port."""
-        from drivers.vibrometer.serial_port import PolytecVibrometer
+        from drivers.vibrometer.polytec_vibrometer import PolytecVibrometer
 
         return PolytecVibrometer(options.address, model=options.model, baud=options.baud)

@@ -180,12 +180,8 @@ def evening(sweep: Sweep) -> Array:
 
 def _scatter(frequency_hz: Array, response: NDArray[np.complex128] | Array) -> Array:
     order = np.argsort(frequency_hz, kind="stable")
-    f, v = frequency_hz[order], response[order]
-    middle, left_over = local_residuals(f, v)
-    parts = 2 if np.iscomplexobj(v) else 1
-    square = np.abs(left_over) ** 2 / parts
-    std = np.empty(len(f))
-    std[order] = np.sqrt(_variance(f, np.abs(v) ** 2, middle, square, parts))
+    std = np.empty(len(order))
+    std[order] = _scatter_of_all([np.arange(len(order))], frequency_hz[order], response[order])
     return std
 
 

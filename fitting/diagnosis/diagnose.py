@@ -18,7 +18,13 @@ from fitting.diagnosis.search.singles import Singles
 from fitting.diagnosis.search.with_pairs import with_pairs
 from fitting.diagnosis.verdict import text
 from fitting.diagnosis.verdict.cautions import warnings_of
-from fitting.diagnosis.verdict.judgement import Judgement, beside_another_law, in_light_of, judge, told
+from fitting.diagnosis.verdict.judgement import (
+    Judgement,
+    beside_another_law,
+    in_light_of,
+    judge,
+    judged_by_hand,
+)
 from fitting.diagnosis.verdict.kin import UNLISTED, Unlisted, kin_of
 from fitting.diagnosis.verdict.resampling import Again, Resampled, gain, repeats_of, resampled_of
 from fitting.diagnosis.verdict.result import Candidate, Diagnosis, FoundEffect, ParameterEstimate, Rivals
@@ -65,8 +71,9 @@ def seen_in_channels(
     return why, tuple(found), noise if used.all() else noise_of(sweep.take(used))
 
 
-def diagnose_task(
+def diagnose_problem(
     problem: DiagnosisProblem,
+    *,
     reduced: ReducedPlate | None,
     effects: Sequence[Effect],
     noise: Noise,
@@ -131,7 +138,7 @@ class _Decided:
 
 
 def _taken_on_trust(search: Search, effects: Sequence[Effect]) -> _Decided:
-    judgement = told(search.told(effects))
+    judgement = judged_by_hand(search.fitted_by_hand(effects))
     return _Decided(
         search, [judgement.accepted] if judgement.accepted is not None else [], judgement, Resampled()
     )
@@ -237,7 +244,7 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
     singles, pairs = with_pairs(search, singles, lambda x: report(_OF_SINGLES + _OF_PAIRS * x))
     found = [*singles, *pairs]
     best = min([search.none, *found], key=_cost)
-    scored_fits = sorted(search.at_rest(found, best, [search.none]), key=_cost)
+    scored_fits = sorted(search.converged_group(found, best, [search.none]), key=_cost)
     judgement = _judged(search, scored_fits)
     if judgement.is_doubted and search.none.cost > search.reach(scored_fits[0]):
         # A core that is off its formula bends its law far, as a cause in no catalogue does: both are weighed.

@@ -103,15 +103,15 @@ def fit_paper(
     W_x = problem.weight[:, None]
     W_b = WEIGHT_OF_PARAMETERS * np.eye(len(start.names))
     change: Array = np.zeros(len(start.names))
-    law, steps, met, at_rest = start, 0, False, False
+    law, steps, met, stands = start, 0, False, False
     while True:
         dx, S = problem.linearise(law)
         met = bool(np.max(np.abs(dx)) < CRITERION)
-        if met or at_rest or steps == MOST_STEPS:
+        if met or stands or steps == MOST_STEPS:
             break
         before = change
         change = _change(W_x * S, W_b, W_x[:, 0] * dx)
-        at_rest = bool(np.max(np.abs(change)) < _SMALLEST_STEP)
+        stands = bool(np.max(np.abs(change)) < _SMALLEST_STEP)
         steps += 1
         hurry = steps > PLAIN_STEPS and steps % _HURRY_EVERY == 0
         law = _stepped(law, _extrapolated(change, before) if hurry else change)
@@ -123,7 +123,7 @@ def fit_paper(
         velocity_m_s=problem.velocity([law])[0],
         iterations=steps,
         evaluations=(steps + 1) * (1 + len(start.names)),
-        converged=met or at_rest,
+        converged=met or stands,
         weights=problem.weight,
         criterion_met=met,
     )

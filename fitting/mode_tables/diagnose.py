@@ -10,10 +10,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.diagnosis.checks.predictive import temper
-from fitting.diagnosis.inference.refit import kept
 from fitting.diagnosis.search.catalogue_search import ScoredFit, best_of_each
 from fitting.diagnosis.thresholds import SEARCH
-from fitting.diagnosis.verdict.confounded import hides
+from fitting.diagnosis.verdict.confounded import absent_fit, hides, note_of_imitated
 from fitting.diagnosis.verdict.judgement import Judgement, judge
 from fitting.diagnosis.verdict.names import NONE
 from fitting.effects.base import Effect
@@ -127,17 +126,12 @@ def _in_light_of_the_law(work: Explaining, effects: Collection[Effect], judgemen
         return judgement
     for effect in (e for e in effects if not e.replaces_law):
         (form, *_) = work.forms(effect)
-        neutral = [0.0 if q.neutral is None else q.neutral for q in form.parameters]
-        u = np.concatenate([begun.none.z, neutral])
-        absent = kept(begun.problem.response([form]), begun.evidence, begun.none.law, u)
+        absent = absent_fit(begun.problem.response([form]), begun.evidence, begun.none, form)
         if hides(begun.none, absent, begun.problem.points.omega, begun.problem.each):
-            why = (
-                f"{effect.name} cannot be told from the core's modulus by these data: what one does to the "
-                "modes the other does too. The law found is that of what is stated."
-            )
+            note = note_of_imitated([effect.name], "the modes")
             accepted = work.scored(absent)
             equivalent: dict[str, tuple[str, ...]] = {effect.name: (effect.name, NONE)}
             return Judgement(
-                "ambiguous", accepted, equivalent, judgement.group, judgement.probability, why=why
+                "ambiguous", accepted, equivalent, judgement.group, judgement.probability, note=note
             )
     return judgement

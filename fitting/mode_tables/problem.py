@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 import scipy.linalg as la
@@ -10,7 +11,6 @@ from numpy.typing import NDArray
 from fitting.arrays import Array, Complex
 from fitting.data.readings import Readings
 from fitting.diagnosis.inference.evidence import Evidence
-from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.diagnosis.response.unknowns import STATED_NUMBER
 from fitting.diagnosis.several.member_laws import by_all, law_at
 from fitting.diagnosis.several.of_files import OfFiles
@@ -122,8 +122,10 @@ class ModalProblem:
         return tuple(found)
 
 
-class ModalResponse(SweepResponse):
-    """Modes of all members in the place of phasors."""
+class ModalResponse:
+    """Modes of all members in the place of phasors: a `Response`."""
+
+    derivatives_cost_extra: ClassVar[bool] = False
 
     def __init__(self, problem: ModalProblem, effects: Sequence[Effect]) -> None:
         self.modal, self.effects = problem, tuple(effects)

@@ -6,6 +6,7 @@ Everything is linear about the rival's likeliest values. A *rival* is one explan
 *member* is one file's sweep among those that were diagnosed together.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -25,7 +26,7 @@ from fitting.diagnosis.several.of_files import OfFiles, Place
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.several.several_problem import SeveralProblem
 from fitting.diagnosis.verdict.result import Rivals, name_of
-from fitting.effects.base import Effect
+from fitting.effects.base import Effect, EffectParameter
 from fitting.planning.forms import forms_of
 from fitting.planning.known_mass import KnownMass
 from fitting.planning.rivalry import Forecast
@@ -88,6 +89,40 @@ class _Raw:
     """One standard deviation each. Shape (k, points)."""
     by_new: Complex
     """The same, of what is new. Shape (any, points)."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Unknowns:
+    """The unknowns of readings in a response's order: law, stated numbers, effects, a known mass."""
+
+    of_law: int
+    """How many the law has."""
+    stated: list[int | None]
+    """Where each stated number is among those fitted; None for one that the fit does not know."""
+    effects: list[Effect]
+    """The fit's that the readings have."""
+    places: list[Places]
+    """Where the unknowns of each are among those fitted."""
+    mass: KnownMass | None
+    u: Array
+    """All but the law's. Shape (unknowns,)."""
+
+    def with_mass(self, effects: list[Effect]) -> list[Effect]:
+        """The known mass, where there is one, at the end of `effects`."""
+        return effects if self.mass is None else [*effects, self.mass]
+
+    @property
+    def at_mass(self) -> int:
+        """Row of the known mass's first derivative."""
+        return self.of_law + len(self.stated) + sum(len(p) for p in self.places)
+
+    def of_effects(self) -> Iterator[tuple[EffectParameter, int, int]]:
+        """Each unknown of an effect, where it is among those fitted, and the row of its derivative."""
+        row = self.of_law + len(self.stated)
+        for effect, place in zip(self.effects, self.places, strict=True):
+            for parameter, g in zip(effect.parameters, place.tolist(), strict=True):
+                yield parameter, g, row
+                row += 1
 
 
 class Expecting:
@@ -197,76 +232,77 @@ class Expecting:
         return np.concatenate([dv[:n], (dv[n:] * scale[:, None])[fitted.free]])
 
     def _raw(self, known: Known, further: Further) -> _Raw:
-        fitted, member = known.fitted, further.member
-        n, count = len(fitted.law.names), len(member.nuisances)
-        stated = self._stated
-        effects, places = self._effects(fitted, further.without)
-        # Where each of its stated numbers is among those fitted; nowhere if the first sweep did not have it.
-        names = {q.name: int(g) for q, g in zip(self.member.nuisances.each, stated, strict=True)}
-        each = [names.get(q.name) for q in member.nuisances.each]
-        new = [k for k, q in enumerate(member.nuisances.each) if q.kind in further.new or each[k] is None]
-        z = [0.0 if k in new or g is None else fitted.u[g] for k, g in enumerate(each)]
-        u = np.concatenate([z, *(fitted.u[p] for p in places)])
-        if further.mass is not None:
-            longer = sum(e.longer_m(fitted.u[p]) for e, p in zip(effects, places, strict=True))
-            effects = [*effects, further.mass]
-            u = np.concatenate([u, further.mass.unknowns_on(member.plate.length_m, longer)])
-        every, by_every = SweepResponse(member, effects, every=True).with_derivatives(fitted.law, u)
+        unknowns = self._unknowns(known.fitted, further)
+        response = SweepResponse(further.member, unknowns.with_mass(unknowns.effects), every=True)
+        every, by_every = response.with_derivatives(known.fitted.law, unknowns.u)
         v, dv = every[further.at], by_every[:, further.at]
-        column = np.cumsum(fitted.free) - 1 + n
-        by = np.zeros((n + int(fitted.free.sum()), len(v)), complex)
-        by[:n] = dv[:n]
-        scale, fresh = _scales(fitted), []
-        for k, g in enumerate(each):
-            if k in new or g is None:
-                fresh.append(dv[n + k])
-            else:
-                by[column[g]] += dv[n + k]
-        at = n + count
-        for effect, place in zip(effects, places, strict=False):
-            for m, g in enumerate(place):
-                if fitted.free[g]:
-                    by[column[g]] += scale[g] * dv[at + m]
-                    mounting = effect.parameters[m].mounting
-                    if further.remounted and mounting is not None:
-                        fresh.append(mounting * scale[g] * dv[at + m])
-            at += len(place)
-        if further.mass is not None:
-            fresh.append(further.mass.sigma_kg * dv[at])
-            fresh += [further.mass.off_m * dv[at + 1], further.mass.off_m * dv[at + 2]]
+        by = self._by_fitted(known.fitted, unknowns, dv)
+        fresh = _by_fresh(known.fitted, further, unknowns, dv)
         if further.other_reference:
-            v, doubt = self._either_channel(known, further, effects, places, u, v)
+            v, doubt = self._either_channel(known, further, unknowns, v)
             fresh += doubt
-        if further.reduced is not None:
-            anew = model_error(member, further.reduced, self.known[0].fitted.law, every)[:, further.at]
-            again = np.zeros((len(known.errors), len(v)), complex)
-        else:
-            near = further.at if further.like is None else further.like
-            e = self._errors[:, self.part][:, near] * (v / fitted.velocity_m_s[self.part][near])
-            again = e * further.same_errors
-            anew = e - again
+        again, anew = self._model_errors(known, further, every, v)
         mean = v + known.errors @ again
         by_known = known.root.T @ np.concatenate([by, again])
         fresh += list(anew[np.any(anew != 0, axis=1)])
         by_new = np.array(fresh) if fresh else np.zeros((0, len(v)), complex)
         return _Raw(mean, by_known, by_new)
 
+    def _unknowns(self, fitted: Refitted, further: Further) -> _Unknowns:
+        """Those of the readings, at the fit's values where the fit has them."""
+        member = further.member
+        effects, places = self._effects(fitted, further.without)
+        # Where each of its stated numbers is among those fitted; nowhere if the first sweep did not have it.
+        names = {q.name: int(g) for q, g in zip(self.member.nuisances.each, self._stated, strict=True)}
+        stated = [None if q.kind in further.new else names.get(q.name) for q in member.nuisances.each]
+        z = [0.0 if g is None else fitted.u[g] for g in stated]
+        u = np.concatenate([z, *(fitted.u[p] for p in places)])
+        if further.mass is not None:
+            longer = sum(e.longer_m(fitted.u[p]) for e, p in zip(effects, places, strict=True))
+            u = np.concatenate([u, further.mass.unknowns_on(member.plate.length_m, longer)])
+        return _Unknowns(len(fitted.law.names), stated, effects, places, further.mass, u)
+
+    def _by_fitted(self, fitted: Refitted, unknowns: _Unknowns, dv: Complex) -> Complex:
+        """Derivatives of the readings to what is fitted, as it is fitted. Shape (columns, points)."""
+        n, column, scale = unknowns.of_law, np.cumsum(fitted.free) - 1 + unknowns.of_law, _scales(fitted)
+        by = np.zeros((n + int(fitted.free.sum()), dv.shape[1]), complex)
+        by[:n] = dv[:n]
+        for k, g in enumerate(unknowns.stated):
+            if g is not None:
+                by[column[g]] += dv[n + k]
+        for _, g, row in unknowns.of_effects():
+            if fitted.free[g]:
+                by[column[g]] += scale[g] * dv[row]
+        return by
+
+    def _model_errors(
+        self, known: Known, further: Further, every: Complex, v: Complex
+    ) -> tuple[Complex, Complex]:
+        """What the model errs in the readings as in the first sweep, and what it errs anew.
+
+        `every` are phasors at all of the member's points, `v` those that are read. Shapes (errors, points).
+        """
+        if further.reduced is not None:
+            law = self.known[0].fitted.law
+            anew = model_error(further.member, further.reduced, law, every)[:, further.at]
+            return np.zeros((len(known.errors), len(v)), complex), anew
+        near = further.at if further.like is None else further.like
+        e = self._errors[:, self.part][:, near] * (v / known.fitted.velocity_m_s[self.part][near])
+        again = e * further.same_errors
+        return again, e - again
+
     def _either_channel(
-        self,
-        known: Known,
-        further: Further,
-        effects: list[Effect],
-        places: list[Places],
-        u: Array,
-        v: Complex,
+        self, known: Known, further: Further, unknowns: _Unknowns, v: Complex
     ) -> tuple[Complex, list[Complex]]:
         """Phasors, and what nobody knows: what is wrong in a channel is in the new ones too, or not."""
-        kept = [k for k, e in enumerate(effects) if e.enters != "channel"]
-        if len(kept) == len(effects):
+        each = list(zip(unknowns.effects, unknowns.places, strict=True))
+        kept = [(e, p) for e, p in each if e.enters != "channel"]
+        if len(kept) == len(each):
             return v, []
-        right = [u[: len(further.member.nuisances)], *(known.fitted.u[places[k]] for k in kept)]
-        response = SweepResponse(further.member, [effects[k] for k in kept])
-        without = response.velocity(known.fitted.law, np.concatenate(right))[further.at]
+        u, count, mass = unknowns.u, len(unknowns.stated), unknowns.at_mass - unknowns.of_law
+        right = np.concatenate([u[:count], *(known.fitted.u[p] for _, p in kept), u[mass:]])
+        response = SweepResponse(further.member, unknowns.with_mass([e for e, _ in kept]))
+        without = response.velocity(known.fitted.law, right)[further.at]
         return (v + without) / 2, [(v - without) / 2]
 
     @property
@@ -337,6 +373,20 @@ def _rest(evidence: Evidence, v: Complex) -> Complex:
     if evidence.has_phase:
         return np.asarray(evidence.measured_m_s - v)
     return np.asarray((evidence.measured_m_s - np.abs(v)) * v / np.abs(v))
+
+
+def _by_fresh(fitted: Refitted, further: Further, unknowns: _Unknowns, dv: Complex) -> list[Complex]:
+    """One standard deviation of each number that the fit does not know. Shape (points,) each."""
+    scale = _scales(fitted)
+    fresh = [dv[unknowns.of_law + k] for k, g in enumerate(unknowns.stated) if g is None]
+    if further.remounted:
+        for parameter, g, row in unknowns.of_effects():
+            if fitted.free[g] and parameter.mounting is not None:
+                fresh.append(parameter.mounting * scale[g] * dv[row])
+    if unknowns.mass is not None:
+        at, mass = unknowns.at_mass, unknowns.mass
+        fresh += [mass.sigma_kg * dv[at], mass.off_m * dv[at + 1], mass.off_m * dv[at + 2]]
+    return fresh
 
 
 def _scales(fitted: Refitted) -> Array:

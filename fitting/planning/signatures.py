@@ -8,7 +8,7 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.inference.marginal import expected_size
 from fitting.diagnosis.problem.base import DiagnosisProblem
-from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.response.response import Response
 from fitting.diagnosis.search.looks import has_place, slopes
 from fitting.diagnosis.several.responses import response_of
 from fitting.effects.base import Effect, EffectParameter
@@ -117,7 +117,7 @@ def signatures_of(
 
 
 def signatures_in(
-    responses: Callable[[Sequence[Effect]], SweepResponse],
+    responses: Callable[[Sequence[Effect]], Response],
     points: Points,
     law: CoreLaw,
     known: Array,

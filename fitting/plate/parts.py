@@ -8,6 +8,7 @@ another modulus, thickness, density, Poisson's ratio, length or width has the sa
 once serves all of them exactly on its basis. Where a patch lies enters to first order.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -56,8 +57,17 @@ PULLED = {"x": "pull x", "y": "pull y"}
 _AXES = ("young_y_pa", "shear_pa", "angle_rad")
 _GLUE = ("thickness_m", "shear_pa", "density_kg_m3", "loss_factor")
 _PATCH = ("from_x_m", "to_x_m", "from_y_m", "to_y_m")
-_ROWS = 6
-"""Of the layers' numbers, patches not counted."""
+_SUBSTRATE, _CONSTRAINING, _CORE, _GLUES, _WHOLE, _PATCHES = 0, 1, 2, 3, 5, 6
+"""Rows of `layers_of`: each layer's, the first of glue, that of the plate as a whole, the first patch's."""
+_OF_WHOLE: dict[str, Callable[[Specimen], float]] = {
+    "both_sides": lambda s: s.both_sides,
+    "pulled_x": lambda s: "x" in s.pulled_along,
+    "pulled_y": lambda s: "y" in s.pulled_along,
+    "axial_x_pa": lambda s: s.axial_pa[0] or 0.0,
+    "axial_y_pa": lambda s: s.axial_pa[1] or 0.0,
+    "faces_shear": lambda s: s.faces_shear,
+}
+"""The numbers of row `_WHOLE` in their order, each with where it is read; a model's cached file has it so."""
 
 
 @dataclass(frozen=True)
@@ -280,8 +290,8 @@ def layers_of(specimen: Specimen) -> Array:
     """What `coefficients` asks of substrate, constraining layer and core, in the order of `_LAYER`.
 
     Zero where a layer is missing or has no such number. Shape (3, 5). What few plates have besides is behind:
-    own axes of a face in three columns more, then rows of two layers of glue, of whether both sides are
-    treated, how clamps pull and whether faces shear, and of patches. Shape (6 + patches, 8).
+    own axes of a face in three columns more (`_AXES`), then rows of two layers of glue (`_GLUE`), of the
+    plate as a whole (`_OF_WHOLE`), and of patches (`_PATCH`). Shape (6 + patches, 8).
     """
     s = specimen
     each = (s.substrate, s.constraining, s.core)
@@ -289,18 +299,15 @@ def layers_of(specimen: Specimen) -> Array:
     axes = [face.rolled for face in (s.substrate, s.constraining) if face is not None]
     if not (any(axes) or s.patches or s.both_sides or s.slips or s.pulled_along):
         return plain
-    found = np.zeros((_ROWS + len(s.patches), len(_LAYER) + len(_AXES)))
+    found = np.zeros((_PATCHES + len(s.patches), len(_LAYER) + len(_AXES)))
     found[: len(each), : len(_LAYER)] = plain
-    for row, face in enumerate((s.substrate, s.constraining)):
+    for row, face in ((_SUBSTRATE, s.substrate), (_CONSTRAINING, s.constraining)):
         if face is not None and face.rolled is not None:
             found[row, len(_LAYER) :] = [getattr(face.rolled, name) for name in _AXES]
-    for row, glue in enumerate(s.core.glue if s.core is not None else (), len(each)):
+    for row, glue in enumerate(s.core.glue if s.core is not None else (), _GLUES):
         found[row, : len(_GLUE)] = [getattr(glue, name) for name in _GLUE]
-    found[_ROWS - 1, 0] = s.both_sides
-    found[_ROWS - 1, 1:3] = ["x" in s.pulled_along, "y" in s.pulled_along]
-    found[_ROWS - 1, 3:5] = [stress or 0.0 for stress in s.axial_pa]
-    found[_ROWS - 1, 5] = s.faces_shear
-    for row, patch in enumerate(s.patches, _ROWS):
+    found[_WHOLE, : len(_OF_WHOLE)] = [read(s) for read in _OF_WHOLE.values()]
+    for row, patch in enumerate(s.patches, _PATCHES):
         found[row, : len(_PATCH)] = [getattr(patch, name) for name in _PATCH]
     return found
 
@@ -313,25 +320,34 @@ def specimen_of(size: Array, layers: Array) -> Specimen:
     n = len(_LAYER)
     substrate, constraining = (
         replace(Face(*row[:n]), rolled=Orthotropy(*row[n:]) if any(row[n:]) else None)
-        for row in layers[:2].tolist()
+        for row in layers[[_SUBSTRATE, _CONSTRAINING]].tolist()
     )
-    thickness, _, poisson, density, _ = layers[2, :n].tolist()
+    core_numbers = dict(zip(_LAYER, layers[_CORE, :n].tolist(), strict=True))
     length, width, n_x, n_y = size.tolist()
-    few = layers[_ROWS - 1, :6].tolist() if len(layers) >= _ROWS else [0.0] * 6
-    both, by_x, by_y, x_pa, y_pa, faces_shear = few
-    axial = x_pa if by_x else None, y_pa if by_y else None
+    whole = dict.fromkeys(_OF_WHOLE, 0.0)
+    if len(layers) > _WHOLE:
+        whole = dict(zip(_OF_WHOLE, layers[_WHOLE, : len(_OF_WHOLE)].tolist(), strict=True))
+    axial = (
+        whole["axial_x_pa"] if whole["pulled_x"] else None,
+        whole["axial_y_pa"] if whole["pulled_y"] else None,
+    )
     plain = Specimen(length, width, "free", substrate, elements=(int(n_x), int(n_y)), axial_pa=axial)
-    if not thickness:
+    if not core_numbers["thickness_m"]:
         return plain
-    glue = tuple(Glue(*row[: len(_GLUE)]) for row in layers[3:5].tolist() if row[0])
-    core = Core(thickness, poisson, density, ConstantModulus(1e6, 0.0), glue)
+    core = Core(
+        core_numbers["thickness_m"],
+        core_numbers["poisson"],
+        core_numbers["density_kg_m3"],
+        law=ConstantModulus(1e6, 0.0),
+        glue=tuple(Glue(*row[: len(_GLUE)]) for row in layers[_GLUES:_WHOLE].tolist() if row[0]),
+    )
     return replace(
         plain,
         constraining=constraining,
         core=core,
-        both_sides=bool(both),
-        faces_shear=bool(faces_shear),
-        patches=tuple(Patch(*row[: len(_PATCH)]) for row in layers[_ROWS:].tolist()),
+        both_sides=bool(whole["both_sides"]),
+        faces_shear=bool(whole["faces_shear"]),
+        patches=tuple(Patch(*row[: len(_PATCH)]) for row in layers[_PATCHES:].tolist()),
     )
 
 

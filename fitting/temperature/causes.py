@@ -67,7 +67,7 @@ def common(effects: Sequence[Effect]) -> list[Effect]:
 
 def causes_of(
     alone: Sequence[Alone],
-    task: TemperatureProblem,
+    problem: TemperatureProblem,
     fit: ShiftedFit,
     effects: Sequence[Effect],
     join: Join,
@@ -76,40 +76,40 @@ def causes_of(
 ) -> list[Cause]:
     """The causes that come nearest, with one law beside them; the best first.
 
-    `task` is of the models of `alone`, which `join` puts side by side.
+    `problem` is of the models of `alone`, which `join` puts side by side.
     """
-    able = [e for e in effects if e.objection(task.joined.points, task.joined.plate) is None]
+    able = [e for e in effects if e.objection(problem.joined.points, problem.joined.plate) is None]
     if explains(fit):
-        found = [_beside(task, fit, e, u) for e, u in _promising(task, fit, able)]
+        found = [_beside(problem, fit, e, u) for e, u in _promising(problem, fit, able)]
     else:
         found = []
         for k, effect in enumerate(leading := _of_the_worst(alone, able, executor)):
-            found += _from_each(alone, task, join, effect)
+            found += _from_each(alone, problem, join, effect)
             report((k + 1) / len(leading))
     return sorted(found, key=lambda c: (not c.serves, c.cost))
 
 
 def _promising(
-    task: TemperatureProblem, fit: ShiftedFit, effects: Sequence[Effect]
+    problem: TemperatureProblem, fit: ShiftedFit, effects: Sequence[Effect]
 ) -> list[tuple[Effect, Array]]:
     """With where to start: each temperature is explained by itself, so one law is near enough for a step."""
     lacking = fit.chi2 - fit.chi2_own
-    forms = [form for e in effects for form in e.forms(task.joined.points, task.joined.plate)]
-    looks = [(form, task.joined.starts(form, fit.one)) for form in forms]
+    forms = [form for e in effects for form in e.forms(problem.joined.points, problem.joined.plate)]
+    looks = [(form, problem.joined.starts(form, fit.one)) for form in forms]
     able = [(form, starts[0]) for form, starts in looks if starts]
     able = [one for one in able if one[1][0] == 0 or one[1][0] > _ENOUGH * lacking]
     able.sort(key=lambda one: -one[1][0])
     return [(form, start[1]) for form, start in able[:_FOLLOWED]]
 
 
-def _beside(task: TemperatureProblem, fit: ShiftedFit, effect: Effect, u: Array) -> Cause:
-    one = task.fitted(fit.one.law, np.append(fit.one.u, u), [effect])
-    own = task.fitted(fit.own.law, np.append(fit.own.u, one.of(effect)), [effect])
-    return _cause(task, ShiftedFit(one, own, task.bands_hz))
+def _beside(problem: TemperatureProblem, fit: ShiftedFit, effect: Effect, u: Array) -> Cause:
+    one = problem.fitted(fit.one.law, np.append(fit.one.u, u), [effect])
+    own = problem.fitted(fit.own.law, np.append(fit.own.u, one.of(effect)), [effect])
+    return _cause(problem, ShiftedFit(one, own, problem.bands_hz))
 
 
-def _cause(task: TemperatureProblem, fit: ShiftedFit) -> Cause:
-    plate = task.joined.plate
+def _cause(problem: TemperatureProblem, fit: ShiftedFit) -> Cause:
+    plate = problem.joined.plate
     (effect,) = fit.one.effects
     (found,) = found_effects(fit.one, plate)
     return Cause(effect, fit, cost(fit.one, plate), found)
@@ -121,11 +121,13 @@ def _of_the_worst(alone: Sequence[Alone], effects: Sequence[Effect], executor: E
     return worst.leading(effects, executor)[:_LEADING]
 
 
-def _from_each(alone: Sequence[Alone], task: TemperatureProblem, join: Join, effect: Effect) -> list[Cause]:
+def _from_each(
+    alone: Sequence[Alone], problem: TemperatureProblem, join: Join, effect: Effect
+) -> list[Cause]:
     """Fitted to each member by itself first: without it no law so far is a place to begin."""
     each = [a.beside(effect).begun for a in alone]
     u = np.median([b.none.of(effect) for b in each], axis=0)
-    again = replace(task, joined=join(each), begin=None)
+    again = replace(problem, joined=join(each), begin=None)
     z = again.stated([b.none.z for b in each])
     fit = fit_shifted(again, [b.none.law for b in each], z, [effect], u)
     return [_cause(again, fit)]

@@ -137,7 +137,7 @@ def _with_faint_losses(bent: BentLaw) -> BentLaw:
 
 
 def fit_shifted(
-    task: TemperatureProblem,
+    problem: TemperatureProblem,
     laws: Sequence[CoreLaw],
     z: Array,
     effects: Sequence[Effect] = (),
@@ -148,6 +148,6 @@ def fit_shifted(
     Shapes: `z` (stated numbers,), `u` (unknowns of `effects`,).
     """
     start = np.concatenate([z, np.empty(0) if u is None else u])
-    own = task.fitted(OwnLaws(tuple(laws), task.points), start, effects)
-    one = task.fitted(task.one_law(laws), start, effects)
-    return ShiftedFit(one, own, task.bands_hz)
+    own = problem.fitted(OwnLaws(tuple(laws), problem.points), start, effects)
+    one = problem.fitted(problem.one_law(laws), start, effects)
+    return ShiftedFit(one, own, problem.bands_hz)

@@ -14,7 +14,7 @@ from fitting.arrays import Array, Complex
 from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refitted import Refitted
-from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.response.response import Response
 from fitting.diagnosis.search.looks import Start
 from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -99,7 +99,7 @@ class Joined(Protocol):
     def erring_at(self, law: CoreLaw) -> Self:
         """The same, what the model gets wrong asked at a law."""
 
-    def response(self, effects: Sequence[Effect]) -> SweepResponse:
+    def response(self, effects: Sequence[Effect]) -> Response:
         """What all members read under some effects."""
 
     def starts(self, effect: Effect, before: Refitted) -> list[Start]:

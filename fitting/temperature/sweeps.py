@@ -16,7 +16,7 @@ from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refit import refit
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.problem.model_error import model_error
-from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.response.response import Response
 from fitting.diagnosis.search.candidates import CandidateFit
 from fitting.diagnosis.search.catalogue_search import Search
 from fitting.diagnosis.search.looks import Start, look
@@ -129,7 +129,7 @@ class Sweeps:
         """Itself: each has its model's error from its own law, which a sweep tells well."""
         return self
 
-    def response(self, effects: Sequence[Effect]) -> SweepResponse:
+    def response(self, effects: Sequence[Effect]) -> Response:
         """Phasors of all sweeps."""
         return response_of(self.problem, effects)
 

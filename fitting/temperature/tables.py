@@ -13,7 +13,7 @@ from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refit import refit
 from fitting.diagnosis.inference.refitted import Refitted
-from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.response.response import Response
 from fitting.diagnosis.search.looks import Start, promising
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
@@ -189,7 +189,7 @@ class Tables:
         """Each member's own error at a law: that of few modes by themselves is no place to ask."""
         return type(self)(self.problem.around(law), self.specimens, self.scale_known)
 
-    def response(self, effects: Sequence[Effect]) -> SweepResponse:
+    def response(self, effects: Sequence[Effect]) -> Response:
         """Ln f + i kappa ln eta of all modes."""
         return self.problem.response(effects)
 

@@ -6,7 +6,7 @@ from time import perf_counter
 
 from threadpoolctl import threadpool_limits
 
-from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
+from fitting.diagnosis.diagnose import diagnose_problem, seen_in_channels
 from fitting.diagnosis.verdict.result import Diagnosis
 from fitting.effects import CATALOGUE, Effect
 from fitting.effects.base import BASE, FORCE, ROOT
@@ -111,20 +111,20 @@ def diagnose(
         ready_made = set_up(sweep.take(why_aside == ""), specimen, hammer, progress, like=like)
         ready = perf_counter()
         with progress("tracing the residual") as report:
-            result = diagnose_task(
+            result = diagnose_problem(
                 ready_made.problem,
-                ready_made.reduced,
-                effects,
-                noise,
-                ready_made.bare,
-                start,
-                channels,
-                why_aside,
-                report,
-                accept,
-                workers,
-                ready_made.remade,
-                resamples,
+                reduced=ready_made.reduced,
+                effects=effects,
+                noise=noise,
+                bare=ready_made.bare,
+                start=start,
+                channels=channels,
+                why_aside=why_aside,
+                report=report,
+                accepted_by_hand=accept,
+                executor=workers,
+                remade=ready_made.remade,
+                resamples=resamples,
             )
     seconds = perf_counter() - ready
     theory_over(specimen, result.after.law, sweep.frequency_hz)

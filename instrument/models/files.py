@@ -81,7 +81,7 @@ def plates_of(
     *,
     with_effects: bool,
 ) -> tuple[dict[int, tuple[DiagnosisProblem, ReducedPlate]], BareModes | None]:
-    """The tasks of files that are of plates, by their place, and what a bare plate's test says.
+    """The problems of files that are of plates, by their place, and what a bare plate's test says.
 
     `sweeps` are what is used of the files' data. Plates that differ in the point of a force and in the spot
     alone have one model.

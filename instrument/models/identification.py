@@ -16,7 +16,13 @@ from fitting.identification.bare_plate import BarePlateFit
 from fitting.identification.result import Identification, summarise
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
-from instrument.models.methods import DirectMethod, IdentificationMethod, Joint, PaperMethod, Task
+from instrument.models.methods import (
+    DirectMethod,
+    IdentificationMethod,
+    IdentificationProblem,
+    Joint,
+    PaperMethod,
+)
 from instrument.models.quick_look import remarks_on_reading
 from instrument.models.remarks import remarks_on_law, remarks_on_noise, remarks_on_strays
 from instrument.models.set_up import Hammer
@@ -74,7 +80,7 @@ def identify(
     given, why_aside = sweep, reasons(strays(sweep) > 0, LOST)
     sweep = given.take(why_aside == "")
     f, law, noise = sweep.frequency_hz, specimen.core.law, noise_of(sweep)
-    way = _METHODS[method](Task(sweep, specimen, noise, hammer, like), progress)
+    way = _METHODS[method](IdentificationProblem(sweep, specimen, noise, hammer, like), progress)
     further += (*remarks_on_law(law, f), *remarks_on_noise(sweep), *way.remarks())
     setup = seconds = 0.0
     for widened in range(_MOST_WIDENINGS + 1):
@@ -98,7 +104,7 @@ def identify(
     with threadpool_limits(1, "blas"), progress("validating") as report:
         validation = way.validated(fit, report)
     result = summarise(method, sweep, noise, fit, validation, further)
-    reading = remarks_on_reading(sweep, way.task.specimen, result.rms_percent, progress)
+    reading = remarks_on_reading(sweep, way.problem.specimen, result.rms_percent, progress)
     result = replace(result, warnings=(*reading, *result.warnings))
     took = perf_counter() - began
     return Identified(result, sweep, given, why_aside, setup, seconds, took, theory, way.joint, way.bare)

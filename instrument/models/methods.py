@@ -50,7 +50,7 @@ class Joint:
 
 
 @dataclass(frozen=True)
-class Task:
+class IdentificationProblem:
     """What is to be identified."""
 
     sweep: Sweep
@@ -70,11 +70,11 @@ class IdentificationMethod(ABC):
     joint: Joint | None = None
     """What a second look at the same fit needs, once it is fitted; None where the method has none."""
 
-    def __init__(self, task: Task, progress: Progress) -> None:
-        self.task, self.progress = task, progress
+    def __init__(self, problem: IdentificationProblem, progress: Progress) -> None:
+        self.problem, self.progress = problem, progress
         self.bare: BarePlateFit | None = None
-        if task.hammer is not None:
-            self.bare = fit_bare_plate(task.specimen, *task.hammer)
+        if problem.hammer is not None:
+            self.bare = fit_bare_plate(problem.specimen, *problem.hammer)
 
     @abstractmethod
     def remarks(self) -> tuple[str, ...]:
@@ -87,7 +87,7 @@ class IdentificationMethod(ABC):
     def widen(self, law: CoreLaw) -> None:
         """Certify the models of the next `set_up` for a law that ended outside."""
         assert self.models is not None
-        wider = self.models.domain.widened(law, self.task.sweep.frequency_hz)
+        wider = self.models.domain.widened(law, self.problem.sweep.frequency_hz)
         self.models = replace(self.models, domain=wider)
 
     @abstractmethod
@@ -116,17 +116,17 @@ class DirectMethod(IdentificationMethod):
 
     def remarks(self) -> tuple[str, ...]:
         """On tolerances, patches, clamps and ratios."""
-        plate = self.task.specimen
+        plate = self.problem.specimen
         return (
             *remarks_on_tolerances(plate),
             *remarks_on_patches(plate),
             *remarks_on_clamps(plate),
-            *remarks_on_damping(plate, tested=self.task.hammer is not None),
+            *remarks_on_damping(plate, tested=self.problem.hammer is not None),
         )
 
     def set_up(self) -> Models:
         """The plate as stated and what moves it."""
-        t = self.task
+        t = self.problem
         self._ready: SetUp = set_up(
             t.sweep, t.specimen, t.hammer, self.progress, with_effects=False, models=self.models, like=t.like
         )
@@ -135,7 +135,7 @@ class DirectMethod(IdentificationMethod):
 
     def fit(self, start: CoreLaw, report: Report) -> Fit:
         """In one posterior."""
-        ready, noise = self._ready, self.task.noise
+        ready, noise = self._ready, self.problem.noise
         begun = begin(ready.problem, ready.reduced, noise, ready.bare, start)
         self.joint = Joint(loosened(with_own_noise(begun, noise)), ready.reduced)
         return fit_of(self._begun)
@@ -151,9 +151,9 @@ class DirectMethod(IdentificationMethod):
 
     def theory(self, fit: Fit) -> TheoryError:
         """Over the sweep. Where the fit is lost besides, the error's line says so."""
-        sweep = self.task.sweep
+        sweep = self.problem.sweep
         try:
-            return theory_over(self.task.specimen, fit.law, sweep.frequency_hz)
+            return theory_over(self.problem.specimen, fit.law, sweep.frequency_hz)
         except OutsideModel as error:
             off = rms(differences_percent(sweep, fit.velocity_m_s))
             if off < LOST_PERCENT:
@@ -175,41 +175,41 @@ class DirectMethod(IdentificationMethod):
 class PaperMethod(IdentificationMethod):
     """The paper's Eq. (20) to (25) on real modes; the hammer test has moved the plate before."""
 
-    def __init__(self, task: Task, progress: Progress) -> None:
-        super().__init__(task, progress)
+    def __init__(self, problem: IdentificationProblem, progress: Progress) -> None:
+        super().__init__(problem, progress)
         if self.bare is not None:
-            self.task = replace(task, specimen=with_bare_plate(task.specimen, self.bare))
+            self.problem = replace(problem, specimen=with_bare_plate(problem.specimen, self.bare))
 
     def remarks(self) -> tuple[str, ...]:
         """On tolerances, which have no part in it."""
-        if self.task.specimen.exact:
+        if self.problem.specimen.exact:
             return ()
         return ("the paper's method takes what is stated for exact: tolerances are not in its band",)
 
     def set_up(self) -> Models:
         """Real modes at the sweep's frequencies."""
-        t = self.task
+        t = self.problem
         if self.models is None:
             self.models = Models.of(t.specimen, t.sweep.frequency_hz, self.progress)
         models = self.models
-        self._problem = paper.PaperProblem.of(t.sweep, models.real_modes, models.specimen.reads)
+        self._paper = paper.PaperProblem.of(t.sweep, models.real_modes, models.specimen.reads)
         return models
 
     def fit(self, start: CoreLaw, report: Report) -> Fit:
         """Step by step, as the paper has it."""
-        return paper.fit_paper(self._problem, start, lambda step: report(step / paper.MOST_STEPS))
+        return paper.fit_paper(self._paper, start, lambda step: report(step / paper.MOST_STEPS))
 
     def parts(self) -> NDArray[np.intp]:
         """Segments alone. Shape (points,)."""
-        return self.task.sweep.segment
+        return self.problem.sweep.segment
 
     def validated(self, fit: Fit, report: Report) -> Validation:
         """By fits to the other segments."""
-        sweep, noise = self.task.sweep, self.task.noise
+        sweep, noise = self.problem.sweep, self.problem.noise
 
         def differences(points: Mask) -> NDArray[np.float64]:
-            learnt = paper.refit(self._problem.take(points), fit.law)
-            return differences_percent(sweep, self._problem.velocity([learnt])[0])
+            learnt = paper.refit(self._paper.take(points), fit.law)
+            return differences_percent(sweep, self._paper.velocity([learnt])[0])
 
         size = np.abs(sweep.response_m_s)
         return validate(

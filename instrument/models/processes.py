@@ -34,7 +34,7 @@ def in_processes(
 ) -> None:
     """`keep` every job with its result, in the order in which they end; one worker is this process.
 
-    A job under whose hands a process died is done once more by itself; where that process dies too, its
+    A job during which its process died is done once more by itself; where that process dies too, its
     result is that of `lost`, or the error is raised. Ctrl-C lets jobs under way end, keeps them, and is
     raised again.
     """

@@ -48,7 +48,7 @@ class SetUp:
     """Of the specimen with usual damping ratios: those are put in afterwards."""
     bare: BareModes | None
     remade: Callable[[Sweep], DiagnosisProblem]
-    """The task of some of its points."""
+    """The problem of some of its points."""
 
     @property
     def specimen(self) -> Specimen:

@@ -145,14 +145,14 @@ def identify_shifted(
     members = Members(every, stated, hammer)
     asked = _Asked(members, shift, vertical, progress)
     with threadpool_limits(1, "blas"):
-        alone, task, fit = asked.fitted(with_effects=False)
+        alone, problem, fit = asked.fitted(with_effects=False)
         if in_doubt(fit) and explains(fit):
-            fit = asked.freer(task, fit)
+            fit = asked.freer(problem, fit)
         # A row that is wrong is no temperature's fault, nor a cause that all have.
         odd = members.odd_rows(alone) if in_doubt(fit) else []
         apart = asked.each_apart(alone) if in_doubt(fit) and not odd else None
         told = bool(odd) or (apart is not None and not in_doubt(apart))
-        causes = asked.common_causes(alone, task, fit) if in_doubt(fit) and not told else []
+        causes = asked.common_causes(alone, problem, fit) if in_doubt(fit) and not told else []
     verdict = judge(fit, causes, apart, [one.name for one in every], members.scale_known, odd)
     cause = next(iter(serving(causes)), None)
     fit = cause.fit if cause is not None else fit
@@ -161,15 +161,15 @@ def identify_shifted(
         *remarks_at_temperatures(members, vertical=vertical),
         *_theories(members, fit),
     )
-    if isinstance(task.joined, Tables):
-        tables = task.joined.problem.members
+    if isinstance(problem.joined, Tables):
+        tables = problem.joined.problem.members
         remarks += remark_on_reading(tables, [fit.joint.at(k) for k in range(len(tables))])
     if reference_c is not None and reference != reference_c:
         remarks += (
             f"one factor a temperature says nothing between them: the law is at {reference:g} degC, the "
             f"nearest to {reference_c:g}",
         )
-    joined = task.joined
+    joined = problem.joined
     return Shifted(
         fit,
         verdict,
@@ -225,28 +225,28 @@ class _Asked:
         return TemperatureProblem(joined, shift, self.vertical).near([a.begun.none.law for a in alone])
 
     def _fit_of(
-        self, task: TemperatureProblem, alone: Sequence[Alone]
+        self, problem: TemperatureProblem, alone: Sequence[Alone]
     ) -> tuple[TemperatureProblem, ShiftedFit]:
         """A fit; of tables of modes fits after it, with the model's errors as the law before them has them.
 
         These go with the law: peaks differ from the model's modes twice as much in a transition as beside it.
         """
         begun = [a.begun for a in alone]
-        laws, z = [b.none.law for b in begun], task.stated([b.none.z for b in begun])
-        fit = fit_shifted(task, laws, z)
+        laws, z = [b.none.law for b in begun], problem.stated([b.none.z for b in begun])
+        fit = fit_shifted(problem, laws, z)
         for _ in range(_ROUNDS):
-            again = task.erring_at(fit.joint)
+            again = problem.erring_at(fit.joint)
             if again is None:
                 break
-            task, fit = again, fit_shifted(again, laws, z)
-        return task, fit
+            problem, fit = again, fit_shifted(again, laws, z)
+        return problem, fit
 
-    def freer(self, task: TemperatureProblem, fit: ShiftedFit) -> ShiftedFit:
+    def freer(self, problem: TemperatureProblem, fit: ShiftedFit) -> ShiftedFit:
         """One law that bends further, where that is all that one law lacks; else the fit as it is."""
         with self.progress("a law that bends further"):
             tried = fit
             for _ in range(_FREER):
-                found = task.freer(tried) if in_doubt(tried) else None
+                found = problem.freer(tried) if in_doubt(tried) else None
                 if found is None:
                     break
                 tried = found
@@ -259,18 +259,20 @@ class _Asked:
         with self.progress("a factor for each of them"):
             return self._fit_of(self._task(alone, each_its_own(self.shift)), alone)[1]
 
-    def common_causes(self, alone: Sequence[Alone], task: TemperatureProblem, fit: ShiftedFit) -> list[Cause]:
+    def common_causes(
+        self, alone: Sequence[Alone], problem: TemperatureProblem, fit: ShiftedFit
+    ) -> list[Cause]:
         """What all may have in common: channels first, which ask for no other model of the specimen."""
         effects, join = common(self.members.effects), self.members.joined
         with executor() as workers:
             with self.progress("a common cause in the channels") as report:
                 plain = [e for e in effects if not e.spans]
-                found = causes_of(alone, task, fit, plain, join, workers, report)
+                found = causes_of(alone, problem, fit, plain, join, workers, report)
             if any(c.serves for c in found):
                 return found
-            spanned, task, fit = self.fitted(with_effects=True)
+            spanned, problem, fit = self.fitted(with_effects=True)
             with self.progress("a common cause in specimen and rig") as report:
-                return causes_of(spanned, task, fit, effects, join, workers, report)
+                return causes_of(spanned, problem, fit, effects, join, workers, report)
 
 
 def _theories(members: Members, fit: ShiftedFit) -> tuple[str, ...]:

@@ -11,7 +11,7 @@ from fitting.data.noise import Noise
 from fitting.diagnosis.checks.overstated_noise import with_own_noise
 from fitting.diagnosis.checks.prediction import held_out
 from fitting.diagnosis.checks.stretches import parts_held_out, words_of_stretches
-from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
+from fitting.diagnosis.diagnose import diagnose_problem, seen_in_channels
 from fitting.diagnosis.inference.begin import Begun, ended
 from fitting.diagnosis.inference.freer_law import loosened
 from fitting.diagnosis.joint import fit_of
@@ -186,18 +186,18 @@ def diagnose_together(
                 else among(e, count, spots, one_plate=same, mounted=mounted(files, on))
                 for e, on in among_files
             ]
-            result = diagnose_task(
+            result = diagnose_problem(
                 problem,
-                None,
-                tried,
-                noise,
-                work.bare,
-                work.start,
-                tuple(channels),
-                np.concatenate(work.why_aside),
-                report,
-                accept,
-                workers,
+                reduced=None,
+                effects=tried,
+                noise=noise,
+                bare=work.bare,
+                start=work.start,
+                channels=tuple(channels),
+                why_aside=np.concatenate(work.why_aside),
+                report=report,
+                accepted_by_hand=accept,
+                executor=workers,
                 settle=last_word(kinds),
             )
             if "fixture_transfer" in {e.name for e in effects} and result.verdict == "unknown":

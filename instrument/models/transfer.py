@@ -25,7 +25,7 @@ from fitting.structures.shear_pair import ShearPair
 
 
 class ProblemSource(Protocol):
-    """What makes the task of the points in use."""
+    """What makes the problem of the points in use."""
 
     used: list[Mask]
     bare: BareModes | None

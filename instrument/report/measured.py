@@ -111,13 +111,13 @@ def segments_of(contents: Contents, aside: Sequence[PointSetAside] = ()) -> list
 def _segment(steps: list[tuple[Which, PointMeasured, bool]]) -> Measured:
     which, mine, kept = zip(*sorted(steps, key=lambda one: one[0].frequency_hz), strict=True)
     base, v = np.array([p.base_m_s2 for p in mine]), np.array([p.velocity_m_s for p in mine])
-    noise = np.hypot(noise_of(mine, "velocity"), noise_of(mine, "base"))
+    noise = np.hypot(relative_noise(mine, "velocity"), relative_noise(mine, "base"))
     f = np.array([p.frequency_hz for p in mine])
     std = noise * np.abs(v / base)
     return Measured(mine[0].segment, f, v / base, std, which, np.array(kept), elsewhere(mine[0]))
 
 
-def noise_of(points: Sequence[PointMeasured], channel: str) -> Array:
+def relative_noise(points: Sequence[PointMeasured], channel: str) -> Array:
     """Standard deviation of each part over the amplitude: a fraction. Shape (points,)."""
     if channel == "velocity":
         return np.array([p.velocity_std_m_s / abs(p.velocity_m_s) for p in points])

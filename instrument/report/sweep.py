@@ -9,7 +9,7 @@ from instrument.files.column import ColumnPoint
 from instrument.files.point_columns import in_report
 from instrument.report.blocks import Block, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.report.fitted import ReportedFit
-from instrument.report.measured import noise_of, points_set_aside, segments_of
+from instrument.report.measured import points_set_aside, relative_noise, segments_of
 from instrument.report.sweep_figures import quality_figure, response_figures
 from instrument.results.numbers import format_number, signed
 from instrument.results.set_aside import why_aside, words_of
@@ -43,7 +43,7 @@ def _summary(contents: Contents) -> str:
     if not steps:
         return "Only sentinel points were measured."
     off = max(abs(p.control_error_percent) for p in steps)
-    noise = 100 * float(np.median(noise_of(steps, "velocity")))
+    noise = 100 * float(np.median(relative_noise(steps, "velocity")))
     shown = acceleration_unit()
     levels_m_s2 = sorted({round(p.level_m_s2, 6) for p in steps})
     levels = ", ".join(f"{shown.of(v):.4g}" for v in levels_m_s2)

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from fitting.arrays import Array, Complex
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.report.fitted import ReportedFit
-from instrument.report.measured import Measured, explained, noise_of
+from instrument.report.measured import Measured, explained, relative_noise
 from instrument.results.drawing import (
     DATA,
     MARK,
@@ -111,8 +111,8 @@ def quality_figure(contents: Contents) -> Figure:
     points = contents.measured
     n = np.array([p.step for p in points])
     sentinel = np.array([p.purpose == "sentinel" for p in points])
-    _dots(noise, n, 100 * noise_of(points, "velocity"), DATA, "velocity")
-    _dots(noise, n, 100 * noise_of(points, "base"), SECOND, "base acceleration")
+    _dots(noise, n, 100 * relative_noise(points, "velocity"), DATA, "velocity")
+    _dots(noise, n, 100 * relative_noise(points, "base"), SECOND, "base acceleration")
     noise.set_yscale("log")
     _dots(control, n, _all(points, "control_error_percent"), SECOND, "")
     _draw_tolerance(control, contents)

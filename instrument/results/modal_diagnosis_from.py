@@ -172,8 +172,8 @@ def _explanation(
             *said,
             f"There is more than the modes' errors, but nothing that was tried explains it.{nearest}",
         )
-    if judgement.why:
-        return (*said, judgement.why)
+    if judgement.note:
+        return (*said, judgement.note)
     stories = [text.story(e, f) for e, f in zip(judgement.accepted.fitted.effects, effects, strict=True)]
     said.append(f"Most likely {' and '.join(stories)}.")
     for name, group in judgement.equivalent.items():

@@ -10,7 +10,7 @@ from instrument.hammer_test.analysis import HammerAnalysis
 from instrument.hammer_test.struck import StruckAnalysis
 from instrument.session.setup import Setup
 from instrument.stepped_sine.calibration import Calibration, calibrate, phase_left
-from instrument.stepped_sine.step import StepAnalysis
+from instrument.stepped_sine.step import StepAnalysis, StepContext
 from instrument.stream.clock import SessionClock
 from instrument.stream.derived import (
     CalibrationFound,
@@ -120,8 +120,8 @@ class Analysis:
         match event:
             case BlockAcquired():
                 return self._block(event)
-            case ShakerCommanded():
-                return self.step.commanded(event) if self.step is not None else []
+            case ShakerCommanded() if self.step is not None:
+                self.step.commanded(event)
             case StepBegan():
                 self.step = self._begin(event)
             case SessionBegan():
@@ -133,7 +133,8 @@ class Analysis:
                 self._range_is_new = self.step is None or self.step.done
                 if isinstance(self.hammer, StruckAnalysis) and self._strikes:
                     return self.hammer.range_set(event)
-                return self.step.range_set(event, self._wider()) if self.step is not None else []
+                if self.step is not None:
+                    self.step.range_set(event, self._wider())
             case SpotMoved():
                 self._spot = event
             case MassPut():
@@ -235,20 +236,20 @@ class Analysis:
             # No run does that; a recording of which something is lost may.
             raise ValueError(f"step {began.step} begins before an acquisition and the vibrometer's range")
         new, self._range_is_new = self._range_is_new, False
-        return StepAnalysis(
-            began,
-            self._setup.sweep,
-            self._scaling(),
-            self._acquisition.sample_rate_hz,
-            self._range,
-            self._wider(),
-            None if began.purpose == "calibration" else self._calibration,
-            self._signal_level,
-            self._latest,
-            self._temperature_c,
-            self._settled_at.get(began.step),
+        context = StepContext(
+            settings=self._setup.sweep,
+            scaling=self._scaling(),
+            sample_rate_hz=self._acquisition.sample_rate_hz,
+            vibrometer=self._range,
+            latest=self._latest,
+            wider=self._wider(),
+            calibration=None if began.purpose == "calibration" else self._calibration,
+            signal_level=self._signal_level,
+            temperature_c=self._temperature_c,
+            settled_at=self._settled_at.get(began.step),
             range_is_new=new,
         )
+        return StepAnalysis(began, context)
 
     def _calibration(self, range_name: str) -> Calibration | None:
         found = self.calibrations.get(range_name)

@@ -184,7 +184,7 @@ class Person:
 
 
 class SimulatedOperator:
-    """Acts on the simulated rig through its side door."""
+    """Acts on the simulated rig through its operator channel."""
 
     def __init__(self, url: str, hit_m: tuple[float, float], response_m: tuple[float, float]) -> None:
         self._url, self._hit_m, self._response_m = url, hit_m, response_m

@@ -11,12 +11,13 @@ from drivers.front_end.lan_xi_documents import write_transducer
 from drivers.shaker.modbus_driver import ModbusOptions
 from drivers.shaker.register_map import DEFAULT
 from drivers.simulated.climate import Climate
+from drivers.simulated.mounted_plate import MountedPlate
 from drivers.simulated.plant.effects import Effects
 from drivers.simulated.plant.shaken import ShakenPlate
 from drivers.simulated.plates import DampedPlate, HammerInHand, OnShaker, SimulatedBarePlate, Struck
 from drivers.simulated.rig import OWN_MODEL, Ports, SimulatedChamber, SimulatedRig, VibrometerPeer
 from drivers.simulated.sensors import SimulatedSensor
-from drivers.simulated.world import Laser, MountedPlate, Wiring, World
+from drivers.simulated.world import Laser, Wiring, World
 from drivers.vibrometer.driver import Optics
 from drivers.vibrometer.polytec_driver import PolytecOptions
 from fitting.specimen import Specimen

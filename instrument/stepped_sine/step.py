@@ -8,6 +8,7 @@ A new command makes what came before worthless: blocks count from the end of its
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -54,41 +55,46 @@ _CLIPPED = 0.98
 """Share of the vibrometer's full scale from which its output counts as clipped."""
 
 
+@dataclass(frozen=True)
+class StepContext:
+    """What is known when a step begins: how the rig is set, and what was read of it last."""
+
+    settings: SweepSettings
+    scaling: Scaling
+    sample_rate_hz: float
+    vibrometer: RangeSet
+    latest: int
+    """The first sample that is yet to come."""
+    wider: tuple[str, ...] = ()
+    """Ranges coarser than the vibrometer's, the next first."""
+    calibration: Callable[[str], Calibration | None] | None = None
+    """Of a range by its name; None where readings are not to be calibrated."""
+    signal_level: float | None = None
+    temperature_c: float | None = None
+    """Before the step, for points during whose dwell no input of the front-end reads it."""
+    settled_at: frozenset[int] | None = None
+    """Samples at which a recorded run began to read; None where that is for the analysis to say."""
+    range_is_new: bool = False
+    """Whether what went before was read in another range, and may ring on beyond this one."""
+
+
 class StepAnalysis:
     """Follows one step from its command to its point."""
 
-    def __init__(
-        self,
-        began: StepBegan,
-        settings: SweepSettings,
-        scaling: Scaling,
-        sample_rate_hz: float,
-        vibrometer: RangeSet,
-        wider: tuple[str, ...],
-        calibration: Callable[[str], Calibration | None] | None,
-        signal_level: float | None,
-        latest: int,
-        temperature_c: float | None = None,
-        settled_at: frozenset[int] | None = None,
-        *,
-        range_is_new: bool = False,
-    ) -> None:
-        self._began, self._settings, self._scaling = began, settings, scaling
-        self._rate = sample_rate_hz
-        self._range, self._wider = vibrometer, wider
-        self._calibration = calibration
-        self._signal_level = signal_level
-        # Before the step, where no input of the front-end has it during the dwell.
-        self._read_c = temperature_c
-        # When a recorded run began to read; None where that is for this analysis to say.
-        self._settled_at = settled_at
-        # What went before was read in another range, and may ring on beyond this one.
-        self._rings_until: int | None = None if range_is_new else latest
-        self._guard = Guard(began, settings)
+    def __init__(self, began: StepBegan, context: StepContext) -> None:
+        self._began = began
+        self._settings, self._scaling = context.settings, context.scaling
+        self._rate = context.sample_rate_hz
+        self._range, self._wider = context.vibrometer, context.wider
+        self._calibration = context.calibration
+        self._signal_level = context.signal_level
+        self._read_c = context.temperature_c
+        self._settled_at = context.settled_at
+        self._rings_until: int | None = None if context.range_is_new else context.latest
+        self._guard = Guard(began, context.settings)
         self._samples = Samples(3)
         self._command: ShakerCommanded | None = None
-        self._from = latest
-        self._latest = latest
+        self._from = self._latest = context.latest
         self._corrections = 0
         self._phase: Literal["settling", "dwelling", "done"] = "settling"
         self._remarks: list[str] = []
@@ -118,7 +124,7 @@ class StepAnalysis:
 
     # What happened
 
-    def commanded(self, command: ShakerCommanded) -> list[Derived]:
+    def commanded(self, command: ShakerCommanded) -> None:
         """A new drive: everything before it is worthless."""
         self._command = command
         self._from = begins_at(command, self._latest, self._rate, self._settings)
@@ -126,14 +132,12 @@ class StepAnalysis:
             rings_s = min(_RINGS / max(self._began.decay_1_s, 1e-9), self._settings.settle.most_s)
             self._rings_until = self._from + int(rings_s * self._rate)
         self._restart()
-        return []
 
-    def range_set(self, vibrometer: RangeSet, wider: tuple[str, ...]) -> list[Derived]:
+    def range_set(self, vibrometer: RangeSet, wider: tuple[str, ...]) -> None:
         """Another range: its first samples may still be the old one's."""
         self._range, self._wider = vibrometer, wider
         self._from = begins_at(vibrometer, self._latest, self._rate, self._settings)
         self._restart()
-        return []
 
     def block(self, first_sample: int, volts: Array, overload: tuple[bool, ...]) -> list[Derived]:
         """Samples of all channels in V, shape (channels, samples)."""

@@ -5,6 +5,7 @@ import tty
 
 import pytest
 
+from drivers.errors import Garbled, TimedOut, Unreachable
 from drivers.serial_line import SerialLine
 
 
@@ -53,6 +54,65 @@ def test_a_port_that_there_is_not_cannot_be_opened(tmp_path):
     with pytest.raises(OSError, match="ttyUSB0"):
         line.open()
     assert not line.is_open
+
+
+@pytest.fixture
+def line(far_end):
+    """A near end that is open."""
+    opened = SerialLine(far_end[1], 9600, timeout_s=0.1)
+    opened.open()
+    yield opened
+    opened.close()
+
+
+def test_lines_are_read_one_by_one_and_blank_ones_passed_over(far_end, line):
+    os.write(far_end[0], b"\r\nfirst\r  \r\nsecond\r\nthi")
+    received = bytearray()
+    lines = [line.read_line(received, time.monotonic() + 5, longest=80, ends=b"\r\n") for _ in range(2)]
+    assert lines == [b"first", b"second"]
+    with pytest.raises(Garbled, match=r"^b'thi' and no end of line in 0\.1 s$"):
+        line.read_line(received, time.monotonic(), longest=80, ends=b"\r\n")
+
+
+def test_a_carriage_return_belongs_to_the_line_where_it_ends_none(far_end, line):
+    os.write(far_end[0], b"one\rline\n")
+    assert line.read_line(bytearray(), time.monotonic() + 5, longest=80) == b"one\rline"
+
+
+def test_silence_and_lines_that_never_end_are_told_apart(far_end, line):
+    with pytest.raises(TimedOut, match=r"^no line in 0\.1 s$"):
+        line.read_line(bytearray(), time.monotonic(), longest=8)
+    with pytest.raises(Garbled, match=r"^9 bytes without an end of line$"):
+        line.read_line(bytearray(b"123456789"), time.monotonic() + 5, longest=8)
+
+
+def test_attempts_end_with_the_first_that_succeeds(line):
+    left = [Garbled("torn"), TimedOut("nothing"), None]
+
+    def attempt():
+        if (problem := left.pop(0)) is not None:
+            raise problem
+        return 23.5
+
+    assert line.attempts(3, attempt, "thermometer") == 23.5
+    assert line.is_open
+
+
+@pytest.mark.parametrize(
+    ("problem", "raised", "stays_open"),
+    [
+        (Garbled("torn"), Garbled("thermometer: torn, 2 attempts"), True),
+        (OSError("gone"), Unreachable("thermometer: gone: is it plugged in and on?, 2 attempts"), False),
+    ],
+)
+def test_attempts_in_vain_raise_the_last_error_and_close_a_lost_port(line, problem, raised, stays_open):
+    def attempt():
+        raise problem
+
+    with pytest.raises(type(raised)) as caught:
+        line.attempts(2, attempt, "thermometer")
+    assert str(caught.value) == str(raised)
+    assert line.is_open == stays_open
 
 
 def _wait_for(line, count):

@@ -15,7 +15,7 @@ from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.inference.evidence import BareModes, Evidence
 from fitting.diagnosis.inference.refit import ROUGH, refit
 from fitting.diagnosis.inference.refitted import Refitted
-from fitting.diagnosis.inference.usual_law import at_rest, followed, polished, within_search
+from fitting.diagnosis.inference.usual_law import followed, followed_to_convergence, polished, within_search
 from fitting.diagnosis.inference.wide_valley import in_wide_valley, with_stated
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.model_error import model_error
@@ -106,12 +106,16 @@ def begin(
     begun = Begun(here, problem.plate, evidence, none, first, is_clear)
     if to_its_end:
         return ended(begun, executor)
-    return replace(begun, none=at_rest(here, evidence, none)) if none.chi2_per_dof < SEARCH.wrong else begun
+    return (
+        replace(begun, none=followed_to_convergence(here, evidence, none))
+        if none.chi2_per_dof < SEARCH.wrong
+        else begun
+    )
 
 
 def ended(begun: Begun, executor: Executor = ALONE) -> Begun:
     """The same, its fit followed as far as is reported."""
-    follow = at_rest if begun.is_clear else partial(followed, executor=executor)
+    follow = followed_to_convergence if begun.is_clear else partial(followed, executor=executor)
     return replace(begun, none=follow(begun.problem, begun.evidence, begun.none))
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refitted import Refitted
-from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.response.response import Response
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 
@@ -24,7 +24,7 @@ class JointProblem:
 
     def __init__(
         self,
-        response: SweepResponse,
+        response: Response,
         evidence: Evidence,
         law: CoreLaw,
         u: Array,
@@ -116,7 +116,8 @@ class JointProblem:
             if known is not None and known.key == key:
                 return known
         law, u = self._split(x)
-        both = None if self.response.apart else self.response.with_derivatives(law, u)
+        extra = self.response.derivatives_cost_extra
+        both = None if extra else self.response.with_derivatives(law, u)
         v = both[0] if both else self.response.velocity(law, u)
         r = [self.evidence.residuals(v[self._part]), self._bare(u), u[: self._z]]
         r += [np.log(law.values[self._n - law.bend_count :]), law.breaches(), self._ties(u)]

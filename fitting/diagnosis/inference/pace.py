@@ -22,14 +22,14 @@ class Steps:
 
     It ends the fit where a chi-square of `goal` is out of reach, or one of `rival` by the end of the
     evaluations that it may have, `most`: of rough fits those that have come furthest by then are chosen. So
-    it does where less than `least` is left to gain in all the steps that a fit may have: it is at rest.
+    it does where less than `least` is left to gain in all the steps that a fit may have: it has converged.
     """
 
     def __init__(
         self, goal: float = np.inf, rival: float = np.inf, most: int = _MOST_STEPS, least: float = 0.0
     ) -> None:
         self._goal, self._rival, self._most, self._least = goal, rival, most, least
-        self.at_rest = False
+        self.converged = False
         self._chi2 = list[float]()
 
     def __call__(self, intermediate_result: OptimizeResult) -> None:
@@ -37,8 +37,8 @@ class Steps:
         self._chi2.append(2 * float(intermediate_result.cost))
         if not is_within_reach(self._chi2[-1], self._goal, self.pace):
             raise StopIteration
-        self.at_rest = _MOST_STEPS * self.pace < self._least
-        if self.at_rest:
+        self.converged = _MOST_STEPS * self.pace < self._least
+        if self.converged:
             raise StopIteration
         if np.isfinite(self._rival) and np.isfinite(self.pace):
             left = self._most - int(intermediate_result.nfev)

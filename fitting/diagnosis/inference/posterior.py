@@ -6,14 +6,14 @@ from fitting.arrays import Array
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.joint_problem import JointProblem
 from fitting.diagnosis.inference.refitted import Refitted
-from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.response.response import Response
 from fitting.errors import OutsideModel
 
 _WIDEST = 3.0
 """Times a standard error, that a flat chi-square may widen it."""
 
 
-def posterior(response: SweepResponse, evidence: Evidence, fitted: Refitted) -> Array:
+def posterior(response: Response, evidence: Evidence, fitted: Refitted) -> Array:
     """`Refitted.covariance`, wider where chi-square is flatter than its curvature says. Shape as there.
 
     Looked at along the directions of the stated numbers that the fit has moved by more than a standard

@@ -10,18 +10,18 @@ from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.joint_problem import JointProblem
 from fitting.diagnosis.inference.pace import Steps
 from fitting.diagnosis.inference.refitted import Refitted
-from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.response.response import Response
 from fitting.laws import CoreLaw
 
 _MOST_EVALUATIONS = 25
 """To compare; what has not come to its end by then says `converged = False`. A bound on time."""
-_TO_REST_EVALUATIONS = 150
+_CONVERGED_EVALUATIONS = 150
 """To report: a valley that winds (a law against a drift) takes 75. A bound on time."""
 _ROUGH_EVALUATIONS = 10
 """To choose between starts. A choice: what a good one gains it gains soon."""
 _BRIEF_EVALUATIONS = 3
 """Where little is to be gained: a look whether that is so."""
-ROUGH, COMPARABLE, AT_REST = 1e-3, 1e-5, 1e-8
+ROUGH, COMPARABLE, CONVERGED = 1e-3, 1e-5, 1e-8
 """Relative change of chi-square and parameters at which a fit stops: to choose, to compare, and to report."""
 
 
@@ -30,7 +30,7 @@ _FLAT = 1e-10
 
 
 def refit(
-    response: SweepResponse,
+    response: Response,
     evidence: Evidence,
     law: CoreLaw,
     u: Array,
@@ -68,7 +68,7 @@ def refit(
         problem.fitted(found.x),
         iterations=int(found.njev),
         evaluations=int(found.nfev),
-        converged=bool(found.status > 0) or steps.at_rest,
+        converged=bool(found.status > 0) or steps.converged,
         pace=steps.pace,
     )
 
@@ -76,11 +76,11 @@ def refit(
 def _most(tolerance: float) -> int:
     if tolerance >= ROUGH:
         return _ROUGH_EVALUATIONS
-    return _MOST_EVALUATIONS if tolerance >= COMPARABLE else _TO_REST_EVALUATIONS
+    return _MOST_EVALUATIONS if tolerance >= COMPARABLE else _CONVERGED_EVALUATIONS
 
 
-def kept(response: SweepResponse, evidence: Evidence, law: CoreLaw, u: Array) -> Refitted:
-    """As `refit`, nothing moved. Shape of `u` as in `Refitted`."""
+def evaluated(response: Response, evidence: Evidence, law: CoreLaw, u: Array) -> Refitted:
+    """The fit as it is at `law` and `u`, nothing moved. Shape of `u` as in `Refitted`."""
     problem = JointProblem(response, evidence, law, u, None)
     lower, upper = problem.limits
     return problem.fitted(np.clip(problem.start, lower, upper))

@@ -14,7 +14,7 @@ from scipy.optimize import least_squares
 from fitting.arrays import Array
 from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.inference.evidence import Evidence
-from fitting.diagnosis.inference.refit import AT_REST, refit
+from fitting.diagnosis.inference.refit import CONVERGED, refit
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.inference.wide_valley import with_stated
 from fitting.diagnosis.problem.base import DiagnosisProblem
@@ -63,7 +63,7 @@ class _Ways:
 
     def on(self, fitted: Refitted) -> Refitted:
         """From where it is."""
-        return at_rest(self.problem, self.evidence, fitted)
+        return followed_to_convergence(self.problem, self.evidence, fitted)
 
     def from_usual(self, fitted: Refitted) -> Refitted:
         """From the law of usual size; itself where that cannot come as far."""
@@ -72,7 +72,7 @@ class _Ways:
         again = polished(self.problem, fitted.effects, self.evidence, law, fitted.u, goal)
         if not again.may_reach(goal):
             return fitted
-        found = at_rest(self.problem, self.evidence, again, goal)
+        found = followed_to_convergence(self.problem, self.evidence, again, goal)
         return found if found.chi2 <= goal else fitted
 
 
@@ -124,7 +124,7 @@ def finished(
     return polished(problem, rough.effects, evidence, law, u, goal)
 
 
-def at_rest(
+def followed_to_convergence(
     problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted, goal: float = np.inf
 ) -> Refitted:
     """A fit followed until nothing is left to be gained, or `goal` is out of reach; itself where it is there.
@@ -136,7 +136,7 @@ def at_rest(
         return fitted
     response = response_of(problem.around(fitted.law), fitted.effects)
     least = SEARCH.least_owed
-    found = refit(response, evidence, fitted.law, fitted.u, tolerance=AT_REST, goal=goal, least=least)
+    found = refit(response, evidence, fitted.law, fitted.u, tolerance=CONVERGED, goal=goal, least=least)
     if fitted.chi2 - found.chi2 < SEARCH.least_owed:
         # Nothing is left to gain: one that was only cut short there has come to its end.
         return replace(fitted, converged=fitted.converged or found.converged)

@@ -11,7 +11,7 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.diagnosis.inference.evidence import Evidence
-from fitting.diagnosis.inference.refit import ROUGH, kept, refit
+from fitting.diagnosis.inference.refit import ROUGH, evaluated, refit
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.several.responses import response_of
@@ -32,9 +32,9 @@ def in_wide_valley(
 
     `u` of shape (unknowns of the effects,). `brief` as `refit` takes it.
     """
-    held = problem.held
-    response = response_of(held, effects, held.coarse)
-    begun = np.concatenate([held.as_stated, u])
+    fixed = problem.with_stated_fixed
+    response = response_of(fixed, effects, fixed.coarse)
+    begun = np.concatenate([fixed.as_stated, u])
     fitted = refit(response, evidence.blunt(), law, begun, tolerance=ROUGH, brief=brief)
     # As the readings are it has some way to go.
     return replace(fitted, converged=False)
@@ -57,4 +57,4 @@ def whole(problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted) -> Re
     if fitted.stated == len(problem.nuisances):
         return fitted
     response = response_of(problem, fitted.effects, problem.coarse)
-    return kept(response, evidence.blunt(), fitted.law, with_stated(problem, fitted))
+    return evaluated(response, evidence.blunt(), fitted.law, with_stated(problem, fitted))

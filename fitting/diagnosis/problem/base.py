@@ -230,7 +230,7 @@ class DiagnosisProblem:
         return np.zeros(len(self.nuisances))
 
     @cached_property
-    def held(self) -> "DiagnosisProblem":
+    def with_stated_fixed(self) -> "DiagnosisProblem":
         """The same, its stated numbers taken at their word: an evaluation takes half the time.
 
         Itself where they are few, or more than numbers of one plate.

@@ -98,7 +98,7 @@ class SmallProblem(DiagnosisProblem):
         return found
 
     @property
-    def held(self) -> "SmallProblem":
+    def with_stated_fixed(self) -> "SmallProblem":
         """Itself."""
         return self
 

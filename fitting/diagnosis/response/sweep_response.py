@@ -10,6 +10,7 @@ Channels, sharp factors and the law itself act at every point.
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
+from typing import ClassVar
 
 import numpy as np
 
@@ -29,13 +30,9 @@ from fitting.laws import CoreLaw
 
 
 class SweepResponse:
-    """The sweep of a problem under a law and effects.
+    """The sweep of a problem under a law and effects: a `Response`."""
 
-    `u` holds the stated numbers in standard deviations, then the effects' unknowns, one after the other.
-    """
-
-    apart = False
-    """Whether phasors come for less without derivatives, and these then for the rest."""
+    derivatives_cost_extra: ClassVar[bool] = True
 
     def __init__(
         self,
@@ -52,7 +49,6 @@ class SweepResponse:
         `every`: derivatives to unknowns that a fit leaves alone too; else they are zero.
         """
         self.problem, self.effects, self.nuisances = problem, tuple(effects), problem.nuisances
-        self.apart = True
         self._unknowns = Unknowns(len(self.nuisances), self.effects)
         self.parameters = self._unknowns.parameters
         self._channels = Channels(problem, self._unknowns)

@@ -13,36 +13,41 @@ What the words mean here:
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.arrays import Array
 from fitting.diagnosis.checks.prediction import held_out
 from fitting.diagnosis.checks.predictive import temper
 from fitting.diagnosis.checks.stretches import parts_held_out
-from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.freer_law import as_free_as_asked
 from fitting.diagnosis.inference.marginal import cost
-from fitting.diagnosis.inference.refit import ROUGH, kept, refit
+from fitting.diagnosis.inference.refit import ROUGH, evaluated, refit
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.inference.usual_law import finished, followed, polished
-from fitting.diagnosis.inference.wide_valley import in_wide_valley, of_effects, whole, with_stated
-from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.search.asked import (
+    Beside,
+    BesideBest,
+    FormFit,
+    FormStart,
+    FromLaw,
+    LawBeside,
+    OfEffect,
+    OfForm,
+    OneOfPair,
+    Second,
+    State,
+    ToEnd,
+    ToFollow,
+)
 from fitting.diagnosis.search.candidates import CandidateFit, Known, is_over_decades
-from fitting.diagnosis.search.looks import Start, has_place, look
+from fitting.diagnosis.search.looks import Start, has_place
+from fitting.diagnosis.search.wide_fits import WideFits
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
 from fitting.identification.validation import Validation
 from fitting.laws import CoreLaw
-
-A = TypeVar("A")
-Form = tuple[str, int]
-"""An effect by its name, and the number of its variant."""
-State = list[Known]
-"""What is known of each variant of an effect."""
 
 
 @dataclass(frozen=True)
@@ -54,25 +59,8 @@ class FirstLook:
     state: State
 
 
-class CandidateFits:
+class CandidateFits(WideFits):
     """Fits of one set of data with one or two effects more than `none`."""
-
-    def __init__(
-        self, problem: DiagnosisProblem, evidence: Evidence, none: Refitted, effects: Sequence[Effect]
-    ) -> None:
-        self.problem, self.evidence, self.none = problem, evidence, none
-        self.effects = {e.name: e for e in effects}
-        self.candidates = {
-            e.name: [
-                CandidateFit(problem, evidence, none, form) for form in e.forms(problem.points, problem.plate)
-            ]
-            for e in effects
-        }
-
-    def form(self, form: Form) -> Effect:
-        """The effect that a form stands for."""
-        name, number = form
-        return self.candidates[name][number].effect
 
     def has_places(self, name: str) -> bool:
         """Whether an effect has a form whose place is to be found."""
@@ -87,7 +75,7 @@ class CandidateFits:
         for candidate, known in zip(self.candidates[name], state, strict=True):
             candidate.learn(known)
 
-    def held_out(self, fitted: Refitted) -> Validation:
+    def predict_held_out(self, fitted: Refitted) -> Validation:
         """What a fit says of data it has not seen."""
         return held_out(self.problem, self.evidence, fitted, self.parts)
 
@@ -96,17 +84,17 @@ class CandidateFits:
         """What is held out, the same of every fit. Shape (points,)."""
         return parts_held_out(self.problem, self.none.law)
 
-    def other_laws(self, effect: Effect) -> list[Refitted]:
+    def fit_other_laws(self, effect: Effect) -> list[Refitted]:
         """Fits with each of the laws that an effect has in the place of the stated one."""
         laws = effect.laws(self.none.law, self.problem.points)
         return self._best_laws(self.none, effect, laws)
 
-    def other_laws_beside(self, one: tuple[Refitted, str, float]) -> list[Refitted]:
+    def fit_other_laws_beside(self, asked: LawBeside) -> list[Refitted]:
         """Fits with each of the laws of an effect beside a fit of another effect.
 
         None where the law that is freest to bend does not come down to `goal`.
         """
-        before, name, goal = one
+        before, name, goal = asked
         effect = self.effects[name]
         laws = effect.laws(before.law, self.problem.points)
         freest = max(laws, key=lambda law: len(law.names))
@@ -137,7 +125,7 @@ class CandidateFits:
         best = worth[: SEARCH.laws_finished] or order[:1]
         return [refit(response, self.evidence, f.law, f.u) for f in best]
 
-    def starts(self, name: str) -> State:
+    def look_first(self, name: str) -> State:
         """What a first look at an effect promises."""
         for candidate in self.candidates[name]:
             _ = candidate.starts
@@ -147,20 +135,20 @@ class CandidateFits:
         """Chi-square that an effect may gain by one linear step."""
         return max((c.promise for c in self.candidates[name]), default=0.0)
 
-    def begun(self, one: tuple[str, State]) -> "FirstLook":
+    def begin(self, asked: OfEffect) -> FirstLook:
         """An effect's rough fits near by, or its other laws in the place of the stated one."""
-        name, state = one
+        name, state = asked
         if self.effects[name].laws(self.none.law, self.problem.points):
-            return FirstLook(name, self.other_laws(self.effects[name]), [])
+            return FirstLook(name, self.fit_other_laws(self.effects[name]), [])
         self.learn(name, state)
         fits = [f for candidate in self.candidates[name] for f in candidate.near]
         return FirstLook(name, fits, self.state(name))
 
-    def beside_the_best(self, one: tuple[str, State, Refitted]) -> "FirstLook":
-        """`begun` where another effect explains everything: from its law, if this one can do so there."""
-        name, state, best = one
+    def begin_beside_the_best(self, asked: BesideBest) -> FirstLook:
+        """`begin` where another effect explains everything: from its law, if this one can do so there."""
+        name, state, best = asked
         if self.effects[name].laws(self.none.law, self.problem.points):
-            return FirstLook(name, self.other_laws(self.effects[name]), [])
+            return FirstLook(name, self.fit_other_laws(self.effects[name]), [])
         self.learn(name, state)
         bare, there = self._from_the_law_of(best, [c.effect for c in self.candidates[name]])
         # From a law far off a linear step says nothing of a stiffness anywhere within six decades.
@@ -180,36 +168,36 @@ class CandidateFits:
         self, best: Refitted, effects: Sequence[Effect]
     ) -> tuple[Refitted, list[CandidateFit]]:
         """A fit that explains everything with its effect taken away, and others as they begin there."""
-        bare = kept(response_of(self.problem, ()), self.evidence, best.law, best.z)
+        bare = evaluated(response_of(self.problem, ()), self.evidence, best.law, best.z)
         goal = self.goal(best)
         return bare, [CandidateFit(self.problem, self.evidence, bare, e, goal=goal) for e in effects]
 
-    def another_form(self, one: tuple[Form, Refitted]) -> list[Refitted]:
+    def fit_another_form(self, asked: FormFit) -> list[Refitted]:
         """Rough fits of a form from the law of another one of its effect that explains everything."""
-        form, best = one
-        _, (there,) = self._from_the_law_of(best, [self.form(form)])
+        _, (there,) = self._from_the_law_of(asked.fitted, [self.form(asked.form)])
         return there.near
 
-    def plain(self, one: tuple[str, State]) -> State:
+    def fit_plain(self, asked: OfEffect) -> State:
         """Fits of the first variant from plain starts."""
-        name, state = one
+        name, state = asked
         self.learn(name, state)
         _ = self.candidates[name][0].plain
         return self.state(name)
 
-    def best_near(self, name: str) -> list[tuple[Form, Refitted]]:
+    def best_near(self, name: str) -> list[FormFit]:
         """The best of an effect's rough fits, or none; with it that of another form, if it is nearly as good.
 
         What two forms leave after some steps does not say which of them is the likelier in the end.
         """
-        each = [((name, k), min(c.near, key=_chi2)) for k, c in enumerate(self.candidates[name]) if c.near]
+        forms = enumerate(self.candidates[name])
+        each = [FormFit((name, k), min(c.near, key=_chi2)) for k, c in forms if c.near]
         best = _best_first(each)
         return [one for one in best[: SEARCH.forms] if one[1].chi2 < best[0][1].chi2 + SEARCH.nearer]
 
-    def on_the_way(self, name: str) -> list[tuple[Form, Refitted]]:
+    def on_the_way(self, name: str) -> list[FormFit]:
         """The best of an effect's rough fits that had not come to their end, or none."""
-        fits = [((name, k), f) for k, c in enumerate(self.candidates[name]) for f in c.near]
-        return sorted((one for one in fits if not one[1].converged), key=lambda one: one[1].chi2)[:1]
+        fits = [FormFit((name, k), f) for k, c in enumerate(self.candidates[name]) for f in c.near]
+        return _best_first([one for one in fits if not one.fitted.converged])[:1]
 
     def goal(self, best: Refitted) -> float:
         """Chi-square that a rival must come near to, where a fit explains everything there is."""
@@ -217,12 +205,12 @@ class CandidateFits:
             return np.inf
         return best.chi2 + SEARCH.near * temper(self.none, best)
 
-    def finished(self, one: tuple[Form, Refitted, float]) -> Refitted:
+    def finish(self, asked: ToFollow) -> Refitted:
         """A rough fit followed to the end, or to where a chi-square is out of reach."""
-        (name, number), rough, goal = one
+        (name, number), rough, goal = asked
         return self.candidates[name][number].finished(rough, goal)
 
-    def unfollowed(self, name: str, *, every: bool = False) -> list[tuple[Form, Start, float]]:
+    def unfollowed(self, name: str, *, every: bool = False) -> list[FormStart]:
         """Further starts of an effect whose place is to be found, where nobody has followed them; or all.
 
         With the chi-square that they must come below to be among the best few of its rough fits.
@@ -232,159 +220,98 @@ class CandidateFits:
         found = []
         for k, c in enumerate(self.candidates[name]):
             starts = [] if c.known.elsewhere is not None else [*c.further_starts]
-            found += [((name, k), s, rival) for s in [*starts, *(c.last_starts if every else [])]]
+            found += [FormStart((name, k), s, rival) for s in [*starts, *(c.last_starts if every else [])]]
         return found
 
-    def set_out(self, one: tuple[Form, Start, float]) -> Refitted:
+    def set_out(self, asked: FormStart) -> Refitted:
         """A fit that has gone a few steps from one start."""
-        (name, number), start, _ = one
+        (name, number), start, _ = asked
         return self.candidates[name][number].set_out(start)
 
-    def gone_on(self, one: tuple[Form, Refitted, float]) -> Refitted:
-        """What has set out, followed roughly; `rival` as `refit` takes it."""
-        (name, number), begun, rival = one
+    def go_on(self, asked: ToFollow) -> Refitted:
+        """What has set out, followed roughly; its goal is a `rival` as `refit` takes it."""
+        (name, number), begun, rival = asked
         return self.candidates[name][number].gone_on(begun, rival)
 
-    def far(self, one: tuple[Form, Known]) -> Known:
+    def fit_far(self, asked: OfForm) -> Known:
         """Rough fits of a form in wide valleys, and nothing else of it: the rest is known already."""
-        (name, number), known = one
+        (name, number), known = asked
         candidate = self.candidates[name][number]
         candidate.learn(known)
         far = candidate.far
         return Known(plain=candidate.plain, far=far)
 
-    def thorough(self, name: str, *, astray: bool) -> list[tuple[Form, Refitted]]:
+    def thorough(self, name: str, *, astray: bool) -> list[FormFit]:
         """The best of an effect's rough fits, but for those that have been followed to their end.
 
         With far ones, where the law so far is no place to begin.
         """
         forms = [((name, k), c) for k, c in enumerate(self.candidates[name])]
         gone = self.best_near(name)
-        near = _best_first([(form, f) for form, c in forms for f in [*c.near, *c.elsewhere]])
+        near = _best_first([FormFit(form, f) for form, c in forms for f in [*c.near, *c.elsewhere]])
         near = [one for one in near[: SEARCH.finished] if one not in gone]
         return [*near, *(self.from_stated(name) if astray else [])]
 
-    def from_stated(self, name: str) -> list[tuple[Form, Refitted]]:
+    def from_stated(self, name: str) -> list[FormFit]:
         """The best of an effect's fits in wide valleys, begun from what is stated."""
         forms = [((name, k), c) for k, c in enumerate(self.candidates[name])]
-        return _best_first([(form, f) for form, c in forms for f in c.far])[: SEARCH.finished]
+        return _best_first([FormFit(form, f) for form, c in forms for f in c.far])[: SEARCH.finished]
 
-    def elsewhere(self, name: str) -> list[tuple[Form, Refitted]]:
+    def elsewhere(self, name: str) -> list[FormFit]:
         """Its rough fits from further starts, as far as they have been followed."""
         each = enumerate(self.candidates[name])
-        return [((name, k), f) for k, c in each for f in c.known.elsewhere or ()]
+        return [FormFit((name, k), f) for k, c in each for f in c.known.elsewhere or ()]
 
-    def look(self, one: tuple[Refitted, Sequence[Form]]) -> list[list[Start]]:
+    def look(self, beside: Beside) -> list[list[Start]]:
         """Starts of second effects beside a fit, a list for each."""
-        return self._looks(one, self.evidence)
+        return self.look_by(beside, self.evidence)
 
-    def _looks(self, one: tuple[Refitted, Sequence[Form]], evidence: Evidence) -> list[list[Start]]:
-        before, forms = one
-        plain = response_of(self.problem, before.effects, self.problem.coarse)
-        effects = [self.form(form) for form in forms]
-        return [look(self.problem, evidence, before, e, again=True, plain=plain) for e in effects]
-
-    def second(self, one: tuple[Refitted, Form, list[Start], float]) -> Refitted | None:
+    def fit_second(self, asked: Second) -> Refitted | None:
         """A second effect beside a fit, from the starts that a look has found; `goal` as `refit` takes it."""
-        rough = self.near(one)
-        return rough and self.ended((rough, one[3]))
+        rough = self.fit_second_roughly(asked)
+        return rough and self.follow_to_end(ToEnd(rough, asked.goal))
 
-    def near(self, one: tuple[Refitted, Form, list[Start], float]) -> Refitted | None:
+    def fit_second_roughly(self, asked: Second) -> Refitted | None:
         """A second effect beside a fit, followed roughly."""
-        before, form, starts, goal = one
+        before, form, starts, goal = asked
         effect = self.form(form)
         candidate = CandidateFit(self.problem, self.evidence, before, effect, starts, goal, one=True)
         return candidate.near[0] if candidate.near else None
 
-    def alone(self, one: tuple[Refitted, Effect]) -> Refitted:
+    def evaluate_alone(self, asked: OneOfPair) -> Refitted:
         """One effect of a pair as the pair has it, law and all, the other one taken away."""
-        pair, effect = one
+        pair, effect = asked
         response = response_of(self.problem, [effect])
         u = np.concatenate([pair.z, pair.of(effect)])
-        return kept(response, self.evidence, pair.law, u)
+        return evaluated(response, self.evidence, pair.law, u)
 
-    def look_wide(self, one: tuple[Refitted, Sequence[Form]]) -> list[list[Array]]:
-        """Starts of second effects beside a fit in a wide valley, a list for each.
-
-        By a linear step weighed as the readings are; where a place is to be found, as it is there too. Shape
-        (parameters,) each.
-        """
-        before, forms = whole(self.problem, self.evidence, one[0]), one[1]
-        found = [[u for _, u in starts[:1]] for starts in self._looks((before, forms), self.evidence)]
-        placed = [k for k, form in enumerate(forms) if has_place(self.form(form))]
-        there = self._looks((before, [forms[k] for k in placed]), self.evidence.blunt()) if placed else []
-        for k, starts in zip(placed, there, strict=True):
-            found[k] += [u for _, u in starts[:1] if not any(np.array_equal(u, one) for one in found[k])]
-        return found
-
-    def begun_wide(self, one: tuple[Refitted, Form, list[Array]]) -> list[Refitted]:
-        """A second effect beside a fit in a wide valley: a few steps there from each start, best first.
-
-        Shape (parameters,) of each start; none: its own first one.
-        """
-        before, form, starts = one
-        effects = [*before.effects, self.form(form)]
-        each = starts or effects[-1].starts(self.problem.plate, self.problem.points)[:1]
-        known, law = of_effects(before), before.law
-        begun = (np.concatenate([known, u]) for u in each)
-        fits = [in_wide_valley(self.problem, effects, self.evidence, law, u, brief=True) for u in begun]
-        return sorted(fits, key=lambda f: f.chi2)
-
-    def wide(self, begun: Refitted) -> Refitted:
-        """What has begun in a wide valley, followed roughly there."""
-        u = of_effects(begun)
-        return in_wide_valley(self.problem, begun.effects, self.evidence, begun.law, u)
-
-    def left_in_wide_valley(self, fitted: Refitted) -> float:
-        """Chi-square that a fit as the readings are comes to, followed in a wide valley."""
-        return self.wide(fitted).chi2
-
-    @property
-    def noise_in_wide_valleys(self) -> float:
-        """Chi-square that noise alone is expected to leave there."""
-        share = (self.evidence.sigma_m_s / self.evidence.blunt().sigma_m_s) ** 2
-        return float(np.sum(share)) * self.evidence.count / len(share)
-
-    def briefly(self, wide: Refitted) -> Refitted:
-        """What a wide valley has led to, a few steps on as the readings are."""
-        return self._from(wide, brief=True)
-
-    def roughly(self, brief: Refitted) -> Refitted:
-        """What has gone a few steps, followed roughly as the readings are."""
-        return self._from(brief)
-
-    def _from(self, fitted: Refitted, *, brief: bool = False) -> Refitted:
-        response = response_of(self.problem, fitted.effects, self.problem.coarse)
-        u = with_stated(self.problem, fitted)
-        return refit(response, self.evidence, fitted.law, u, tolerance=ROUGH, brief=brief)
-
-    def ended(self, one: tuple[Refitted, float]) -> Refitted:
+    def follow_to_end(self, asked: ToEnd) -> Refitted:
         """A rough fit followed to the end, or to where a chi-square is out of reach."""
-        rough, goal = one
+        rough, goal = asked
         if not rough.may_reach(goal):
             return rough
         return finished(self.problem, self.evidence, rough, goal)
 
-    def fitted(self, one: tuple[Sequence[Effect], CoreLaw, Array]) -> Refitted:
-        """Some effects fitted to the end, from a law and unknowns. Shape (unknowns,)."""
-        effects, law, u = one
+    def fit(self, asked: FromLaw) -> Refitted:
+        """Some effects fitted to the end, from a law and unknowns."""
+        effects, law, u = asked
         return polished(self.problem, effects, self.evidence, law, u)
 
-    def as_free_as_asked(self, fitted: Refitted) -> Refitted:
+    def loosen_as_asked(self, fitted: Refitted) -> Refitted:
         """A fit with a law that bends as far as the data ask for."""
 
         def again(law: CoreLaw, begun: Refitted) -> Refitted:
-            return self.fitted((begun.effects, law, begun.u))
+            return self.fit(FromLaw(begun.effects, law, begun.u))
 
         return as_free_as_asked(fitted, again, lambda one: cost(one, self.problem.plate))
 
-    def at_rest(self, fitted: Refitted) -> Refitted:
+    def follow_to_convergence(self, fitted: Refitted) -> Refitted:
         """A fit followed to its very end."""
         return followed(self.problem, self.evidence, fitted)
 
 
-def _best_first(fits: list[tuple[A, Refitted]]) -> list[tuple[A, Refitted]]:
-    return sorted(fits, key=lambda one: one[1].chi2)
+def _best_first(fits: list[FormFit]) -> list[FormFit]:
+    return sorted(fits, key=lambda one: one.fitted.chi2)
 
 
 def _chi2(fitted: Refitted) -> float:

@@ -13,7 +13,7 @@ from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.inference.usual_law import finished, within_search
 from fitting.diagnosis.inference.wide_valley import in_wide_valley, of_effects, with_stated
 from fitting.diagnosis.problem.base import DiagnosisProblem
-from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.response.response import Response
 from fitting.diagnosis.search.looks import Start, has_place, look
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
@@ -80,7 +80,7 @@ class CandidateFit:
         return {name: value for name, value in vars(self).items() if name != "_response"}
 
     @cached_property
-    def _response(self) -> SweepResponse:
+    def _response(self) -> Response:
         return response_of(self.problem, [*self.before.effects, self.effect], self.problem.coarse)
 
     def _rough(

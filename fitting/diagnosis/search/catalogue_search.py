@@ -5,7 +5,6 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from fitting.arrays import Array
 from fitting.diagnosis.checks.prediction import over_noise
 from fitting.diagnosis.checks.predictive import TOLERANCES, checks, form_error, most_unrefused, passes, temper
 from fitting.diagnosis.executor import Call, Executor
@@ -15,6 +14,7 @@ from fitting.diagnosis.inference.marginal import cost
 from fitting.diagnosis.inference.refit import refit
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.search.asked import FromLaw, OfEffect
 from fitting.diagnosis.search.candidate_fits import CandidateFits
 from fitting.diagnosis.search.candidates import CandidateFit
 from fitting.diagnosis.search.looks import has_place, look
@@ -23,7 +23,6 @@ from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH, VERDICT
 from fitting.effects.base import Effect
 from fitting.identification.validation import Validation
-from fitting.laws import CoreLaw
 
 _SPARE = 2
 """Data a candidate must leave over."""
@@ -100,7 +99,7 @@ class Search:
         self.passing_for_a_law = tuple(e.name for e in effects if e.passes_for_a_law(problem.points))
         """Effects that these data would show as another law."""
         fitted = [e for e in (*self.effects, *self.unnamed) if not e.laws(stated, problem.points)]
-        # Those that take longest come first: hands then end at the same time.
+        # The longest first, so that all worker processes end together.
         self.beside_the_law = sorted(fitted, key=has_place, reverse=True)
         self.work = CandidateFits(problem, evidence, none, [*self.effects, *self.unnamed])
         self._none = none
@@ -173,7 +172,7 @@ class Search:
     def validate(self, scored_fits: Sequence[ScoredFit]) -> None:
         """Validations to come, side by side."""
         new = self._not_validated(scored_fits)
-        self._learn_validations(new, self.executor.each(self.work.held_out, [t.fitted for t in new]))
+        self._learn_validations(new, self.executor.each(self.work.predict_held_out, [t.fitted for t in new]))
 
     def _not_validated(self, scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
         return [t for t in scored_fits if t.fitted not in self._validations]
@@ -184,7 +183,7 @@ class Search:
     def validation(self, scored: ScoredFit) -> Validation:
         """What an explanation says of data it has not seen."""
         if scored.fitted not in self._validations:
-            self._validations[scored.fitted] = self.work.held_out(scored.fitted)
+            self._validations[scored.fitted] = self.work.predict_held_out(scored.fitted)
         return self._validations[scored.fitted]
 
     def off_unseen(self, scored: ScoredFit) -> float:
@@ -201,10 +200,10 @@ class Search:
         pair = scored.fitted
         if any(e.replaces_law for e in pair.effects):
             return []
-        begun = [([e], pair.law, np.concatenate([pair.z, pair.of(e)])) for e in pair.effects]
-        return [self.judged(f) for f in self.executor.each(self.work.fitted, begun)]
+        begun = [FromLaw([e], pair.law, np.concatenate([pair.z, pair.of(e)])) for e in pair.effects]
+        return [self.judged(f) for f in self.executor.each(self.work.fit, begun)]
 
-    def at_rest(
+    def converged_group(
         self, scored_fits: Sequence[ScoredFit], best: ScoredFit, validated: Sequence[ScoredFit] = ()
     ) -> list[ScoredFit]:
         """What may be in one group with `best`, and none, followed to its very end, the others as they are.
@@ -212,10 +211,10 @@ class Search:
         Meanwhile some are `validated`: neither needs to know of the other.
         """
         moving, new = self.moving([self.none, *scored_fits], best), self._not_validated(validated)
-        calls: list[Call] = [(self.work.at_rest, fitted) for fitted in moving]
-        calls += [(self.work.held_out, t.fitted) for t in new]
+        calls: list[Call] = [(self.work.follow_to_convergence, fitted) for fitted in moving]
+        calls += [(self.work.predict_held_out, t.fitted) for t in new]
         found = list(self.executor.together(calls))
-        self.rested(moving, found[: len(moving)])
+        self.keep_converged(moving, found[: len(moving)])
         self._learn_validations(new, found[len(moving) :])
         end = self._at_its_end(self.none)
         if self.none.fitted.chi2 - end.fitted.chi2 > SEARCH.least_owed:
@@ -247,7 +246,7 @@ class Search:
             return []
         return [t.fitted for t in group if t.fitted not in self._ends]
 
-    def rested(self, fits: Sequence[Refitted], ends: Iterable[Refitted]) -> None:
+    def keep_converged(self, fits: Sequence[Refitted], ends: Iterable[Refitted]) -> None:
         """Where some fits end."""
         self._ends |= dict(zip(fits, ends, strict=True))
 
@@ -263,13 +262,13 @@ class Search:
         """
         near = [t.fitted for t in scored_fits if t.cost < self.reach(best)]
         begun = [f for f in near if sum(e.causes for e in f.effects) == 1]
-        found = self.executor.each(self.work.as_free_as_asked, begun)
+        found = self.executor.each(self.work.loosen_as_asked, begun)
         return [self.judged(f) for f in found if freedom_of(f.law) > freedom_of(self.stated)]
 
     def simpler(self, scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
         """What effects contain in their places, fitted from where each was found."""
         begun = [one for scored in scored_fits for one in self._contained(scored.fitted)]
-        return [self.judged(f) for f in self.executor.each(self.work.fitted, begun)]
+        return [self.judged(f) for f in self.executor.each(self.work.fit, begun)]
 
     def elsewhere(self, scored: ScoredFit) -> list[ScoredFit]:
         """A single effect fitted from other places of its own, its law as it was found."""
@@ -277,25 +276,25 @@ class Search:
         if more or effect.replaces_law:
             return []
         places = effect.elsewhere(self.problem.plate, scored.fitted.of(effect))
-        begun = [([effect], scored.fitted.law, np.concatenate([scored.fitted.z, u])) for u in places]
-        return [self.judged(f) for f in self.executor.each(self.work.fitted, begun)]
+        begun = [FromLaw([effect], scored.fitted.law, np.concatenate([scored.fitted.z, u])) for u in places]
+        return [self.judged(f) for f in self.executor.each(self.work.fit, begun)]
 
     def twofold(self, scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
         """Two of what single effects are one of, from where each was found and a look for the other one."""
         begun = [one for scored in scored_fits for one in self._doubled(scored.fitted)]
-        found = self.executor.each(self.work.fitted, begun)
+        found = self.executor.each(self.work.fit, begun)
         return [self.judged(f) for f in found if self.determined(f)]
 
-    def _doubled(self, fitted: Refitted) -> list[tuple[list[Effect], CoreLaw, Array]]:
+    def _doubled(self, fitted: Refitted) -> list[FromLaw]:
         one, *more = fitted.effects
         wider = [] if more else [e for e in self.effects if e.twice and e.extends == one.name]
         if not wider:
             return []
         others = look(self.problem, self.evidence, fitted, one)[: SEARCH.followed_places]
         known = np.concatenate([fitted.z, fitted.of(one)])
-        return [([e], fitted.law, np.concatenate([known, u])) for e in wider for _, u in others]
+        return [FromLaw([e], fitted.law, np.concatenate([known, u])) for e in wider for _, u in others]
 
-    def _contained(self, fitted: Refitted) -> list[tuple[list[Effect], CoreLaw, Array]]:
+    def _contained(self, fitted: Refitted) -> list[FromLaw]:
         """Effects, law and unknowns to begin from, for each that one of a fit contains."""
         if any(e.replaces_law for e in fitted.effects):
             return []
@@ -305,7 +304,7 @@ class Search:
                 effects = [*fitted.effects[:k], part, *fitted.effects[k + 1 :]]
                 if part.name in known and len({e.name for e in effects}) == len(effects):
                     parts = [u if e is part else fitted.of(e) for e in effects]
-                    found.append((effects, fitted.law, np.concatenate([fitted.z, *parts])))
+                    found.append(FromLaw(effects, fitted.law, np.concatenate([fitted.z, *parts])))
         return found
 
     def determined(self, fitted: Refitted) -> bool:
@@ -315,8 +314,8 @@ class Search:
     def fit_plainly(self, names: Sequence[str]) -> None:
         """These effects from plain starts, in wide valleys."""
         work = self.work
-        tasks = [(n, work.state(n)) for n in names]
-        for name, state in zip(names, self.executor.each(work.plain, tasks), strict=True):
+        tasks = [OfEffect(n, work.state(n)) for n in names]
+        for name, state in zip(names, self.executor.each(work.fit_plain, tasks), strict=True):
             work.learn(name, state)
 
     def order_of_plain(self) -> list[str]:
@@ -325,13 +324,13 @@ class Search:
         self.fit_plainly(names)
         return sorted(names, key=lambda name: min(f.chi2 for f in self.work.candidates[name][0].plain))
 
-    def told(self, effects: Sequence[Effect]) -> ScoredFit:
+    def fitted_by_hand(self, effects: Sequence[Effect]) -> ScoredFit:
         """These effects together, none of them weighed."""
         fitted = self.none.fitted
         # Another law comes first: the others are then fitted beside it.
         for effect in sorted(effects, key=lambda e: not e.replaces_law):
             if effect.replaces_law:
-                fits = self.work.other_laws(effect)
+                fits = self.work.fit_other_laws(effect)
                 fitted = min(fits, key=lambda f: self.judged(f).cost)
                 continue
             forms = effect.forms(self.problem.points, self.problem.plate)

@@ -10,7 +10,7 @@ from fitting.arrays import Array, Complex
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.problem.base import DiagnosisProblem
-from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.response.response import Response
 from fitting.diagnosis.several.of_files import OfFiles
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
@@ -39,7 +39,7 @@ def look(
     effect: Effect,
     *,
     again: bool = False,
-    plain: SweepResponse | None = None,
+    plain: Response | None = None,
 ) -> list[Start]:
     """Starts of an effect, scaled by a linear step, with the chi-square each may gain; best first.
 
@@ -57,8 +57,8 @@ def look(
 
 
 def promising(
-    response: SweepResponse,
-    plain: SweepResponse,
+    response: Response,
+    plain: Response,
     points: Points,
     evidence: Evidence,
     before: Refitted,
@@ -178,9 +178,7 @@ class _LinearStep:
         return any(n is not None and not q.lower < n < q.upper for n, q in neutral)
 
 
-def slopes(
-    response: SweepResponse, law: CoreLaw, known: Array, starts: Sequence[Array], v: Complex
-) -> Complex:
+def slopes(response: Response, law: CoreLaw, known: Array, starts: Sequence[Array], v: Complex) -> Complex:
     """How the phasors move from `v` to first order, at the strength of each start. Shape (starts, points)."""
     effect = response.effects[-1]
     if by_adjoint(effect) or not effect.parameters:
@@ -194,9 +192,7 @@ def _weak(effect: Effect, u: Array) -> tuple[Array, Array]:
     return effect.scaled(u, _SMALL), effect.scaled(u, 2 * _SMALL)
 
 
-def moves(
-    response: SweepResponse, law: CoreLaw, known: Array, starts: Sequence[Array], v: Complex
-) -> Complex:
+def moves(response: Response, law: CoreLaw, known: Array, starts: Sequence[Array], v: Complex) -> Complex:
     """How the phasors move from `v` as the last effect comes in from each start. Shape (starts, points)."""
     effect = response.effects[-1]
     if by_adjoint(effect):
@@ -206,7 +202,7 @@ def moves(
         return np.array([_moved(response, law, np.concatenate([known, u]), v) for u in starts])
 
 
-def _moved(response: SweepResponse, law: CoreLaw, u: Array, v: Complex) -> Complex:
+def _moved(response: Response, law: CoreLaw, u: Array, v: Complex) -> Complex:
     try:
         return response.velocity(law, u) - v
     except OutsideModel:

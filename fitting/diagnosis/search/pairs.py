@@ -7,7 +7,7 @@ import numpy as np
 
 from fitting.diagnosis.executor import Call
 from fitting.diagnosis.inference.refitted import Refitted
-from fitting.diagnosis.search.candidate_fits import Form
+from fitting.diagnosis.search.asked import Beside, Form, LawBeside, OneOfPair, Second, SecondWide, ToEnd
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search, best_of_each
 from fitting.diagnosis.search.looks import Start, has_place
 from fitting.diagnosis.thresholds import SEARCH
@@ -53,14 +53,15 @@ class Pairs:
         search, work, each = self._search, self._search.work, self._search.executor.each
         seen = self._beside_all if wide else self._beside_the_near
         chosen = seen(singles, lambda x: report(0.4 * x))
-        full = [(t.fitted, form, starts, np.inf) for t, form, starts in chosen]
-        begun = each(work.near, full, lambda x: report(0.4 + 0.2 * x))
+        full = [Second(t.fitted, form, starts, np.inf) for t, form, starts in chosen]
+        begun = each(work.fit_second_roughly, full, lambda x: report(0.4 + 0.2 * x))
         rough = _longest_first([f for f in begun if f is not None])
         best = search.judged(min(rough, key=_chi2)) if rough and wide else None
         if best:
             rough = [f for f in rough if f.chi2 < SEARCH.left_behind * best.fitted.chi2]
         goals = [self._goal(best, f.effects) if best else np.inf for f in rough]
-        fits = each(work.ended, list(zip(rough, goals, strict=True)), lambda x: report(0.6 + 0.2 * x))
+        asked = [ToEnd(f, goal) for f, goal in zip(rough, goals, strict=True)]
+        fits = each(work.follow_to_end, asked, lambda x: report(0.6 + 0.2 * x))
         found = sorted((search.judged(f) for f in fits), key=_cost)
         if wide and found and not self._will_do([*singles[:1], *found]):
             # The best may only have begun from the wrong place, or not have looked promising.
@@ -101,7 +102,8 @@ class Pairs:
         moving: Sequence[Refitted] = (),
     ) -> list[Seen]:
         """What is seen of every form beside its fit."""
-        looks = self._looks(self._search.work.look, [(t.fitted, forms) for t, forms in asked], report, moving)
+        besides = [Beside(t.fitted, forms) for t, forms in asked]
+        looks = self._looks(self._search.work.look, besides, report, moving)
         each = [(t, form) for t, forms in asked for form in forms]
         return [(t, form, starts) for (t, form), starts in zip(each, looks, strict=True)]
 
@@ -119,8 +121,8 @@ class Pairs:
 
     def _looks(
         self,
-        do: Callable[[tuple[Refitted, Sequence[Form]]], list[A]],
-        asked: Sequence[tuple[Refitted, Sequence[Form]]],
+        do: Callable[[Beside], list[A]],
+        asked: Sequence[Beside],
         report: Report = unheard,
         moving: Sequence[Refitted] = (),
     ) -> list[A]:
@@ -129,14 +131,14 @@ class Pairs:
         What is still `moving` is followed to its very end meanwhile.
         """
         some = [
-            (before, forms[k : k + _LOOKED_AT])
+            Beside(before, forms[k : k + _LOOKED_AT])
             for before, forms in asked
             for k in range(0, len(forms), _LOOKED_AT)
         ]
-        calls: list[Call] = [(self._search.work.at_rest, fitted) for fitted in moving]
+        calls: list[Call] = [(self._search.work.follow_to_convergence, fitted) for fitted in moving]
         calls += [(do, one) for one in some]
         found = list(self._search.executor.together(calls, report))
-        self._search.rested(moving, found[: len(moving)])
+        self._search.keep_converged(moving, found[: len(moving)])
         return [one for looks in found[len(moving) :] for one in looks]
 
     def _most_left(self, known: Sequence[ScoredFit]) -> float:
@@ -185,17 +187,18 @@ class Pairs:
         first = sorted({single[name] for name in order if name in single} & single.keys())
         others = [self._others([name]) for name in first]
         before = [work.candidates[name][0].plain[0] for name in first]
-        starts = self._looks(work.look_wide, list(zip(before, others, strict=True)))
-        beside = [(fitted, form) for fitted, forms in zip(before, others, strict=True) for form in forms]
-        tasks = [(fitted, form, us) for (fitted, form), us in zip(beside, starts, strict=True)]
-        able = [fits for fits in each(work.begun_wide, tasks) if fits[0].chi2 < SEARCH.comes_down * most]
+        asked = [Beside(fitted, forms) for fitted, forms in zip(before, others, strict=True)]
+        starts = self._looks(work.look_wide, asked)
+        beside = [(fitted, form) for fitted, forms in asked for form in forms]
+        tasks = [SecondWide(fitted, form, us) for (fitted, form), us in zip(beside, starts, strict=True)]
+        able = [fits for fits in each(work.begin_wide, tasks) if fits[0].chi2 < SEARCH.comes_down * most]
         begun = sorted(able, key=lambda fits: fits[0].chi2)
-        wide = each(work.wide, [f for fits in _with_a_say(begun) for f in fits])
-        brief = sorted(each(work.briefly, [f for f in wide if f.chi2 < most]), key=_chi2)
-        rough = sorted(each(work.roughly, brief[: SEARCH.rough]), key=_chi2)
+        wide = each(work.follow_wide, [f for fits in _with_a_say(begun) for f in fits])
+        brief = sorted(each(work.follow_briefly, [f for f in wide if f.chi2 < most]), key=_chi2)
+        rough = sorted(each(work.follow_roughly, brief[: SEARCH.rough]), key=_chi2)
         best = min([*leaders, *pairs], key=_cost)
         left = _longest_first(rough[: SEARCH.pairs_a_leader])
-        ended = each(work.ended, [(f, self._goal(best, f.effects)) for f in left])
+        ended = each(work.follow_to_end, [ToEnd(f, self._goal(best, f.effects)) for f in left])
         return [search.judged(f) for f in ended]
 
     def _improved(self, pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
@@ -216,7 +219,7 @@ class Pairs:
                 simplified.add(frozenset(pair.names))
                 new += self._search.simpler([pair])
             # One that a winding valley leads to would be dismissed on its way.
-            found += self._search.at_rest(new, min([pair, *new], key=_cost))
+            found += self._search.converged_group(new, min([pair, *new], key=_cost))
         return found
 
     def _next(self, pairs: Sequence[ScoredFit], kept: set[str]) -> ScoredFit | None:
@@ -232,17 +235,18 @@ class Pairs:
     def _exchanged(self, pair: ScoredFit, kept: Effect) -> list[ScoredFit]:
         """Another effect, another place of the same, or another law beside the one of a pair that is kept."""
         work = self._search.work
-        before = work.alone((pair.fitted, kept))
+        before = work.evaluate_alone(OneOfPair(pair.fitted, kept))
         gone = {*pair.names} - {kept.name}
         forms = [f for f in self._others([kept.name]) if f[0] not in gone or work.has_places(f[0])]
-        looks = [one for one in zip(forms, self._looks(work.look, [(before, forms)]), strict=True) if one[1]]
+        seen = self._looks(work.look, [Beside(before, forms)])
+        looks = [one for one in zip(forms, seen, strict=True) if one[1]]
         promising = sorted(looks, key=lambda one: -one[1][0][0])[: SEARCH.exchanged]
         promising.sort(key=lambda one: not work.has_places(one[0][0]))
         goal = work.goal(pair.fitted)
-        laws = [(before, e.name, goal) for e in self._search.effects if e.replaces_law]
-        # Those that take longest come first: hands then end at the same time.
-        calls: list[Call] = [(work.other_laws_beside, one) for one in laws]
-        calls += [(work.second, (before, form, starts, goal)) for form, starts in promising]
+        laws = [LawBeside(before, e.name, goal) for e in self._search.effects if e.replaces_law]
+        # The longest first, so that all worker processes end together.
+        calls: list[Call] = [(work.fit_other_laws_beside, one) for one in laws]
+        calls += [(work.fit_second, Second(before, form, starts, goal)) for form, starts in promising]
         found = list(self._search.executor.together(calls))
         fits = [f for f in found[len(laws) :] if f is not None]
         return [self._search.judged(f) for f in [*fits, *(f for bent in found[: len(laws)] for f in bent)]]
@@ -274,7 +278,7 @@ def _most_beside(fitted: Refitted, best: Refitted, promised: float) -> float:
 
 
 def _longest_first(rough: Sequence[Refitted]) -> list[Refitted]:
-    """Rough fits in the order in which they are best followed: hands then end at the same time."""
+    """Rough fits, the longest to follow first, so that all worker processes end together."""
     return sorted(rough, key=lambda f: (f.converged, -sum(has_place(e) for e in f.effects)))
 
 

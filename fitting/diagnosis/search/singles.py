@@ -5,10 +5,11 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from fitting.diagnosis.inference.refitted import Refitted
-from fitting.diagnosis.search.candidate_fits import FirstLook, Form
+from fitting.diagnosis.search.asked import BesideBest, Form, FormFit, FormStart, OfEffect, OfForm, ToFollow
+from fitting.diagnosis.search.candidate_fits import FirstLook
 from fitting.diagnosis.search.candidates import Known, is_over_decades
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
-from fitting.diagnosis.search.looks import Start, has_place
+from fitting.diagnosis.search.looks import has_place
 from fitting.diagnosis.thresholds import SEARCH, VERDICT
 from fitting.numerics.chances import chi2_above
 from fitting.progress import Report, unheard
@@ -31,7 +32,7 @@ class Singles:
         """One scored fit of each effect, best first."""
         self._first_pass()
         ahead = [best for name in self._ahead() for best in self._work.best_near(name)]
-        # All in one go as far as it is known what is to be followed: hands then end at the same time.
+        # All that is known to be followed in one go, so that all worker processes end together.
         self._finish([*ahead, *self._dismissed_on_the_way()], self._part(0.4, 0.2))
         self._finish(self._dismissed_on_the_way(), self._part(0.6, 0.1))
         self._second_pass()
@@ -43,15 +44,15 @@ class Singles:
         work = self._work
         first = self._leading()
         if first:
-            begun = self._each(work.begun, [(n, work.state(n)) for n in first], self._part(0.1, 0.1))
+            begun = self._each(work.begin, self._of_effects(first), self._part(0.1, 0.1))
             self._begin(begun)
             self._finish([f for t in self._order()[:1] for f in self._near(t)])
             again = [n for t in self._order()[:1] if self._leans(t) for n in t.names]
             self._look_far(again)
-            self._to_the_end([(form, f, np.inf) for n in again for form, f in work.from_stated(n)])
+            self._to_the_end([ToFollow(*one, np.inf) for n in again for one in work.from_stated(n)])
         if not self._settle(self._part(0.2, 0.2)):
             left = [n for n in (*self._laws, *self._effects) if n not in first]
-            self._begin(self._each(work.begun, [(n, work.state(n)) for n in left], self._part(0.2, 0.2)))
+            self._begin(self._each(work.begin, self._of_effects(left), self._part(0.2, 0.2)))
 
     def _second_pass(self) -> None:
         """Further starts of what leads, and of more where the law is no place to begin."""
@@ -60,7 +61,7 @@ class Singles:
             some, left = (left[: SEARCH.at_a_time], left[SEARCH.at_a_time :]) if astray else (left, [])
             self._look_around(some, astray=astray)
             best = [one for name in some for one in work.thorough(name, astray=astray)]
-            asked = [(form, rough, self._goal(rough) if astray else np.inf) for form, rough in best]
+            asked = [ToFollow(form, rough, self._goal(rough) if astray else np.inf) for form, rough in best]
             self._to_the_end(asked, self._part(0.7, 0.1))
             if astray and self._settle(self._part(0.8, 0.1)):
                 break
@@ -80,30 +81,30 @@ class Singles:
         """The best of some effects' fits from all starts that are left, to the end."""
         work = self._work
         asked = [one for name in names for one in work.unfollowed(name, every=True)]
-        found = [(form, f) for (form, *_), f in zip(asked, self._followed(asked), strict=True)]
-        best = list[tuple[Form, Refitted]]()
+        found = [FormFit(one.form, f) for one, f in zip(asked, self._followed(asked), strict=True)]
+        best = list[FormFit]()
         for name in names:
-            mine = [*work.elsewhere(name), *(one for one in found if one[0][0] == name)]
-            best += sorted(mine, key=lambda one: one[1].chi2)[: SEARCH.finished]
-        self._to_the_end([(form, f, np.inf) for form, f in best], report)
+            mine = [*work.elsewhere(name), *(one for one in found if one.form[0] == name)]
+            best += sorted(mine, key=lambda one: one.fitted.chi2)[: SEARCH.finished]
+        self._to_the_end([ToFollow(*one, np.inf) for one in best], report)
 
     def _look_far(self, names: Sequence[str]) -> None:
         """Rough fits of some effects in wide valleys."""
         work = self._work
-        each = [((name, k), known) for name in names for k, known in enumerate(work.state(name))]
-        forms = [one for one in each if one[1].far is None]
-        for ((name, number), _), known in zip(forms, self._each(work.far, forms), strict=True):
+        each = [OfForm((name, k), known) for name in names for k, known in enumerate(work.state(name))]
+        forms = [one for one in each if one.known.far is None]
+        for ((name, number), _), known in zip(forms, self._each(work.fit_far, forms), strict=True):
             work.candidates[name][number].learn(known)
 
-    def _followed(self, asked: Sequence[tuple[Form, Start, float]]) -> list[Refitted]:
+    def _followed(self, asked: Sequence[FormStart]) -> list[Refitted]:
         """Rough fits from some starts, in order. Of many of an effect those that have come furthest go on."""
         work, order = self._work, dict[str, list[int]]()
         begun = list(self._each(work.set_out, asked))
         for k in sorted(range(len(asked)), key=lambda k: begun[k].chi2):
-            order.setdefault(asked[k][0][0], []).append(k)
+            order.setdefault(asked[k].form[0], []).append(k)
         going = [k for places in order.values() for k in places[: SEARCH.places_followed]]
-        tasks = [(asked[k][0], begun[k], asked[k][2]) for k in going]
-        for k, fitted in zip(going, self._each(work.gone_on, tasks), strict=True):
+        tasks = [ToFollow(asked[k].form, begun[k], asked[k].rival) for k in going]
+        for k, fitted in zip(going, self._each(work.go_on, tasks), strict=True):
             begun[k] = fitted
         return begun
 
@@ -114,8 +115,8 @@ class Singles:
             return False
         self._settled = True
         others = [n for n in (*self._laws, *self._effects) if n not in best.names]
-        tasks = [(n, work.state(n), best.fitted) for n in others]
-        self._begin(self._each(work.beside_the_best, tasks, report))
+        tasks = [BesideBest(n, work.state(n), best.fitted) for n in others]
+        self._begin(self._each(work.begin_beside_the_best, tasks, report))
         self._try_its_other_form(best)
         return True
 
@@ -124,9 +125,9 @@ class Singles:
         work, alike = self._work, [form for form, _ in self._near(best)]
         if len(alike) < SEARCH.forms:
             return
-        each = self._each(work.another_form, [(form, best.fitted) for form in alike])
+        each = self._each(work.fit_another_form, [FormFit(form, best.fitted) for form in alike])
         found = [(form, rough) for form, fits in zip(alike, each, strict=True) for rough in fits[:1]]
-        self._to_the_end([(form, rough, work.goal(best.fitted)) for form, rough in found])
+        self._to_the_end([ToFollow(form, rough, work.goal(best.fitted)) for form, rough in found])
 
     def _explains_all(self, scored: ScoredFit) -> bool:
         best = scored.fitted
@@ -152,10 +153,10 @@ class Singles:
             if name not in self._found or scored.cost < self._found[name].cost:
                 self._found[name] = scored
 
-    def _finish(self, rough: Iterable[tuple[Form, Refitted]], report: Report = unheard) -> None:
+    def _finish(self, rough: Iterable[FormFit], report: Report = unheard) -> None:
         """What may come near to what explains everything, if anything does, followed to its end, once."""
         new = {f: form for form, f in rough if f not in self._finished and self._may_matter(f)}
-        self._to_the_end([(form, f, self._goal(f)) for f, form in new.items()], report)
+        self._to_the_end([ToFollow(form, f, self._goal(f)) for f, form in new.items()], report)
 
     def _may_matter(self, rough: Refitted) -> bool:
         """Whether a rough fit may still come near enough, at its pace and by what is left to gain.
@@ -168,11 +169,11 @@ class Singles:
         winds = any(is_over_decades(e) for e in rough.effects)
         return winds or rough.chi2 - SEARCH.more_than_owed * rough.owed < goal
 
-    def _to_the_end(self, asked: Iterable[tuple[Form, Refitted, float]], report: Report = unheard) -> None:
+    def _to_the_end(self, asked: Iterable[ToFollow], report: Report = unheard) -> None:
         """Rough fits, each with its goal as `refit` takes it; none again that has gone as far."""
-        tasks = [one for one in asked if one[2] > self._finished.get(one[1], -np.inf)]
+        tasks = [one for one in asked if one.goal > self._finished.get(one.fitted, -np.inf)]
         self._finished |= {f: goal for _, f, goal in tasks}
-        self._keep(self._each(self._work.finished, tasks, report))
+        self._keep(self._each(self._work.finish, tasks, report))
 
     def _goal(self, rough: Refitted) -> float:
         """Chi-square that a rough fit must come down to, to matter.
@@ -198,8 +199,11 @@ class Singles:
     def _order(self) -> list[ScoredFit]:
         return sorted(self._found.values(), key=lambda t: t.cost)
 
-    def _near(self, scored: ScoredFit) -> list[tuple[tuple[str, int], Refitted]]:
+    def _near(self, scored: ScoredFit) -> list[FormFit]:
         return self._work.best_near(scored.names[0])
+
+    def _of_effects(self, names: Sequence[str]) -> list[OfEffect]:
+        return [OfEffect(name, self._work.state(name)) for name in names]
 
     def _part(self, start: float, size: float) -> Report:
         return lambda fraction: self._report(start + size * fraction)
@@ -214,7 +218,7 @@ class Singles:
     def _leading(self) -> list[str]:
         """Where something is left to be explained, the effects that promise most of it."""
         work, names = self._work, list(self._effects)
-        for name, state in zip(names, self._each(work.starts, names, self._part(0.0, 0.1)), strict=True):
+        for name, state in zip(names, self._each(work.look_first, names, self._part(0.0, 0.1)), strict=True):
             work.learn(name, state)
         order = sorted(names, key=work.promise, reverse=True)[: SEARCH.first]
         clean = self._search.none.fitted.chi2_per_dof < SEARCH.unclear
@@ -236,7 +240,7 @@ class Singles:
         names = {t.names[0] for t in near[: 2 * SEARCH.leaders]}
         return [name for name in self._effects if name in names]
 
-    def _dismissed_on_the_way(self) -> list[tuple[Form, Refitted]]:
+    def _dismissed_on_the_way(self) -> list[FormFit]:
         """Rough fits that had not come to their end, where an effect explains much: none loses unheard."""
         if not self._gains(self._order()):
             return []

@@ -10,7 +10,7 @@ from fitting.effects.base import Effect
 
 def response_of(
     problem: DiagnosisProblem, effects: Sequence[Effect], grid: NodeGrid | None = None
-) -> SweepResponse:
+) -> SweepResponse | SeveralResponse:
     """Under some effects; `grid` is the problem's coarse one for a first look."""
     if isinstance(problem, SeveralProblem):
         return SeveralResponse(problem, effects, coarse=grid is not None)

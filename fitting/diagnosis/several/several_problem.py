@@ -7,7 +7,7 @@ for all files or for one of them (`OfFiles`).
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -146,7 +146,7 @@ class SeveralProblem(DiagnosisProblem):
         return replace(self, members=members, plate=members[0].plate)
 
     @property
-    def held(self) -> "SeveralProblem":
+    def with_stated_fixed(self) -> "SeveralProblem":
         """Itself."""
         return self
 
@@ -288,12 +288,13 @@ class SharedNuisances(Nuisances):
         return self.first.bare_coefficients(z[self.places])
 
 
-class SeveralResponse(SweepResponse):
-    """What all members read under one law."""
+class SeveralResponse:
+    """What all members read under one law: a `Response`."""
+
+    derivatives_cost_extra: ClassVar[bool] = True
 
     def __init__(self, problem: SeveralProblem, effects: Sequence[Effect], *, coarse: bool = False) -> None:
-        self.problem: SeveralProblem = problem
-        self.apart = True
+        self.problem = problem
         self.effects, self.nuisances, self.plate = tuple(effects), problem.nuisances, problem.plate
         count = len(self.nuisances)
         self.parameters = (*(STATED_NUMBER,) * count, *(q for e in effects for q in e.parameters))
@@ -340,7 +341,7 @@ class SeveralResponse(SweepResponse):
         )
 
     def with_derivatives(self, law: CoreLaw, u: Array) -> tuple[Complex, Complex]:
-        """Phasors and derivatives as `Response.with_derivatives` gives them."""
+        """As `Response.with_derivatives`, member after member. Shapes (points,), (parameters, points)."""
         n = len(law.names)
         self._solve(law, u)
         found, rows = [], np.zeros((n + len(u), len(self.problem.sweep)), complex)

@@ -11,9 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
+from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.marginal import expected_size
-from fitting.diagnosis.inference.refit import kept
+from fitting.diagnosis.inference.refit import evaluated
 from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.response.response import Response
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.verdict.judgement import Judgement
@@ -48,26 +50,29 @@ def in_light_of_the_law(search: Search, judgement: Judgement) -> Judgement:
     best = max(hidden, key=lambda e: e.chance)
     scored = _as_absent(search, best)
     names = tuple(e.name for e in hidden)
-    said = (
-        f"{' and '.join(names)} cannot be told from the core's modulus by these data: what one does to "
-        f"the response "
-        "the other does too. The law found is that of what is stated."
-    )
+    note = note_of_imitated(names, "the response")
     return replace(
-        judgement, verdict="ambiguous", accepted=scored, equivalent={best.name: (*names, NONE)}, why=said
+        judgement, verdict="ambiguous", accepted=scored, equivalent={best.name: (*names, NONE)}, note=note
+    )
+
+
+def note_of_imitated(names: Sequence[str], read: str) -> str:
+    """What is said of effects that the law imitates; `read` is what the data are of, with its article."""
+    return (
+        f"{' and '.join(names)} cannot be told from the core's modulus by these data: what one does to "
+        f"{read} the other does too. The law found is that of what is stated."
     )
 
 
 def _as_absent(search: Search, effect: Effect) -> ScoredFit:
-    """The fit without effects, the effect beside it at its neutral value."""
-    none = search.none.fitted
-    u = np.concatenate([none.z, [_neutral(q.neutral) for q in effect.parameters]])
-    found = kept(response_of(search.problem, [effect]), search.evidence, none.law, u)
-    return search.judged(found)
+    response = response_of(search.problem, [effect])
+    return search.judged(absent_fit(response, search.evidence, search.none.fitted, effect))
 
 
-def _neutral(value: float | None) -> float:
-    return 0.0 if value is None else value
+def absent_fit(response: Response, evidence: Evidence, none: Refitted, effect: Effect) -> Refitted:
+    """The fit without effects, `effect` beside it at its neutral value; `response` is with that effect."""
+    neutral = [0.0 if q.neutral is None else q.neutral for q in effect.parameters]
+    return evaluated(response, evidence, none.law, np.concatenate([none.z, neutral]))
 
 
 def _hides(search: Search, effect: Effect) -> bool:

@@ -49,7 +49,9 @@ class Judgement:
     refused: tuple[str, ...] = ()
     """What comes nearest where nothing will do."""
     why: str = ""
-    """What speaks against it: half a sentence."""
+    """What speaks against `refused`: half a sentence that it is the subject of."""
+    note: str = ""
+    """What is said in the place of a story of the effects: whole sentences."""
     unlisted: Unlisted | None = None
     """What is in no catalogue and akin to those of the group that nothing refuses; None where nothing may be
     named, or kin is not asked."""
@@ -87,7 +89,7 @@ def _is_doubted(share_of_kin: float) -> bool:
     return share_of_kin > 1 - VERDICT.credible
 
 
-def told(scored: ScoredFit) -> Judgement:
+def judged_by_hand(scored: ScoredFit) -> Judgement:
     """What someone has decided: each effect stands for itself."""
     names: dict[str, tuple[str, ...]] = {name: (name,) for name in scored.names}
     return Judgement(

@@ -79,7 +79,7 @@ class Kin:
     """Covariance, beyond the explanation's own, of all its columns. Shape (columns, columns)."""
     along: Array
     """How far it goes along each direction. Shape (directions,)."""
-    apart: float = 0.0
+    another_cause: float = 0.0
     """The chance that its share is one of another thing."""
     leaves: float = float("nan")
     """Chi-square of the readings, as far as they are linear."""
@@ -110,7 +110,7 @@ class Unlisted(ScoredFit):
         As long as it is the explanation but for its formula it leaves the law nearly there. Another thing may
         leave it anywhere: where it is without any effect half of the time, in the place of more.
         """
-        back = sum(part * kin.apart for _, kin, part in self.of) / 2
+        back = sum(part * kin.another_cause for _, kin, part in self.of) / 2
         return [(none, back), (self, 1 - back)]
 
     @property

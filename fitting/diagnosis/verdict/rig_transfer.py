@@ -18,7 +18,7 @@ from scipy.optimize import minimize
 
 from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.inference.evidence import Evidence
-from fitting.diagnosis.inference.refit import kept
+from fitting.diagnosis.inference.refit import evaluated
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.several.several_problem import SeveralProblem
@@ -187,7 +187,7 @@ def _moved(
     logs[n:] = x[n : n + bend]
     low, high = none.law.log_limits
     law = none.law.with_logs(np.clip(logs, low, high))
-    return kept(response_of(problem, none.effects), evidence, law, x[n + bend : n + bend + len(none.u)])
+    return evaluated(response_of(problem, none.effects), evidence, law, x[n + bend : n + bend + len(none.u)])
 
 
 def _likeliest(linear: _Linear, *, common: bool) -> tuple[float, Wandering]:

@@ -56,8 +56,8 @@ def explain(
         if judgement.refused:
             said.append(f"What comes nearest, {' with '.join(judgement.refused)}, {judgement.why}.")
         return tuple(said)
-    if judgement.verdict == "ambiguous" and judgement.why:
-        said.append(judgement.why)
+    if judgement.verdict == "ambiguous" and judgement.note:
+        said.append(judgement.note)
         return tuple(said)
     stories = [story(e, f) for e, f in zip(scored.fitted.effects, found, strict=True)]
     said.append(f"{how_likely(judgement, scored.names)} {', and besides '.join(stories)}.")

@@ -12,7 +12,7 @@ from drivers.simulated.rig import RigOptics, SimulatedRig
 from drivers.simulated.sensors import SimulatedSensor
 from drivers.simulated.world import Laser, Wiring, World
 from drivers.vibrometer.interface import Range
-from drivers.vibrometer.serial_port import PolytecVibrometer
+from drivers.vibrometer.polytec_vibrometer import PolytecVibrometer
 
 
 class Plate:

@@ -103,12 +103,12 @@ def test_an_unattended_shaker_comes_to_rest_and_no_sample_is_lost():
     np.testing.assert_array_equal(np.concatenate([before.counts, after.counts], axis=1), again.counts)
 
 
-def test_the_side_door_mounts_aims_and_hits():
+def test_the_operator_channel_mounts_aims_and_hits():
     one = started(world())
-    one.at_side_door("mount", {"plate": "bare"})
-    one.at_side_door("hit", {})
+    one.at_operator_channel("mount", {"plate": "bare"})
+    one.at_operator_channel("hit", {})
     assert one.plates["bare"].hits == [0.0]
-    one.at_side_door("aim", {"point": "base"})
+    one.at_operator_channel("aim", {"point": "base"})
     assert one.laser.aimed_at == "base"
 
 
@@ -122,9 +122,9 @@ def test_the_side_door_mounts_aims_and_hits():
         ("shout", {}, "expected mount, clamp, aim, load, strike or hit"),
     ],
 )
-def test_the_side_door_refuses_what_there_is_not(name, body, said):
+def test_the_operator_channel_refuses_what_there_is_not(name, body, said):
     with pytest.raises(Refused, match=said):
-        world().at_side_door(name, body)
+        world().at_operator_channel(name, body)
 
 
 def test_a_converter_rounds_clips_and_says_so():

@@ -4,7 +4,7 @@ from hypothesis import strategies as st
 
 from drivers.errors import Garbled, Refused
 from drivers.vibrometer import polytec
-from drivers.vibrometer.models import MODELS, model_named
+from drivers.vibrometer.polytec_models import MODELS, model_named
 
 PAIRS = [
     (polytec.info("Controller", 0, "Name"), b"GetDevInfo,Controller,0,Name\r\n"),

@@ -8,8 +8,8 @@ from pydantic import ValidationError
 from drivers.errors import Missing
 from drivers.vibrometer.driver import VibrometerDriver, VibrometerOptions
 from drivers.vibrometer.interface import Range
-from drivers.vibrometer.models import MODELS
 from drivers.vibrometer.polytec_driver import PolytecDriver, PolytecOptions
+from drivers.vibrometer.polytec_models import MODELS
 
 
 @pytest.mark.parametrize("change", [{"model": "OFV-1"}, {"reads": "both"}, {"baud": 0}])

@@ -118,4 +118,4 @@ def test_a_pad_s_mass_hides_in_its_law_and_is_said_to():
     judgement = diagnose_modes(ModalProblem.of(members), [mass], law).judgement
     assert judgement.verdict == "ambiguous"
     assert judgement.equivalent == {"added_mass": ("added_mass", "none")}
-    assert "cannot be told from the core's modulus" in judgement.why
+    assert "cannot be told from the core's modulus" in judgement.note

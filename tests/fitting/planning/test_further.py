@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from shear_pair_task import GAIN, HIGH, MASS, Task
+from shear_pair_problem import GAIN, HIGH, MASS, ShearPairProblem
 
 from fitting.diagnosis.inference.usual_law import polished
 from fitting.diagnosis.inference.whitening import SHARE
@@ -18,7 +18,7 @@ NOISE = ReadingNoise(0.0, 2e-3)
 
 @pytest.fixture(scope="module")
 def expecting():
-    begun = Task(HIGH).begun
+    begun = ShearPairProblem(HIGH).begun
     fits = [
         polished(begun.problem, [e], begun.evidence, begun.none.law, np.append(begun.problem.as_stated, u))
         for e, u in ((GAIN, HIGH), (MASS, 0.0))

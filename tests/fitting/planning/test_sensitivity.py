@@ -7,7 +7,7 @@ import pytest
 
 from fitting.data.noise import Noise
 from fitting.diagnosis.inference.evidence import Evidence
-from fitting.diagnosis.inference.refit import kept
+from fitting.diagnosis.inference.refit import evaluated
 from fitting.diagnosis.problem.model_error import model_error
 from fitting.diagnosis.several.responses import response_of
 from fitting.planning.exact_problem import exact_problem
@@ -40,7 +40,7 @@ def test_the_posterior_of_a_choice_is_the_joint_fits_own(ready):
     sweep = replace(every.sweep, velocity_m_s=v)
     errors = model_error(every, setup.reduced, law, v)
     evidence = Evidence.of(sweep, Noise(noise.std_m_s(v, dwell), "stated"), errors, v, None)
-    fitted = kept(response_of(every, ()), evidence, law, every.as_stated)
+    fitted = evaluated(response_of(every, ()), evidence, law, every.as_stated)
     n = len(law.names) + s.stated
     # Without a residual the fit scales nothing.
     np.testing.assert_allclose(

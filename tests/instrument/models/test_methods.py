@@ -4,14 +4,14 @@ import numpy as np
 
 from fitting.data.noise import noise_of
 from fitting.sweep import Sweep
-from instrument.models.methods import PaperMethod, Task
+from instrument.models.methods import IdentificationProblem, PaperMethod
 from instrument.models.specimen_models import Models
 from instrument.progress import quiet
 
 F = np.repeat([19.3, 101.0, 280.0], 4) * np.tile([0.97, 0.99, 1.01, 1.03], 3)
 
 
-def task(specimen):
+def problem(specimen):
     sweep = Sweep(
         frequency_hz=F,
         velocity_m_s=np.exp(1j * F),
@@ -19,18 +19,18 @@ def task(specimen):
         segment=np.repeat([1, 2, 3], 4),
         sweep=np.ones(len(F), dtype=np.intp),
     )
-    return Task(sweep, specimen, noise_of(sweep))
+    return IdentificationProblem(sweep, specimen, noise_of(sweep))
 
 
 def test_the_papers_method_says_that_tolerances_have_no_part_in_it(coarse):
-    given = task(coarse)
+    given = problem(coarse)
     assert PaperMethod(given, quiet).remarks() == ()
     (said,) = PaperMethod(replace(given, specimen=replace(coarse, exact=False)), quiet).remarks()
     assert "tolerances are not in its band" in said
 
 
 def test_models_are_certified_anew_for_a_law_that_ended_outside(coarse):
-    way = PaperMethod(task(coarse), quiet)
+    way = PaperMethod(problem(coarse), quiet)
     assert isinstance(way.set_up(), Models)
     stiff = coarse.core.law.with_logs(np.log(coarse.core.law.values) + np.array([7.0, 7.0, 0.0, 0.0]))
     within = way.models.domain.modulus[1]
@@ -39,5 +39,5 @@ def test_models_are_certified_anew_for_a_law_that_ended_outside(coarse):
 
 
 def test_the_papers_method_holds_segments_out(coarse):
-    way = PaperMethod(task(coarse), quiet)
-    assert np.array_equal(way.parts(), way.task.sweep.segment)
+    way = PaperMethod(problem(coarse), quiet)
+    assert np.array_equal(way.parts(), way.problem.sweep.segment)

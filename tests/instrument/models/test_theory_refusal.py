@@ -17,7 +17,7 @@ from instrument.cli.main import run
 from instrument.files.structure_file import read_structure
 from instrument.models.diagnosis import diagnose
 from instrument.models.identification import identify
-from instrument.models.methods import DirectMethod, Task
+from instrument.models.methods import DirectMethod, IdentificationProblem
 from instrument.models.specimen_models import Models
 from instrument.models.theory import check_each_theory, stiffer_than_stated, theory_remark
 from instrument.paper_case import case_file
@@ -66,7 +66,7 @@ def test_a_fit_that_is_lost_besides_says_so(coarse):
     sweep = sweep_of(specimen)
     lost = SimpleNamespace(law=specimen.core.law, velocity_m_s=2 * sweep.velocity_m_s)
     with pytest.raises(OutsideModel, match=r"plate theory at .* check units, level and pickup"):
-        DirectMethod(Task(sweep, specimen, noise_of(sweep)), quiet).theory(lost)
+        DirectMethod(IdentificationProblem(sweep, specimen, noise_of(sweep)), quiet).theory(lost)
 
 
 def test_diagnose_refuses_the_law_it_ends_with(coarse):

@@ -11,7 +11,7 @@ from run_at_point import RunAtPoint
 
 from drivers.errors import DriverError
 from drivers.simulated.lan_xi_measurement import Acquired
-from drivers.vibrometer.serial_port import PolytecVibrometer
+from drivers.vibrometer.polytec_vibrometer import PolytecVibrometer
 from instrument.errors import RigStopped, StoppedByUser
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl

@@ -8,7 +8,7 @@ from station import BASE_V, RANGE, RATE, Station, began, of_kind
 
 from instrument.stepped_sine.calibration import Calibration
 from instrument.stepped_sine.settings import Limits, Settle, SweepSettings
-from instrument.stepped_sine.step import StepAnalysis
+from instrument.stepped_sine.step import StepAnalysis, StepContext
 from instrument.stream.derived import (
     DriveRequested,
     LimitExceeded,
@@ -23,6 +23,11 @@ from instrument.stream.scaling import Scaling
 
 SCALING = Scaling({"base": 0, "velocity": 1}, {"base": 1 / BASE_V, "velocity": 1.0})
 SETTINGS = SweepSettings()
+
+
+def context_of(station, light=0.8):
+    """A step that begins now, in a fine range without a calibration."""
+    return StepContext(SETTINGS, SCALING, RATE, RANGE, station.now, signal_level=light)
 
 
 def follow(
@@ -41,12 +46,17 @@ def follow(
     """Do what the step asks for until it is done or gives up; every event."""
     step = step or began()
     ask = (lambda name: calibration) if calibration else None
-    analysis = StepAnalysis(
-        *(step, settings, SCALING, RATE, RANGE, wider, ask, light, station.now),
+    context = replace(
+        context_of(station, light),
+        settings=settings,
+        wider=wider,
+        calibration=ask,
         settled_at=settled_at,
         range_is_new=range_is_new,
     )
-    events = list(analysis.commanded(station.command(step.frequency_hz, step.drive_v, told=told)))
+    analysis = StepAnalysis(step, context)
+    analysis.commanded(station.command(step.frequency_hz, step.drive_v, told=told))
+    events = []
     for _ in range(most):
         if analysis.done or of_kind(events, LimitExceeded) or of_kind(events, RangeRequested):
             break
@@ -54,7 +64,7 @@ def follow(
         overload = tuple(bool(v) for v in (np.abs(volts) > 10.0).any(axis=1))
         new = analysis.block(first, volts, overload)
         for request in of_kind(new, DriveRequested):
-            new += analysis.commanded(station.command(step.frequency_hz, request.drive_v, told=told))
+            analysis.commanded(station.command(step.frequency_hz, request.drive_v, told=told))
         events += new
     return events
 
@@ -194,7 +204,7 @@ def test_a_base_above_its_abort_band_stops():
 def test_the_base_is_watched_on_the_way_to_a_new_drive(peak_m_s2, stops):
     """A frequency changes at once: before the ramp is over the base may have rung."""
     station, step = Station(gain_m_s2_v=9.81 / 1.9), began()
-    analysis = StepAnalysis(step, SETTINGS, SCALING, RATE, RANGE, (), None, 0.8, station.now)
+    analysis = StepAnalysis(step, context_of(station))
     analysis.commanded(station.command(step.frequency_hz, step.drive_v))
     first, volts = station.read(analysis.wanted())
     ringing = volts.copy()
@@ -357,7 +367,7 @@ def test_strong_harmonics_are_marked():
 def test_a_receipt_that_counts_other_samples_is_taken_for_one_without(sample):
     station, step = Station(stirred=1.0, gain_m_s2_v=9.81 / 1.9), began()
     station.now = 5000
-    analysis = StepAnalysis(step, SETTINGS, SCALING, RATE, RANGE, (), None, 0.8, station.now)
+    analysis = StepAnalysis(step, context_of(station))
     command = station.command(step.frequency_hz, step.drive_v)
     analysis.commanded(replace(command, sample=sample))
     ramped_s = SETTINGS.latency_s + SETTINGS.control.ramp_s

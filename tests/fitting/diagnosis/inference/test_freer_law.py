@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fitting.data.noise import Noise
-from fitting.diagnosis.diagnose import diagnose_task
+from fitting.diagnosis.diagnose import diagnose_problem
 from fitting.diagnosis.executor import ALONE
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.inference.freer_law import freedom_of, loosened
@@ -110,7 +110,14 @@ def test_an_effect_is_named_though_its_core_is_off_any_formula_and_that_is_said(
     start = begun(0.8, LATER_S)
     v = start.problem.sweep.velocity_m_s
     noise = Noise(NOISE * np.abs(v) / np.sqrt(2), "stated")
-    found = diagnose_task(start.problem, None, [CATALOGUE["channel_delay"]], noise, None, STATED)
+    found = diagnose_problem(
+        start.problem,
+        reduced=None,
+        effects=[CATALOGUE["channel_delay"]],
+        noise=noise,
+        bare=None,
+        start=STATED,
+    )
     assert found.verdict == "effect"
     (one,) = found.effects
     assert one.name == "channel_delay"

@@ -33,10 +33,10 @@ def test_a_fit_is_at_rest_where_too_little_is_left_to_gain_in_all_its_steps():
     alone = least_squares(valley, [-1.2, 1.0])
     steps = Steps(least=50.0)
     found = least_squares(valley, [-1.2, 1.0], callback=steps)
-    assert steps.at_rest
+    assert steps.converged
     assert found.status == -2
     assert found.nfev < alone.nfev
-    assert not followed(1e-6)[1].at_rest
+    assert not followed(1e-6)[1].converged
 
 
 def test_a_pace_is_the_better_one_of_the_last_two_steps_and_not_known_before():

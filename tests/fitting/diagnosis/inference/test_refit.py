@@ -23,7 +23,7 @@ class Reads:
     """How much the root of each file gives, and the law in two points beside."""
 
     def __init__(self, effect, files):
-        self.effects, self.parameters, self.apart = (effect,), effect.parameters, True
+        self.effects, self.parameters, self.derivatives_cost_extra = (effect,), effect.parameters, True
         self.nuisances, self.plate, self.files = (), None, files
 
     def velocity(self, law, u):

@@ -21,7 +21,7 @@ BY_STATED = 0.01
 class Reads:
     """The law in two points, and a third that a gain and a stated number move alike."""
 
-    apart, plate, effects = True, None, (GAIN,)
+    derivatives_cost_extra, plate, effects = True, None, (GAIN,)
 
     def __init__(self, stated):
         self.nuisances = (None,) * stated
@@ -47,7 +47,7 @@ def problem(monkeypatch):
     """With one stated number, and how it is without."""
     monkeypatch.setattr(wide_valley, "response_of", lambda problem, *_: Reads(problem.stated))
     found = task(1)
-    found.held = task(0)
+    found.with_stated_fixed = task(0)
     return found
 
 

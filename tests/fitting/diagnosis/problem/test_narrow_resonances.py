@@ -100,7 +100,7 @@ def test_what_is_a_number_of_the_fit_is_no_error_beside_it(ready):
 
 
 def test_taken_at_its_word_it_has_none_of_these_numbers(ready):
-    held = ready.problem.with_narrow(LAW).held
+    held = ready.problem.with_narrow(LAW).with_stated_fixed
     v = response_of(held, ()).velocity(LAW, held.as_stated)
     assert v == pytest.approx(response_of(ready.problem, ()).velocity(LAW, np.zeros(0)), rel=1e-9)
 

@@ -25,7 +25,7 @@ def found(*effects):
         return len(asked)
 
     search = SimpleNamespace(
-        problem=SimpleNamespace(plate=None), executor=ALONE, work=SimpleNamespace(fitted=fitted), judged=str
+        problem=SimpleNamespace(plate=None), executor=ALONE, work=SimpleNamespace(fit=fitted), judged=str
     )
     best = SimpleNamespace(effects=effects, law="law", z=np.zeros(2), of=lambda effect: np.array([5.0]))
     return Search.elsewhere(search, SimpleNamespace(fitted=best)), asked

@@ -55,42 +55,47 @@ class World:
     def none(self):
         return self.judged(self.fit())
 
-    def alone(self, one):
-        if isinstance(one, ScoredFit):
-            return [self.judged(self.fit(e)) for e in one.fitted.effects]
-        self.kept.append(one[1].name)
-        return self.fit(one[1])
+    def alone(self, scored):
+        return [self.judged(self.fit(e)) for e in scored.fitted.effects]
 
-    def second(self, one):
-        before, (name, _), _, _ = one
-        return self.fit(*before.effects, *(e for e in self.effects if e.name == name))
+    def evaluate_alone(self, asked):
+        self.kept.append(asked.effect.name)
+        return self.fit(asked.effect)
 
-    near = second
+    def fit_second(self, asked):
+        return self.both(asked.before, asked.form)
 
-    def ended(self, one):
-        rough, goal = one
-        self.goals.append(goal)
-        return rough
+    fit_second_roughly = fit_second
 
-    def other_laws_beside(self, one):
-        before, name, goal = one
+    def both(self, before, form):
+        return self.fit(*before.effects, *(e for e in self.effects if e.name == form[0]))
+
+    def follow_to_end(self, asked):
+        self.goals.append(asked.goal)
+        return asked.fitted
+
+    def fit_other_laws_beside(self, asked):
+        before, name, goal = asked
         self.laws.append((before.effects[0].name, name, goal))
-        return [self.second((before, (name, 0), None, None))]
+        return [self.both(before, (name, 0))]
 
-    def look(self, one):
-        before, forms = one
-        after = [self.second((before, form, None, None)) for form in forms]
+    def look(self, beside):
+        before, forms = beside
+        after = [self.both(before, form) for form in forms]
         return [[(before.chi2 - f.chi2, np.zeros(0))] for f in after]
 
-    def at_rest(self, asked, best=None):
-        return "its end" if best is None else list(asked)
+    def follow_to_convergence(self, fitted):
+        return "its end"
+
+    def converged_group(self, scored_fits, best):
+        return list(scored_fits)
 
     moves = False
 
     def moving(self, scored_fits, best):
         return [t.fitted for t in scored_fits] if self.moves else []
 
-    def rested(self, fits, ends):
+    def keep_converged(self, fits, ends):
         self.ends |= dict(zip([f.effects for f in fits], ends, strict=True))
 
     def simpler(self, scored):
@@ -172,7 +177,7 @@ def test_what_an_effect_of_two_contains_is_fitted_in_its_place():
     search = SimpleNamespace(
         effects=[other, wide, Narrow()],
         executor=ALONE,
-        work=SimpleNamespace(fitted=fitted),
+        work=SimpleNamespace(fit=fitted),
         judged=lambda found: found,
     )
     search._contained = partial(Search._contained, search)
@@ -199,7 +204,7 @@ def test_two_of_a_thing_begin_where_one_was_found_and_a_look_sees_the_other(monk
         problem=None,
         evidence=None,
         executor=ALONE,
-        work=SimpleNamespace(fitted=fitted),
+        work=SimpleNamespace(fit=fitted),
         judged=lambda found: found,
         determined=lambda found: True,
     )
@@ -293,17 +298,16 @@ class Wanting(World):
     def judged(self, fitted):
         return ScoredFit(fitted, fitted.chi2, {"size": 1e-9})
 
-    def look(self, one):
-        return [[(0.0, np.zeros(0))] for _ in one[1]]
+    def look(self, beside):
+        return [[(0.0, np.zeros(0))] for _ in beside.forms]
 
-    def look_wide(self, one):
-        return [[np.zeros(0)] for _ in one[1]]
+    def look_wide(self, beside):
+        return [[np.zeros(0)] for _ in beside.forms]
 
-    def begun_wide(self, one):
-        before, form, starts = one
-        return [self.second((before, form, None, None)) for _ in starts]
+    def begin_wide(self, asked):
+        return [self.both(asked.before, asked.form) for _ in asked.starts]
 
-    def wide(self, begun):
+    def follow_wide(self, begun):
         self.followed.append(tuple(e.name for e in begun.effects))
         return begun
 
@@ -312,11 +316,11 @@ class Wanting(World):
     def left_in_wide_valley(self, fitted):
         return fitted.chi2
 
-    def briefly(self, wide):
+    def follow_briefly(self, wide):
         self.went_on.append(tuple(e.name for e in wide.effects))
         return wide
 
-    def roughly(self, brief):
+    def follow_roughly(self, brief):
         return brief
 
     def fit_plainly(self, names):

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from fitting.diagnosis.executor import ALONE
+from fitting.diagnosis.search.asked import FormStart
 from fitting.diagnosis.search.singles import Singles
 from fitting.diagnosis.thresholds import SEARCH
 
@@ -17,12 +18,12 @@ class Work:
     def __init__(self):
         self.followed = []
 
-    def set_out(self, one):
-        _, (_, place), _ = one
+    def set_out(self, asked):
+        _, (_, place), _ = asked
         return SimpleNamespace(place=place, chi2=1.0 + place, gone_on=False)
 
-    def gone_on(self, one):
-        form, begun, rival = one
+    def go_on(self, asked):
+        form, begun, rival = asked
         self.followed.append((form, begun.place, rival))
         return SimpleNamespace(place=begun.place, chi2=0.9 * begun.chi2, gone_on=True)
 
@@ -34,7 +35,7 @@ def followed(asked):
 
 
 def asked_of(name, count, rival=np.inf):
-    return [((name, 0), (9.0, place), rival) for place in reversed(range(count))]
+    return [FormStart((name, 0), (9.0, place), rival) for place in reversed(range(count))]
 
 
 def test_the_best_of_many_places_go_on_and_all_are_told_in_order():

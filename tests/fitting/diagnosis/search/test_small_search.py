@@ -6,11 +6,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from shear_pair_task import GAIN, HIGH, LAW, MASS, PAIR, Task
+from shear_pair_problem import GAIN, HIGH, LAW, MASS, PAIR, ShearPairProblem
 
 from fitting.diagnosis import diagnose
 from fitting.diagnosis.diagnose import seen_in_channels
 from fitting.diagnosis.executor import Executor
+from fitting.diagnosis.search.asked import Beside, OfEffect, OneOfPair, Second, ToFollow
 from fitting.diagnosis.search.candidate_fits import CandidateFits
 from fitting.diagnosis.search.candidates import Known
 from fitting.diagnosis.search.singles import Singles
@@ -22,13 +23,13 @@ from fitting.errors import OutsideModel
 
 @pytest.fixture(scope="module")
 def clean():
-    return Task(1.0)
+    return ShearPairProblem(1.0)
 
 
 @pytest.fixture(scope="module")
 def high():
     """Its velocity channel reads 10 % too much, twenty times its tolerance."""
-    return Task(HIGH)
+    return ShearPairProblem(HIGH)
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +42,7 @@ def found(high):
 def test_a_linear_step_promises_most_of_what_the_true_cause_gains(high):
     work = high.fits(GAIN, MASS)
     gained = high.begun.none.chi2 - min(
-        f.chi2 for f in work.begun(("gain_error", work.state("gain_error"))).fits
+        f.chi2 for f in work.begin(OfEffect("gain_error", work.state("gain_error"))).fits
     )
     assert work.promise("gain_error") == pytest.approx(gained, rel=0.1)
     assert work.promise("added_mass") < 0.01 * gained
@@ -49,7 +50,7 @@ def test_a_linear_step_promises_most_of_what_the_true_cause_gains(high):
 
 def test_what_another_process_has_found_is_not_fitted_again(high):
     work = high.fits(GAIN)
-    looked = work.begun(("gain_error", work.state("gain_error")))
+    looked = work.begin(OfEffect("gain_error", work.state("gain_error")))
     elsewhere = high.fits(GAIN)
     elsewhere.learn("gain_error", looked.state)
     ((form, best),) = elsewhere.best_near("gain_error")
@@ -60,7 +61,7 @@ def test_what_another_process_has_found_is_not_fitted_again(high):
 @pytest.mark.parametrize(("worse_by", "followed"), [(5.0, [0, 1]), (50.0, [0])])
 def test_of_two_forms_that_do_alike_so_far_both_are_followed(high, worse_by, followed):
     work = high.fits(GAIN)
-    (rough,) = work.begun(("gain_error", work.state("gain_error"))).fits
+    (rough,) = work.begin(OfEffect("gain_error", work.state("gain_error"))).fits
     other = replace(rough, residuals=rough.residuals * np.sqrt(1 + worse_by / rough.chi2))
     work.candidates["gain_error"] = [copy(work.candidates["gain_error"][0]) for _ in range(2)]
     work.learn("gain_error", [Known(near=[rough]), Known(near=[other])])
@@ -76,14 +77,16 @@ def test_what_has_no_effect_is_followed_with_the_group_and_moves_where_it_owed(
     search = clean.search(GAIN)
     none = search.none.fitted
     ended = replace(none, residuals=none.residuals * np.sqrt(1 - owed / none.chi2))
-    monkeypatch.setattr(search.work, "at_rest", lambda fitted: ended if fitted is none else fitted)
-    search.at_rest([], search.none)
+    monkeypatch.setattr(
+        search.work, "follow_to_convergence", lambda fitted: ended if fitted is none else fitted
+    )
+    search.converged_group([], search.none)
     assert (search.none.fitted is ended) is moves
 
 
 def test_only_a_fit_that_had_not_come_to_its_end_is_on_the_way(high):
     work = high.fits(GAIN)
-    (rough,) = work.begun(("gain_error", work.state("gain_error"))).fits
+    (rough,) = work.begin(OfEffect("gain_error", work.state("gain_error"))).fits
     for converged, waiting in ((True, []), (False, [rough.chi2])):
         work.learn("gain_error", [Known(near=[replace(rough, converged=converged)])])
         assert [f.chi2 for _, f in work.on_the_way("gain_error")] == waiting
@@ -91,8 +94,8 @@ def test_only_a_fit_that_had_not_come_to_its_end_is_on_the_way(high):
 
 def test_a_rough_fit_is_followed_to_the_channel_s_gain(high):
     work = high.fits(GAIN)
-    (rough,) = work.begun(("gain_error", work.state("gain_error"))).fits
-    ended = work.finished((("gain_error", 0), rough, np.inf))
+    (rough,) = work.begin(OfEffect("gain_error", work.state("gain_error"))).fits
+    ended = work.finish(ToFollow(("gain_error", 0), rough, np.inf))
     assert ended.chi2 <= rough.chi2
     error = np.sqrt(np.diag(ended.covariance))[-1]
     assert abs(ended.of(GAIN)[0] - HIGH) < 3 * error
@@ -100,7 +103,7 @@ def test_a_rough_fit_is_followed_to_the_channel_s_gain(high):
 
 def test_without_a_known_noise_no_rival_is_given_up(high):
     work = high.fits(GAIN)
-    (best,) = work.begun(("gain_error", work.state("gain_error"))).fits
+    (best,) = work.begin(OfEffect("gain_error", work.state("gain_error"))).fits
     assert best.chi2 < work.goal(best) < high.begun.none.chi2
     unknown = replace(high.begun.evidence, scale_known=False)
     assert CandidateFits(high.begun.problem, unknown, high.begun.none, [GAIN]).goal(best) == np.inf
@@ -108,19 +111,19 @@ def test_without_a_known_noise_no_rival_is_given_up(high):
 
 def test_a_second_effect_is_fitted_beside_the_first_and_taken_away_again(high):
     work = high.fits(GAIN, MASS)
-    (first,) = work.begun(("gain_error", work.state("gain_error"))).fits
+    (first,) = work.begin(OfEffect("gain_error", work.state("gain_error"))).fits
     form = ("added_mass", 0)
-    both = work.second((first, form, work.look((first, [form]))[0], np.inf))
+    both = work.fit_second(Second(first, form, work.look(Beside(first, [form]))[0], np.inf))
     assert [e.name for e in both.effects] == ["gain_error", "added_mass"]
     assert both.chi2 <= first.chi2 + 1e-6
-    alone = work.alone((both, GAIN))
+    alone = work.evaluate_alone(OneOfPair(both, GAIN))
     assert alone.law == both.law
     assert alone.of(GAIN) == pytest.approx(both.of(GAIN))
     assert alone.chi2 >= both.chi2
 
 
 def test_another_law_is_a_candidate_fitted_in_the_place_of_the_stated_one(high):
-    (best, *_) = high.fits(LAW).other_laws(LAW)
+    (best, *_) = high.fits(LAW).fit_other_laws(LAW)
     assert best.effects == (LAW,)
     assert best.law.kind != high.begun.none.law.kind
 
@@ -142,10 +145,10 @@ def test_of_single_effects_the_true_cause_comes_first(high):
 
 
 def test_a_rough_fit_that_leads_and_was_on_its_way_is_followed_to_its_end_once(high, monkeypatch):
-    followed, plain = [], CandidateFits.finished
+    followed, plain = [], CandidateFits.finish
 
     def finished(self, one):
-        followed.append(one[1])
+        followed.append(one.fitted)
         return plain(self, one)
 
     def begun(self, one):
@@ -153,9 +156,9 @@ def test_a_rough_fit_that_leads_and_was_on_its_way_is_followed_to_its_end_once(h
         short = [replace(f, converged=False) for f in found.fits]
         return replace(found, fits=short, state=[Known(near=short)])
 
-    first = CandidateFits.begun
-    monkeypatch.setattr(CandidateFits, "finished", finished)
-    monkeypatch.setattr(CandidateFits, "begun", begun)
+    first = CandidateFits.begin
+    monkeypatch.setattr(CandidateFits, "finish", finished)
+    monkeypatch.setattr(CandidateFits, "begin", begun)
     Singles(high.search(MASS, GAIN), lambda fraction: None).best()
     assert len({id(f) for f in followed}) == len(followed)
     assert (GAIN,) in {f.effects for f in followed}
@@ -176,19 +179,19 @@ def test_what_would_be_larger_than_is_plausible_settles_nothing_for_the_others(h
 
 
 def test_what_has_been_followed_to_a_goal_is_followed_again_only_to_an_easier_one(high, monkeypatch):
-    asked, plain = [], CandidateFits.finished
+    asked, plain = [], CandidateFits.finish
 
     def finished(self, one):
-        asked.append(one[2])
+        asked.append(one.goal)
         return plain(self, one)
 
-    monkeypatch.setattr(CandidateFits, "finished", finished)
+    monkeypatch.setattr(CandidateFits, "finish", finished)
     search = high.search(GAIN)
     singles = Singles(search, lambda fraction: None)
-    search.work.begun(("gain_error", search.work.state("gain_error")))
+    search.work.begin(OfEffect("gain_error", search.work.state("gain_error")))
     ((form, rough),) = search.work.best_near("gain_error")
     for goal in (rough.chi2, 0.9 * rough.chi2, rough.chi2, np.inf, rough.chi2):
-        singles._to_the_end([(form, rough, goal)])
+        singles._to_the_end([ToFollow(form, rough, goal)])
     assert asked == [rough.chi2, np.inf]
 
 
@@ -217,10 +220,10 @@ def test_a_fit_says_what_it_makes_of_unseen_data_while_others_come_to_their_end(
     search = high.search(GAIN, executor=Counting())
     (best,) = Singles(search, lambda fraction: None).best()
     asked.clear()
-    search.at_rest([best], best, [search.none])
-    assert asked == [["at_rest", "held_out"]]
-    assert search.validation(search.none) == search.work.held_out(search.none.fitted)
-    search.at_rest([best], best, [search.none])
+    search.converged_group([best], best, [search.none])
+    assert asked == [["follow_to_convergence", "predict_held_out"]]
+    assert search.validation(search.none) == search.work.predict_held_out(search.none.fitted)
+    search.converged_group([best], best, [search.none])
     assert asked[1:] == [[]]
 
 

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from shear_pair_task import GAIN, MASS, Task
+from shear_pair_problem import GAIN, MASS, ShearPairProblem
 
 from fitting.diagnosis.verdict.confounded import hides, in_light_of_the_law, last_word
 from fitting.diagnosis.verdict.judgement import Judgement
@@ -15,7 +15,7 @@ from fitting.laws.constant import ConstantModulus
 
 @pytest.fixture(scope="module")
 def clean():
-    return Task(1.0)
+    return ShearPairProblem(1.0)
 
 
 def test_a_mass_of_a_shear_pair_hides_in_its_law_and_a_gain_does_not(clean):
@@ -24,7 +24,7 @@ def test_a_mass_of_a_shear_pair_hides_in_its_law_and_a_gain_does_not(clean):
     assert settled.verdict == "ambiguous"
     assert settled.equivalent == {"added_mass": ("added_mass", "none")}
     assert settled.accepted.fitted.of(MASS) == pytest.approx([0.0])
-    assert "added_mass cannot be told from the core's modulus" in settled.why
+    assert "added_mass cannot be told from the core's modulus" in settled.note
     assert in_light_of_the_law(clean.search(GAIN), none) is none
 
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from verdict_cases import POOR_NONE, judged, scored
 
 from fitting.diagnosis.thresholds import VERDICT
-from fitting.diagnosis.verdict.judgement import beside_another_law, told
+from fitting.diagnosis.verdict.judgement import beside_another_law, judged_by_hand
 from fitting.diagnosis.verdict.names import NONE
 from fitting.effects import CATALOGUE
 
@@ -246,10 +246,13 @@ def test_what_two_segments_cannot_place_is_believed_all_the_same():
 
 
 def test_what_someone_has_decided_stands_for_itself():
-    said = told(scored("gain_error", "channel_delay", cost=5.0))
+    said = judged_by_hand(scored("gain_error", "channel_delay", cost=5.0))
     assert (said.verdict, said.by_hand) == ("effect", True)
     assert said.equivalent == {"gain_error": ("gain_error",), "channel_delay": ("channel_delay",)}
-    assert (told(scored(cost=5.0)).verdict, told(scored(cost=5.0)).accepted) == ("none", None)
+    assert (judged_by_hand(scored(cost=5.0)).verdict, judged_by_hand(scored(cost=5.0)).accepted) == (
+        "none",
+        None,
+    )
 
 
 def test_what_no_point_shows_by_itself_shares_with_what_nothing_refuses():

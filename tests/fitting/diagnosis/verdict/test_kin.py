@@ -87,8 +87,8 @@ def test_the_law_of_several_shares_is_their_mixture():
     mean = p @ [one.moved for one in each]
     np.testing.assert_allclose(both.moved, mean)
     # A tenth is the same by another formula, all of it another thing.
-    assert [one.apart for one in each] == [0.0, 1.0]
-    assert both.apart == pytest.approx(p[1])
+    assert [one.another_cause for one in each] == [0.0, 1.0]
+    assert both.another_cause == pytest.approx(p[1])
     apart = sum(
         w * (one.wider + np.outer(one.moved - mean, one.moved - mean)) for w, one in zip(p, each, strict=True)
     )

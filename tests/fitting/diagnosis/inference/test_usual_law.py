@@ -10,8 +10,8 @@ from fitting.data.readings import Readings
 from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.inference import usual_law
 from fitting.diagnosis.inference.evidence import Evidence
-from fitting.diagnosis.inference.refit import AT_REST, refit
-from fitting.diagnosis.inference.usual_law import at_rest
+from fitting.diagnosis.inference.refit import CONVERGED, refit
+from fitting.diagnosis.inference.usual_law import followed_to_convergence
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
@@ -22,7 +22,7 @@ BEGINNING, END = ConstantModulus(0.15e6, 0.4), ConstantModulus(0.5e6 * np.e, 0.3
 class Winding:
     """Rosenbrock's valley in the logarithms of the law, its bottom at (1, 1)."""
 
-    effects, parameters, nuisances, plate, apart = (), (), (), None, False
+    effects, parameters, nuisances, plate, derivatives_cost_extra = (), (), (), None, False
 
     def with_derivatives(self, law, u):
         x, y = np.log(law.values / (0.5e6, 0.3))
@@ -44,7 +44,7 @@ def test_what_is_on_its_way_along_a_winding_valley_owes_and_is_followed(valley):
     problem, evidence = valley
     on_the_way = refit(Winding(), evidence, BEGINNING, np.empty(0), brief=True)
     assert on_the_way.owed > 10 * SEARCH.least_owed
-    found = at_rest(problem, evidence, on_the_way)
+    found = followed_to_convergence(problem, evidence, on_the_way)
     assert found.law.values == pytest.approx(END.values, rel=1e-3)
     assert found.owed < 1e-6
 
@@ -52,7 +52,7 @@ def test_what_is_on_its_way_along_a_winding_valley_owes_and_is_followed(valley):
 def test_what_owes_nothing_stays_as_it_is(valley):
     problem, evidence = valley
     there = refit(Winding(), evidence, END, np.empty(0))
-    assert at_rest(problem, evidence, there) is there
+    assert followed_to_convergence(problem, evidence, there) is there
 
 
 def test_what_ran_out_of_steps_is_followed_though_one_step_promises_nothing(valley, monkeypatch):
@@ -65,20 +65,20 @@ def test_what_ran_out_of_steps_is_followed_though_one_step_promises_nothing(vall
         return there
 
     monkeypatch.setattr(usual_law, "refit", follow)
-    at_rest(problem, evidence, replace(there, converged=False))
-    assert followed == [AT_REST]
+    followed_to_convergence(problem, evidence, replace(there, converged=False))
+    assert followed == [CONVERGED]
 
 
 def test_what_ran_out_of_steps_where_nothing_is_left_to_gain_has_come_to_its_end(valley):
     problem, evidence = valley
     there = refit(Winding(), evidence, END, np.empty(0))
-    assert at_rest(problem, evidence, replace(there, converged=False)).converged
+    assert followed_to_convergence(problem, evidence, replace(there, converged=False)).converged
 
 
 def test_what_could_not_gain_what_matters_in_all_its_steps_has_come_to_its_end(valley):
     _, evidence = valley
-    freely = refit(Winding(), evidence, BEGINNING, np.empty(0), tolerance=AT_REST)
-    ended = refit(Winding(), evidence, BEGINNING, np.empty(0), tolerance=AT_REST, least=50.0)
+    freely = refit(Winding(), evidence, BEGINNING, np.empty(0), tolerance=CONVERGED)
+    ended = refit(Winding(), evidence, BEGINNING, np.empty(0), tolerance=CONVERGED, least=50.0)
     assert ended.converged
     assert ended.evaluations < freely.evaluations
     assert ended.chi2 > freely.chi2
@@ -93,7 +93,7 @@ def test_it_is_told_how_far_it_must_come(valley, monkeypatch):
         return there
 
     monkeypatch.setattr(usual_law, "refit", follow)
-    at_rest(problem, evidence, replace(there, converged=False), 3.0)
+    followed_to_convergence(problem, evidence, replace(there, converged=False), 3.0)
     assert asked == [(3.0, SEARCH.least_owed)]
 
 
@@ -112,7 +112,7 @@ def test_a_law_far_from_what_cores_are_is_left_where_a_usual_one_does_better(mon
         return SimpleNamespace(law=law, chi2=511.9, may_reach=lambda goal: reached and goal == matters)
 
     monkeypatch.setattr(usual_law, "polished", polished)
-    monkeypatch.setattr(usual_law, "at_rest", lambda problem, evidence, fitted, *_: fitted)
+    monkeypatch.setattr(usual_law, "followed_to_convergence", lambda problem, evidence, fitted, *_: fitted)
     problem = SimpleNamespace(points=SimpleNamespace(omega=OMEGA))
     fitted = SimpleNamespace(law=far, chi2=516.2, effects=(), u=np.empty(0))
     found = usual_law.followed(problem, None, fitted)
@@ -127,14 +127,14 @@ def test_what_a_usual_law_gains_less_than_matters_by_takes_nothing_s_place(monke
     fitted = SimpleNamespace(law=far, chi2=516.2, effects=(), u=np.empty(0))
     given_up = SimpleNamespace(law=far, chi2=516.15, may_reach=lambda goal: True)
     monkeypatch.setattr(usual_law, "polished", lambda *_: given_up)
-    monkeypatch.setattr(usual_law, "at_rest", lambda problem, evidence, one, *_: one)
+    monkeypatch.setattr(usual_law, "followed_to_convergence", lambda problem, evidence, one, *_: one)
     problem = SimpleNamespace(points=SimpleNamespace(omega=OMEGA))
     assert usual_law.followed(problem, None, fitted) is fitted
 
 
 def test_a_law_of_usual_size_is_begun_from_nowhere_else(monkeypatch):
     fitted = SimpleNamespace(law=FractionalZener(3.5e5, 7.9e6, 1.1e-4, 0.79))
-    monkeypatch.setattr(usual_law, "at_rest", lambda problem, evidence, fitted, *_: fitted)
+    monkeypatch.setattr(usual_law, "followed_to_convergence", lambda problem, evidence, fitted, *_: fitted)
     problem = SimpleNamespace(points=SimpleNamespace(omega=OMEGA))
     assert usual_law.followed(problem, None, fitted) is fitted
 
@@ -147,7 +147,7 @@ def test_of_a_law_far_from_what_cores_are_both_ways_are_followed_in_one_go(monke
 
     asked, ends = [], iter([510.0, 509.0])
     monkeypatch.setattr(usual_law, "polished", lambda *_: SimpleNamespace(may_reach=lambda goal: True))
-    monkeypatch.setattr(usual_law, "at_rest", lambda *_: SimpleNamespace(chi2=next(ends)))
+    monkeypatch.setattr(usual_law, "followed_to_convergence", lambda *_: SimpleNamespace(chi2=next(ends)))
     problem = SimpleNamespace(points=SimpleNamespace(omega=OMEGA))
     far = FractionalZener(3.2e5, 9.4e10, 3.3e-10, 0.76)
     fitted = SimpleNamespace(law=far, chi2=516.2, effects=(), u=np.empty(0))

@@ -3,7 +3,7 @@
 from shear_pair_cases import pair, sweep
 
 from fitting.data.noise import noise_of
-from fitting.diagnosis.diagnose import diagnose_task
+from fitting.diagnosis.diagnose import diagnose_problem
 from fitting.diagnosis.executor import ALONE
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.problem.small_problem import SmallProblem
@@ -17,7 +17,7 @@ HIGH = 1.1
 """What the velocity channel reads of the truth."""
 
 
-class Task:
+class ShearPairProblem:
     """A sweep, the fit without effects, and what can be done for each of some effects."""
 
     def __init__(self, factor):
@@ -33,5 +33,5 @@ class Task:
         return Search(self.begun.problem, self.begun.evidence, self.begun.none, effects, executor)
 
     def diagnosed(self, *effects, **how):
-        start = PAIR.core.law
-        return diagnose_task(self.problem, None, effects, self.noise, None, start, **how)
+        given = {"reduced": None, "bare": None, "start": PAIR.core.law, "noise": self.noise}
+        return diagnose_problem(self.problem, effects=effects, **given, **how)

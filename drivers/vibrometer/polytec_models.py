@@ -1,4 +1,4 @@
-"""The vibrometers known by name: what is true of a model and not asked of the device.
+"""The Polytec vibrometers known by name: what is true of a model and not asked of the device.
 
 Whatever was not seen in a manual, in public source or on a device stands here, marked, and nowhere else.
 """
@@ -10,7 +10,7 @@ from drivers.vibrometer.interface import Range
 
 
 @dataclass(frozen=True)
-class Model:
+class PolytecModel:
     """One controller with one velocity decoder."""
 
     name: str
@@ -31,7 +31,7 @@ class Model:
         raise Refused(f"{self.name} has no range {name!r}: it has {', '.join(r.name for r in self.ranges)}")
 
 
-def model_named(name: str) -> Model:
+def model_named(name: str) -> PolytecModel:
     """Raises `Refused`, naming the models there are."""
     if name not in MODELS:
         raise Refused(f"no vibrometer model {name!r}: known are {', '.join(MODELS)}")
@@ -91,9 +91,9 @@ _OFV = "OFV-5000 Vibrometer Controller"
 MODELS = {
     model.name: model
     for model in (
-        Model("OFV-5000", _OFV, "VD-09", _VD_09, 512),
-        Model("OFV-5000 VD-08", _OFV, "VD-08", _VD_08, 512),
+        PolytecModel("OFV-5000", _OFV, "VD-09", _VD_09, 512),
+        PolytecModel("OFV-5000 VD-08", _OFV, "VD-08", _VD_08, 512),
         # Its serial language was not seen in public: the OFV-5000's is assumed.
-        Model("PDV-100", "PDV-100", "PDV-100", _PDV_100, 512),
+        PolytecModel("PDV-100", "PDV-100", "PDV-100", _PDV_100, 512),
     )
 }

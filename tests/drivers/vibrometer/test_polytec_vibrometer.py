@@ -7,7 +7,7 @@ import pytest
 
 from drivers.errors import Garbled, Refused, TimedOut, Unreachable
 from drivers.simulated.vibrometer_server import Head, VibrometerServer
-from drivers.vibrometer.serial_port import PolytecVibrometer
+from drivers.vibrometer.polytec_vibrometer import PolytecVibrometer
 
 
 @pytest.fixture
@@ -116,7 +116,7 @@ def test_garbage_without_end_is_given_up(server, vibrometer):
 def test_silence_is_given_up_in_bounded_time(server, vibrometer):
     server.faults.silent_replies = 1000
     begun = time.monotonic()
-    with pytest.raises(TimedOut, match=r"no answer in 0\.3 s, 3 attempts"):
+    with pytest.raises(TimedOut, match=r"no line in 0\.3 s, 3 attempts"):
         vibrometer.range()
     assert time.monotonic() - begun < 3
 

@@ -11,11 +11,11 @@ from dataclasses import replace
 from threading import RLock
 from typing import TypeVar
 
-from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
+from drivers.errors import Garbled, Refused, TimedOut, Unreachable
 from drivers.serial_line import SerialLine
 from drivers.vibrometer import polytec
 from drivers.vibrometer.interface import Range
-from drivers.vibrometer.models import model_named
+from drivers.vibrometer.polytec_models import model_named
 
 T = TypeVar("T")
 
@@ -33,7 +33,7 @@ class PolytecVibrometer:
     port
         Device file or COM port.
     model
-        One of `drivers.vibrometer.models.MODELS`.
+        One of `drivers.vibrometer.polytec_models.MODELS`.
     timeout_s
         For one answer.
     retries
@@ -168,21 +168,16 @@ class PolytecVibrometer:
         with self._lock:
             if self._closed:
                 raise Unreachable(f"{self._me}: {command}: the driver was closed")
-            problem: DriverError = TimedOut("no attempt")
-            for _ in range(self._retries + 1):
-                try:
-                    if not self._line.is_open:
-                        self._reopen()
-                    return attempt()
-                except (TimedOut, Garbled) as error:
-                    problem = error
-                except Refused as error:
-                    raise Refused(f"{self._me}: {command}: {error}") from None
-                except OSError as error:
-                    # pyserial's errors are OSErrors: unplugged. The next attempt opens it again.
-                    problem = Unreachable(str(error))
-                    self._line.close()
-            raise type(problem)(f"{self._me}: {command}: {problem}, {self._retries + 1} attempts")
+
+            def opened() -> T:
+                if not self._line.is_open:
+                    self._reopen()
+                return attempt()
+
+            try:
+                return self._line.attempts(self._retries + 1, opened, f"{self._me}: {command}")
+            except Refused as error:
+                raise Refused(f"{self._me}: {command}: {error}") from None
 
     def _reopen(self) -> None:
         """Open the port and tell the device to echo nothing and to acknowledge what is set."""
@@ -209,22 +204,8 @@ class PolytecVibrometer:
         self._line.write(polytec.encode(command))
         deadline = time.monotonic() + self._timeout_s
         while True:
-            reply = polytec.decode(self._read_line(deadline))
+            line = self._line.read_line(self._received, deadline, longest=polytec.LONGEST_LINE)
+            reply = polytec.decode(line)
             # Until the echo is off, and where it cannot be, the first line is our own.
             if reply and reply != str(command):
                 return reply
-
-    def _read_line(self, deadline: float) -> bytes:
-        while b"\n" not in self._received:
-            if time.monotonic() > deadline:
-                if self._received:
-                    raise Garbled(
-                        f"{bytes(self._received[:40])!r} and no end of line in {self._timeout_s:g} s"
-                    )
-                raise TimedOut(f"no answer in {self._timeout_s:g} s")
-            if len(self._received) > polytec.LONGEST_LINE:
-                raise Garbled(f"{len(self._received)} bytes without an end of line")
-            self._received += self._line.read()
-        line, _, rest = bytes(self._received).partition(b"\n")
-        self._received[:] = rest
-        return line
