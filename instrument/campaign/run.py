@@ -13,7 +13,8 @@ from instrument.models.processes import in_processes
 from instrument.progress import Progress, quiet
 
 OUTCOMES, BEGUN, SUMMARY = "outcomes.jsonl", "campaign.json", "summary.md"
-_SOURCES = ("fitting", "drivers/simulated/plant", "instrument/campaign", "instrument/diagnosis")
+_SOURCES = ("fitting", "drivers/simulated/plant", "instrument/campaign", "instrument/models")
+"""What an outcome depends on: a folder goes on only with the program that began it."""
 
 
 @dataclass(frozen=True)
