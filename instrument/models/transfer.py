@@ -41,7 +41,8 @@ class ProblemSource(Protocol):
 def with_transfer(result: Diagnosis, work: ProblemSource) -> Diagnosis:
     """The same, or with `fixture_transfer` beside what the channels show and its law as the one after.
 
-    All points take part again: what spoils a stretch of every file alike is what is looked for.
+    All points take part again: what spoils a stretch of every file alike is what is looked for. The same where
+    that explains the readings less well than the law alone.
     """
     used = work.used
     work.used = [np.ones(len(one), bool) for one in used]
@@ -65,6 +66,9 @@ def with_transfer(result: Diagnosis, work: ProblemSource) -> Diagnosis:
     stage = stage_of(again.problem, again.evidence, again.none, validation, 1.0)
     work.used = used
     after = _as_read(stage, again, *work.problem(), found.ln_g[there])
+    if after.chi2_per_dof > result.before.chi2_per_dof:
+        # To first order it explained what it does not: the band of what is unknown stays.
+        return result
     effect = _effect(found, problem)
     story = CATALOGUE["fixture_transfer"].story({k: p.value for k, p in effect.parameters.items()})
     said = (

@@ -1,5 +1,7 @@
 """Beside a diagnosis that explains nothing: what a rig does to every mass alike."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from shear_pair_cases import HEAVIER_KG, LAW, fixture_factor, pair, sweeps_of_masses
@@ -44,3 +46,13 @@ def test_only_what_all_files_have_in_common_is_listed_and_changes_the_law(alike)
     assert found.after.validation.held_out_rms_percent < before.after.validation.held_out_rms_percent
     assert len(found.after.predicted_m_s) == len(before.after.predicted_m_s)
     assert "All files are off alike" in found.explanation[-1]
+
+
+def test_a_factor_that_leaves_more_than_the_law_alone_changes_nothing():
+    given = files(alike=True)
+    before = diagnose_together(given, accept=[]).found.result
+    # As if the law alone had left less.
+    better = replace(before, before=replace(before.before, chi2_per_dof=1e-3))
+    work = FilesAtWork(given, quiet, with_effects=True)
+    work.used = np.split(before.used, np.cumsum([len(one.sweep) for one in given])[:-1])
+    assert with_transfer(better, work) is better
