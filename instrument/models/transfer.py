@@ -41,8 +41,8 @@ class ProblemSource(Protocol):
 def with_transfer(result: Diagnosis, work: ProblemSource) -> Diagnosis:
     """The same, or with `fixture_transfer` beside what the channels show and its law as the one after.
 
-    All points take part again: what spoils a stretch of every file alike is what is looked for. The same where
-    that explains the readings less well than the law alone.
+    All points take part again: what spoils a stretch of every file alike is what is looked for. The same,
+    too, where that explains the readings less well than the law alone.
     """
     used = work.used
     work.used = [np.ones(len(one), bool) for one in used]
