@@ -46,6 +46,8 @@ class Ratio:
     """Sweep and segment, where the file says."""
     response: str = ""
     """Between which points: ratios of one name are passes, of several ones they are spots."""
+    beside: Columns = field(default_factory=dict)
+    """Columns of ours on the same lines, of a ratio over a base's motion."""
 
 
 @dataclass(frozen=True)
@@ -144,7 +146,7 @@ def _columns(ratio: Ratio, good: NDArray[np.bool_]) -> Columns:
         "velocity_im_m_s": v.imag,
         "base_accel_re_m_s2": np.full(len(f), base),
         "base_accel_im_m_s2": np.zeros(len(f)),
-    }
+    } | {own: values[good] for own, values in ratio.beside.items()}
     if ratio.level_m_s2 is not None:
         columns["level_g"] = np.full(len(f), ratio.level_m_s2 / REFERENCE_M_S2)
     if ratio.place is not None:
