@@ -13,6 +13,7 @@ from fitting.specimen import Drive, Reading
 from fitting.sweep import Sweep, segments_by_gap
 from instrument.errors import BadInput
 from instrument.files.column import Column
+from instrument.files.near_columns import words_of_near
 from instrument.files.nearest import nearest
 from instrument.files.point_columns import understood
 from instrument.files.table import check_frequency, check_whole, number, read_rows
@@ -55,6 +56,11 @@ class SweepFile:
     unknown: dict[str, list[str]]
     reads: Reading | None = None
     """As its comments say; None where they do not."""
+
+    @property
+    def remark(self) -> str:
+        """For people, of columns whose names are nearly those of ours; empty where there are none."""
+        return words_of_near(self.path, [*self.columns, *self.unknown])
 
     @property
     def temperature_c(self) -> float | None:
