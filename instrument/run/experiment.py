@@ -100,7 +100,8 @@ def _run(
     if objections:
         more = f" (and {len(objections) - 1} more: viscorig check lists them)" if len(objections) > 1 else ""
         raise BadInput(objections[0] + more)
-    journal, name = open_journal(experiment, out, resume)
+    command = parts[0] if len(parts) == 1 else "run"
+    journal, name = open_journal(experiment, out, resume, command)
     entries = journal.entries()
     earlier = [event for e in entries for event in part_events(journal.folder / e.file)]
     path = journal.folder.parent / f"{name}.h5"
@@ -115,7 +116,7 @@ def _run(
     session = SessionRun(
         experiment, journal, forecast, control, earlier, parts, fit, diagnose, companion, progress
     )
-    begun = (parts[0] if len(parts) == 1 else "run", str(experiment.path))
+    begun = (command, str(experiment.path))
     try:
         with Recorder(journal, entries, watch) as recorder:
             session.run(recorder)

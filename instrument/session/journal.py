@@ -70,6 +70,7 @@ class SessionJournal:
         try:
             self.folder.mkdir(parents=True)
         except FileExistsError:
+            self.refuse_while_it_goes_on()
             raise BadInput(f"{self.folder}: exists already: --resume it, or 'viscorig recover' it") from None
         except OSError as error:
             raise BadInput(f"{self.folder}: {error.strerror or error}") from None
@@ -90,7 +91,24 @@ class SessionJournal:
             fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
             self._lock.close()
-            raise BadInput(f"{self.folder}: another run goes on in it, expected one at a time") from None
+            raise self._goes_on() from None
+
+    def refuse_while_it_goes_on(self) -> None:
+        """Raise `BadInput` while a run goes on in this folder; nothing is written into it."""
+        try:
+            lock = (self.folder / _LOCK).open()
+        except OSError:
+            return
+        with lock:
+            if fcntl is None:
+                return
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError:
+                raise self._goes_on() from None
+
+    def _goes_on(self) -> BadInput:
+        return BadInput(f"{self.folder}: another run goes on in it, expected one at a time")
 
     def unlock(self) -> None:
         """Let another run in; also twice."""
