@@ -17,6 +17,7 @@ from instrument.files.modal_table import is_modal_table, read_modal_table, read_
 from instrument.files.plausible import question_specimen
 from instrument.files.repeated import refuse_same_modes, refuse_same_points
 from instrument.files.structure_file import read_structure
+from instrument.interchange.cut_sweep import looks_cut
 from instrument.interchange.given import Given, read_given
 from instrument.interchange.questions import question_data, question_temperatures
 from instrument.models.files import File, spots_of
@@ -94,7 +95,8 @@ def read_each(
         for k, (one, specimen) in enumerate(zip(data, paired, strict=True))
     ]
     refuse_same_points(data, [one.sweep for one in given])
-    for remark in dict.fromkeys(one.remark for one in given if one.remark):
+    cut = "" if at_temperatures else looks_cut(data, [one.sweep for one in given], paired)
+    for remark in dict.fromkeys(said for said in (*(one.remark for one in given), cut) if said):
         out.say(f"{remark}\n")
     if hammer is not None and not isinstance(given[0].specimen, Specimen):
         raise click.UsageError(f"--hammer with a {given[0].specimen.kind}: expected a plate")
