@@ -1,5 +1,6 @@
 """What a foreign file holds once it is understood: sweeps, FRFs, hits, in SI units."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -72,6 +73,8 @@ class Found:
     """What the laser of its sweeps sees, where the file says."""
     said: list[str] = field(default_factory=list)
     """What was found, and what was passed over and why: one line each."""
+    lines: Sequence[int] = ()
+    """Of a text, that of each row of its table."""
     _responses: list[tuple[str, Columns]] = field(default_factory=list)
     """Of the sweeps that are ratios."""
 
@@ -93,6 +96,15 @@ class Found:
             self._add_frf(ratio, good, coherence)
         else:
             self._add_sweep(ratio.response, _columns(ratio, good))
+
+    def lines_of(self, rows: int) -> Sequence[int]:
+        """Of a table of so many rows, where it is all of the text's; else none."""
+        return self.lines if len(self.lines) == rows else ()
+
+    def place(self, row: int, rows: int) -> str:
+        """Of a row, from 0, of a table of so many: a line where it is known."""
+        lines = self.lines_of(rows)
+        return f"line {lines[row]}" if lines else f"row {row + 1} of {rows}"
 
     @property
     def spots(self) -> list[str]:

@@ -44,7 +44,8 @@ def import_file(path: Path, out: Path | None, naming: Naming | None = None) -> I
     found = read_foreign(path, naming)
     if found.sweeps:
         # Said by its own rows: nobody has seen those that would be written.
-        sweep_of_columns(path, one_table(found.sweeps))
+        table = one_table(found.sweeps)
+        sweep_of_columns(path, table, lines=found.lines_of(len(table["frequency_hz"])))
     target = out if out is not None else Path(f"{path.stem}.csv")
     if target.suffix.lower() != ".csv":
         raise BadInput(f"{target}: ending {target.suffix!r}, expected .csv")

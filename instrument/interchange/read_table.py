@@ -196,7 +196,7 @@ def _sweep(
 ) -> Columns:
     columns: Columns = {"frequency_hz": f}
     v = _as(source, reading, "velocity", f)
-    _check_rows(source, reading, f)
+    _check_rows(source, reading, f, found)
     _check_sizes(source, reading, drive)
     columns |= _phasor("velocity", "m_s", v) if np.iscomplexobj(v) else {"velocity_m_s": v}
     over = ", no base channel"
@@ -236,12 +236,12 @@ def _check_sizes(source: str, reading: Signal, drive: Signal | None) -> None:
             )
 
 
-def _check_rows(source: str, reading: Signal, f: Array) -> None:
+def _check_rows(source: str, reading: Signal, f: Array, found: Found) -> None:
     """Raise `BadInput` for a row of a sweep that is none."""
     for what, bad in (("no number", ~np.isfinite(reading.values)), ("a frequency not above 0", ~(f > 0))):
         if bad.any():
-            row = int(np.flatnonzero(bad)[0]) + 1
-            raise BadInput(f"{source}: {reading.name}: {what} in row {row} of {len(f)}, expected none such")
+            place = found.place(int(np.flatnonzero(bad)[0]), len(f))
+            raise BadInput(f"{source}: {reading.name}: {what} in {place}, expected none such")
 
 
 def _as(source: str, signal: Signal, wanted: Quantity, f: Array) -> NDArray[Any]:
