@@ -78,10 +78,13 @@ def _card_rows(path: Path) -> _Rows:
     try:
         card = _Card.model_validate(json.loads(read_text(path)))
     except json.JSONDecodeError as error:
-        raise BadInput(f"{path}: line {error.lineno}: not JSON: {error.msg}") from None
+        said = f"line {error.lineno}: not JSON ({error.msg})"
+        raise BadInput(f"{path}: {said}, expected a material card's JSON") from None
     except ValidationError as error:
         raise BadInput(f"{path}: expected a material card's JSON: {one_line(error)}") from None
     except RecursionError:
-        raise BadInput(f"{path}: not JSON that can be read: too deep") from None
+        raise BadInput(
+            f"{path}: not JSON that can be read (too deep), expected a material card's JSON"
+        ) from None
     f, G, eta = (np.array([getattr(row, name) for row in card.law]) for name in COLUMNS)
     return f, G, eta
