@@ -87,11 +87,11 @@ class Draft:
         try:
             document = self.model.model_validate(self.plain())
             if isinstance(document, AnyDocument):
-                described(with_rows(document, self.path.parent))
+                described(with_rows(document, self.path))
         except ValidationError as error:
             return _by_place(error)
         except (OutsideModel, BadInput) as error:
-            return _of_law(str(error))
+            return _of_law(str(error).removeprefix(f"{self.path}: "))
         except (RecursionError, OverflowError, ValueError) as error:
             return {(): " ".join(str(error).split())}
         return {}
