@@ -5,6 +5,10 @@ RigStopped      3   the rig stopped itself safely: what was seen, its limit, wha
 StoppedByUser 130   Ctrl-C during a run: what is kept, and where
 """
 
+import errno
+
+_FULL = (errno.ENOSPC, errno.EDQUOT)
+
 
 class BadInput(Exception):
     """The user gave something that cannot be used. The message is one line."""
@@ -16,3 +20,12 @@ class StoppedByUser(Exception):
 
 class RigStopped(Exception):
     """A run ended itself, the shaker silent. The message is one line."""
+
+
+def system_words(error: OSError) -> str:
+    """What the system says of a file that it did not take or give, without the number of its error."""
+    if error.errno not in _FULL:
+        return error.strerror or str(error)
+    said = error.strerror or ""
+    # The library under a session's file says more of itself than of the disk.
+    return said if said.startswith("disk full") else "disk full"

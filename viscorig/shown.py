@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 from instrument.facts.result import Result
 from instrument.stream.jsonable import to_jsonable
 
@@ -52,7 +52,7 @@ class Shown:
             text = json.dumps(to_jsonable(self.as_dict()), indent=1, allow_nan=False)
             path.write_text(text + "\n", encoding="utf-8")
         except OSError as error:
-            raise BadInput(f"{path}: {error.strerror or error}") from None
+            raise BadInput(f"{path}: {system_words(error)}") from None
         return path
 
     def __repr__(self) -> str:

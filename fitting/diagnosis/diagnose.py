@@ -223,6 +223,7 @@ def _diagnosis(
         warnings=warnings_of(search, judgement),
         by_hand=judgement.by_hand,
         p_value=decided.resampled.p_value,
+        resamples=decided.resampled.repeats,
         nested_held_out_rms_percent=decided.resampled.nested_rms_percent,
         rivals=_rivals(problem, reduced, search, judgement, scored_fits),
     )

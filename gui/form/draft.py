@@ -16,7 +16,7 @@ from tomlkit.items import AoT, Item
 
 from fitting.errors import OutsideModel
 from gui.form.fields import Field, FormSection, Kind, Place, form_of, shown
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.law_table import with_rows
 from instrument.files.rig_file import RigDocument
@@ -87,11 +87,11 @@ class Draft:
         try:
             document = self.model.model_validate(self.plain())
             if isinstance(document, AnyDocument):
-                described(with_rows(document, self.path.parent))
+                described(with_rows(document, self.path))
         except ValidationError as error:
             return _by_place(error)
         except (OutsideModel, BadInput) as error:
-            return _of_law(str(error))
+            return _of_law(str(error).removeprefix(f"{self.path}: "))
         except (RecursionError, OverflowError, ValueError) as error:
             return {(): " ".join(str(error).split())}
         return {}
@@ -327,4 +327,4 @@ def _replace(path: Path, text: str) -> None:
             os.chmod(name, 0o644)
         os.replace(name, path)
     except OSError as error:
-        raise BadInput(f"{path}: {error.strerror or error}") from None
+        raise BadInput(f"{path}: {system_words(error)}") from None

@@ -16,6 +16,7 @@ from PySide6.QtSvg import QSvgGenerator
 from PySide6.QtWidgets import QMenu
 
 from gui.asking import ask_save, tell
+from instrument.errors import system_words
 
 _PNG_SCALE = 2.0
 """Pixels a point: sharp on paper and on a 4K screen."""
@@ -108,7 +109,7 @@ class _Exporter(QObject):
         try:
             _SAVERS[kind](self._plot, path)
         except OSError as error:
-            tell(self._plot, "Export", f"{path}: {error.strerror or error}")
+            tell(self._plot, "Export", f"{path}: {system_words(error)}")
 
 
 def _ending(kind: str) -> str:

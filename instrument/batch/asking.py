@@ -49,6 +49,8 @@ def tasks_of(
         found = [_task(path, specimen, hammer) for path in files]
         lonely = next((t for t in found if t.specimen is None and not is_session(Path(t.data))), None)
         if lonely is not None:
+            if not Path(lonely.data).exists():
+                raise BadInput(f"{lonely.data}: no such file")
             heads = _heads_of_a_list(Path(lonely.data))
             if heads:
                 raise BadInput(

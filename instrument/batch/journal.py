@@ -13,7 +13,7 @@ from types import TracebackType
 from typing import Any
 
 from instrument.batch.work import Outcome
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 
 NAME = "batch.jsonl"
 
@@ -27,7 +27,7 @@ class OutcomeJournal:
             folder.mkdir(parents=True, exist_ok=True)
             self._file = open(self.path, "a+b")  # noqa: SIM115
         except OSError as error:
-            raise BadInput(f"{error.filename or folder}: {error.strerror or error}") from None
+            raise BadInput(f"{error.filename or folder}: {system_words(error)}") from None
         self._begins: dict[str, int] = {}
         try:
             self._look_through()
@@ -65,7 +65,7 @@ class OutcomeJournal:
             os.fsync(self._file.fileno())
         except OSError as error:
             # Rows before it are kept: the same command goes on with the next one.
-            raise BadInput(f"{self.path}: {error.strerror or error}") from None
+            raise BadInput(f"{self.path}: {system_words(error)}") from None
         self._begins[key] = begins
 
     def _look_through(self) -> None:

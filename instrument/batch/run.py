@@ -11,7 +11,7 @@ from instrument.batch.journal import OutcomeJournal
 from instrument.batch.keys import Keys
 from instrument.batch.task import BatchTask
 from instrument.batch.work import Outcome, failure, lost, outcome_of
-from instrument.errors import BadInput, StoppedByUser
+from instrument.errors import BadInput, StoppedByUser, system_words
 from instrument.files.text import refuse_endless
 from instrument.models.processes import in_processes
 from instrument.progress import Progress, quiet
@@ -135,5 +135,5 @@ def _unread(task: BatchTask) -> Outcome:
             except BadInput as error:
                 return failure(str(error).replace(path, Path(path).name), again=True)
             except OSError as error:
-                return failure(f"{Path(path).name or path}: {error.strerror or error}", again=True)
+                return failure(f"{Path(path).name or path}: {system_words(error)}", again=True)
     return failure("its files changed while the batch went on", again=True)

@@ -22,6 +22,7 @@ from instrument.check.forecast import (
     planned_segments,
     with_next_coarser,
 )
+from instrument.check.odd_segments import odd_segment_remarks
 from instrument.check.sensors import sensor_remarks
 from instrument.check.unsettled import unsettled_remark
 from instrument.errors import BadInput
@@ -142,7 +143,9 @@ def _sweep(
     segments = tuple(_segment(forecast, s, settings) for s in planned)
     warnings = [w for s in segments for w in _warnings(s, settings)]
     if table.plan == "fixed":
-        warnings += [w for s in planned if s.sweep == 1 for w in coarse_remarks(forecast, s)]
+        once = [s for s in planned if s.sweep == 1]
+        warnings += [*odd_segment_remarks(table.segments, once)]
+        warnings += [w for s in once for w in coarse_remarks(forecast, s)]
     if level > settings.limits.base_m_s2:
         warnings.append(f"level {in_both(level)} is over the base limit {in_both(settings.limits.base_m_s2)}")
     unverified = [r.name for r in ranges if r.name in names and not r.verified]

@@ -16,6 +16,7 @@ from packaging.requirements import Requirement
 from serial.tools.list_ports import comports
 
 from fitting.plugins import told
+from instrument.errors import system_words
 from instrument.facts.doctor import Finding, State
 from instrument.models.cache import cache_folder
 
@@ -97,7 +98,7 @@ def _cache() -> Finding:
             pass
     except OSError as error:
         cure = "VISCORIG_CACHE=a folder that can be written to; without one models are computed each time"
-        return _said("cache", "remark", f"{folder}: {error.strerror or error}", cure)
+        return _said("cache", "remark", f"{folder}: {system_words(error)}", cure)
     size = sum(path.stat().st_size for path in folder.glob("*.npz"))
     return _said("cache", "good", f"{folder}, {size / 1e6:.0f} MB")
 

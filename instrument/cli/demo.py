@@ -13,7 +13,7 @@ from instrument.cli.output import Output
 from instrument.cli.print_run import print_finished, run_result
 from instrument.cli.stopping import safe_stop
 from instrument.cli.watching import Watcher
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 from instrument.facts.run import RunResult
 from instrument.progress import bar
 from instrument.report.page import report_of
@@ -55,7 +55,7 @@ def demo(folder: Path, effect: str, seed: int, paper: bool, json_path: str | Non
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise BadInput(f"{folder}: {error.strerror or error}") from None
+        raise BadInput(f"{folder}: {system_words(error)}") from None
     out = Output(json_path)
     result = _run_rig(out, folder, chosen_effect(effect, seed), seed)
     out.say(f"to change it: edit {folder}/experiment.toml, then  viscorig run {folder}/experiment.toml")

@@ -17,7 +17,7 @@ from fitting.plugins import GROUPS, NoPlugin, Registry, others, package_of
 from instrument.cli.printable import printable
 from instrument.cli.stopping import ended_as_by_a_person
 from instrument.cli.summaries import SUMMARIES
-from instrument.errors import BadInput, RigStopped, StoppedByUser
+from instrument.errors import BadInput, RigStopped, StoppedByUser, system_words
 from instrument.models.background import VARIABLE as BACKGROUND
 from instrument.models.background import step_back
 
@@ -188,7 +188,7 @@ def run(arguments: list[str] | None = None) -> int:
         sys.stderr.close()
         return 0
     except OSError as error:
-        return _refuse(f"{error.filename or 'output'}: {error.strerror or error}")
+        return _refuse(f"{error.filename or 'output'}: {system_words(error)}")
 
 
 def _refuse(message: str) -> int:

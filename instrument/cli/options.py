@@ -123,6 +123,8 @@ class Frequencies(click.ParamType):  # type: ignore[type-arg]
             return value
         try:
             f = _range(value) if ":" in value else np.array([float(part) for part in value.split(",")])
+        except _NoRange as error:
+            self.fail(f"{value!r}: {error}", param, ctx)
         except ValueError:
             self.fail(f"{value!r}, expected A:B:STEP or F1,F2,... in Hz", param, ctx)
         if is_decimal_comma(value):
@@ -132,6 +134,10 @@ class Frequencies(click.ParamType):  # type: ignore[type-arg]
         if np.any(f < LOWEST_HZ):
             self.fail(f"{value!r}, expected frequencies of at least {LOWEST_HZ:g} Hz", param, ctx)
         return f
+
+
+class _NoRange(ValueError):
+    """Three numbers that span none, and why."""
 
 
 DECIMAL_COMMA = "{!r}: a decimal comma? Expected a decimal point, or the lower frequency first"
@@ -145,11 +151,16 @@ def is_decimal_comma(text: str) -> bool:
 
 def _range(text: str) -> NDArray[Any]:
     low, high, step = (float(part) for part in text.split(":"))
-    if not (np.isfinite([low, high, step]).all() and step > 0 and high >= low):
+    if not np.isfinite([low, high, step]).all():
         raise ValueError
-    count = int(np.floor((high - low) / step * (1 + 1e-12) + 1e-9)) + 1
-    if count > _MOST_FREQUENCIES:
-        raise ValueError
+    if high < low:
+        raise _NoRange(f"A = {low:g} is above B = {high:g}, expected the lower one first")
+    if step <= 0:
+        raise _NoRange(f"STEP = {step:g}, expected more than 0 Hz")
+    steps = (high - low) / step * (1 + 1e-12) + 1e-9
+    if steps >= _MOST_FREQUENCIES:
+        raise _NoRange(f"{steps:.3g} frequencies, expected at most {_MOST_FREQUENCIES}: a larger STEP")
+    count = int(np.floor(steps)) + 1
     f = low + step * np.arange(count)
     # B belongs to the range even where no whole number of steps reaches it.
     return f if np.isclose(f[-1], high, rtol=1e-9) else np.append(f, high)

@@ -68,8 +68,10 @@ def predict(
     read = read_structure(specimen)
     question_specimen(specimen, insist=insist)
     if not isinstance(read, Specimen):
-        if real_modes or hammer is not None:
-            raise click.UsageError(f"--real-modes, --hammer with a {read.kind}: expected a plate")
+        of_plates = {"--real-modes": real_modes, "--hammer": hammer is not None}
+        asked = ", ".join(option for option, given in of_plates.items() if given)
+        if asked:
+            raise click.UsageError(f"{asked} with a {read.kind}: expected a plate")
         if fit is not None:
             known = read_fit(fit)
             found = fitted_response(read, known, frequencies)

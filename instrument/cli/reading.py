@@ -15,7 +15,9 @@ from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.files.modal_table import is_modal_table, read_modal_table, read_modal_tables
 from instrument.files.plausible import question_specimen
+from instrument.files.repeated import refuse_same_modes, refuse_same_points
 from instrument.files.structure_file import read_structure
+from instrument.interchange.cut_sweep import looks_cut
 from instrument.interchange.given import Given, read_given
 from instrument.interchange.questions import question_data, question_temperatures
 from instrument.models.files import File, spots_of
@@ -92,7 +94,9 @@ def read_each(
         )
         for k, (one, specimen) in enumerate(zip(data, paired, strict=True))
     ]
-    for remark in dict.fromkeys(one.remark for one in given if one.remark):
+    refuse_same_points(data, [one.sweep for one in given])
+    cut = "" if at_temperatures else looks_cut(data, [one.sweep for one in given], paired)
+    for remark in dict.fromkeys(said for said in (*(one.remark for one in given), cut) if said):
         out.say(f"{remark}\n")
     if hammer is not None and not isinstance(given[0].specimen, Specimen):
         raise click.UsageError(f"--hammer with a {given[0].specimen.kind}: expected a plate")
@@ -131,7 +135,9 @@ def read_tables(
     read = [read_structure(path) for path in paths]
     for path in dict.fromkeys(paths):
         question_specimen(path, insist=insist)
-    return [read_modal_table(path) for path in data], read
+    tables = [read_modal_table(path) for path in data]
+    refuse_same_modes(data, tables)
+    return tables, read
 
 
 def read_tables_at(
@@ -146,12 +152,15 @@ def read_tables_at(
     read = [read_structure(path) for path in own]
     for path in own:
         question_specimen(path, insist=insist)
-    found = []
+    found, of, tables = [], list[Path](), list[ModalTable]()
     for path, specimen in zip(data, paths, strict=True):
         for table in read_modal_tables(path):
             assert table.temperature_c is not None
             T = float(table.temperature_c.mean())
             found.append(AtTemperature(table, T, path.name, 1 + own.index(specimen)))
+            of.append(path)
+            tables.append(table)
+    refuse_same_modes(of, tables)
     return found, read
 
 

@@ -6,7 +6,7 @@ import click
 
 from instrument.cli.options import json_option
 from instrument.cli.output import Output
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 from instrument.facts.written import RecoverResult
 from instrument.session.journal import CONFIGURATION, SessionJournal
 from instrument.session.storage import SessionFile, part_events, write_session
@@ -21,12 +21,13 @@ def recover(folder: Path, json_path: str | None) -> None:
 
     The folder above will do where there is one such folder in it.
 
-    The folder stays, so that the run can be carried on with --resume.
+    The folder stays, so that the run can be carried on with --resume. A run that still goes on is left alone.
     """
     out = Output(json_path)
     folder = _of_run(folder)
     journal = SessionJournal(folder)
     configuration = journal.configuration()
+    journal.refuse_while_it_goes_on()
     entries, lost = journal.entries(), journal.damage()
     if not entries:
         why = f"nothing is whole, lost is {lost.words}" if lost is not None else "nothing was completed"
@@ -40,7 +41,7 @@ def recover(folder: Path, json_path: str | None) -> None:
     try:
         write_session(path, configuration, [folder / e.file for e in entries])
     except OSError as error:
-        raise BadInput(f"{path}: {error.strerror or error}") from None
+        raise BadInput(f"{path}: {system_words(error)}") from None
     steps = [step for e in entries for step in e.steps]
     hits = sum(isinstance(e, HitJudged) for entry in entries for e in part_events(folder / entry.file))
     out.say(f"{hits} hits and {len(steps)} completed steps in {len(entries)} parts, all whole: {path}")
@@ -49,9 +50,10 @@ def recover(folder: Path, json_path: str | None) -> None:
         out.say(
             "--resume removes these parts and measures their steps again: copy the folder first to keep them"
         )
-    # A whole run sweeps only after its hammer test: without one it was begun as a sweep alone.
+    # Of an older version: a whole run sweeps only after its hammer test, without one it was a sweep alone.
     alone = configuration.experiment.hammer is not None and bool(steps) and hits == 0
-    out.say(f"to go on: viscorig {'sweep' if alone else 'run'} EXPERIMENT.toml --resume {folder}")
+    command = configuration.command or ("sweep" if alone else "run")
+    out.say(f"to go on: viscorig {command} EXPERIMENT.toml --resume {folder}")
     out.result(
         RecoverResult(
             session=str(path),

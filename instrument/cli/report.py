@@ -6,7 +6,7 @@ import click
 
 from instrument.cli.options import acceleration_option, file_argument, json_option
 from instrument.cli.output import Output
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 from instrument.facts.written import ReportResult
 from instrument.files.at_once import write_at_once
 from instrument.progress import bar
@@ -56,7 +56,7 @@ def report(session: Path, out: Path | None, pdf: Path | None, json_path: str | N
             else:
                 write_at_once(path, made.html())
         except OSError as error:
-            raise BadInput(f"{path}: {error.strerror or error}") from None
+            raise BadInput(f"{path}: {system_words(error)}") from None
         for written in sheets if path is page and sheets else (path,):
             output.say(f"wrote {written}")
     found = ReportResult(report=str(page), pdf=str(pdf) if pdf is not None else None)

@@ -12,7 +12,7 @@ from instrument.engine.host import Host, LogToClient
 from instrument.engine.mailbox import Mailbox
 from instrument.engine.messages import Ended, Logged, Order, Why, ended
 from instrument.engine.wire import encode, read
-from instrument.errors import BadInput, RigStopped, StoppedByUser
+from instrument.errors import BadInput, RigStopped, StoppedByUser, system_words
 from instrument.run.experiment import run_experiment
 from instrument.run.live_diagnosis import Diagnoser, diagnose_points
 from instrument.run.live_fit import Fitter, fit_points
@@ -75,7 +75,7 @@ def _run(order: Order, host: Host, fit: Fitter, diagnose: Diagnoser) -> Ended:
     except (RigStopped, DriverError) as error:
         return _ended("stopped safely", error, host)
     except OSError as error:
-        return _ended("bad input", f"{error.filename or 'output'}: {error.strerror or error}", host)
+        return _ended("bad input", f"{error.filename or 'output'}: {system_words(error)}", host)
     except Exception as error:  # a fault of this program: the client must hear of an end all the same
         logging.getLogger(__name__).debug("internal error", exc_info=True)
         return _ended("stopped safely", f"internal error, {type(error).__name__}: {error}", host)

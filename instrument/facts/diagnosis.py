@@ -154,7 +154,10 @@ class DiagnosisResult(Result):
     """The same as `before` where nothing is accepted."""
     adjusted: tuple[AdjustedNumber, ...] = ()
     p_value: MaybeNumber = None
-    """Chance that data without any effect gain as much; None where not asked for."""
+    """Chance that data without any effect gain as much, the data counted among them; None where not asked
+    for."""
+    resamples: int = 0
+    """Sweeps without any effect that it was found from; 0 in files of older versions too."""
     nested_held_out_rms_percent: MaybeNumber = None
     """Held out with the selection repeated."""
     next_measurement: str = ""

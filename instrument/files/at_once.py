@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 
 _LONGEST = 200
 """Letters of a name that its draft keeps: a file system takes 255 bytes."""
@@ -31,7 +31,7 @@ def at_once(path: Path) -> Iterator[Path]:
             with suppress(OSError):
                 draft.unlink(missing_ok=True)
     except OSError as error:
-        raise BadInput(f"{path}: {error.strerror or error}") from None
+        raise BadInput(f"{path}: {system_words(error)}") from None
 
 
 def write_at_once(path: Path, text: str) -> None:

@@ -19,6 +19,7 @@ _ABOVE_ZERO = ("frequency_hz", "storage_modulus_pa", "storage_modulus_std_pa", "
 _NUMBERS = (*_ABOVE_ZERO, "temperature_c", "loss_factor", "loss_modulus_pa")
 _SAID = re.compile(r"^\s*#\s*(kind|poisson)\s*:\s*(\S+)\s*$", re.MULTILINE)
 
+_PA = {"kpa": 1e3, "mpa": 1e6, "gpa": 1e9}
 _SOFTEST_PA, _LOSSIEST = 10.0, 10.0
 """Softer than any gel that keeps its shape; more than any polymer loses."""
 
@@ -90,6 +91,12 @@ def _check(path: Path, header: list[str]) -> None:
     for name in ("frequency_hz", "storage_modulus_pa"):
         if name not in header:
             near = nearest(name, header)
+            stem, _, unit = near.rpartition("_") if near else ("", "", "")
+            if name == f"{stem}_pa" and unit.lower() in _PA:
+                raise BadInput(
+                    f"{path}: header: column {name} missing, found {near}: expected Pa, its values times "
+                    f"{_PA[unit.lower()]:g} under that name"
+                )
             found = f"is it {near}?" if near else f"found {', '.join(header)[:120]}"
             raise BadInput(f"{path}: header: column {name} missing, {found}")
     if "loss_factor" not in header and "loss_modulus_pa" not in header:

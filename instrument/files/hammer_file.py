@@ -55,7 +55,8 @@ def read_hammer(path: Path) -> HammerModes:
             raise BadInput(f"{path}: no damping_ratio, expected the JSON of 'viscorig damping'")
         return _modes(document)
     except json.JSONDecodeError as error:
-        raise BadInput(f"{path}: line {error.lineno}: not JSON: {error.msg}") from None
+        said = f"line {error.lineno}: not JSON ({error.msg})"
+        raise BadInput(f"{path}: {said}, expected the JSON of 'viscorig damping', or a session") from None
     except (ValidationError, RecursionError) as error:
         first = error.errors()[0] if isinstance(error, ValidationError) else None
         place = ".".join(str(p) for p in first["loc"]) or "the whole" if first else "nesting"

@@ -38,22 +38,22 @@ class _Card(BaseModel):
     law: list[_Row]
 
 
-def with_rows(document: D, folder: Path) -> D:
-    """The document of a specimen in `folder`, the rows of its law's table in it. Raises `BadInput`."""
+def with_rows(document: D, specimen: Path) -> D:
+    """The document of a specimen's file, the rows of its law's table in it. Raises `BadInput`."""
     core = getattr(document, "core", None)
     if core is None or core.law.get("kind") != Tabulated.kind or any(k in core.law for k in COLUMNS):
         return document
-    found = _read(core.law, folder, getattr(core, "poisson", _INCOMPRESSIBLE))
+    found = _read(core.law, specimen, getattr(core, "poisson", _INCOMPRESSIBLE))
     return document.model_copy(update={"core": core.model_copy(update={"law": found})})
 
 
-def _read(law: Mapping[str, Any], folder: Path, poisson: float) -> dict[str, Any]:
+def _read(law: Mapping[str, Any], specimen: Path, poisson: float) -> dict[str, Any]:
     said = law.get("path")
-    if not isinstance(said, str) or not said:
-        raise BadInput(
-            f"core.law.path: {said!r}, expected a CSV with {', '.join(COLUMNS)}, or a material card"
-        )
-    path = folder / said
+    path = specimen.parent / said if isinstance(said, str) and said else None
+    if path is None or not path.exists():
+        found = "missing" if said is None else f"{said!r}" + ("" if path is None else ": no such file")
+        expected = f"expected a CSV with {', '.join(COLUMNS)}, or a material card"
+        raise BadInput(f"{specimen}: core.law.path: {found}, {expected}")
     rows = _card_rows(path) if path.suffix.lower() == ".json" else _csv_rows(path, poisson)
     order = np.argsort(rows[0], kind="stable")
     for a, b in pairwise(order):
@@ -78,10 +78,13 @@ def _card_rows(path: Path) -> _Rows:
     try:
         card = _Card.model_validate(json.loads(read_text(path)))
     except json.JSONDecodeError as error:
-        raise BadInput(f"{path}: line {error.lineno}: not JSON: {error.msg}") from None
+        said = f"line {error.lineno}: not JSON ({error.msg})"
+        raise BadInput(f"{path}: {said}, expected a material card's JSON") from None
     except ValidationError as error:
         raise BadInput(f"{path}: expected a material card's JSON: {one_line(error)}") from None
     except RecursionError:
-        raise BadInput(f"{path}: not JSON that can be read: too deep") from None
+        raise BadInput(
+            f"{path}: not JSON that can be read (too deep), expected a material card's JSON"
+        ) from None
     f, G, eta = (np.array([getattr(row, name) for row in card.law]) for name in COLUMNS)
     return f, G, eta

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fitting.specimen import Kind
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 from instrument.files.text import read_text
 
 TEMPLATES = {
@@ -45,5 +45,5 @@ def write_new(kind: str, path: Path | None) -> Path:
     except FileExistsError:
         raise BadInput(f"{where}: there is a file already, expected a new name") from None
     except OSError as error:
-        raise BadInput(f"{where}: {error.strerror or error}") from None
+        raise BadInput(f"{where}: {system_words(error)}") from None
     return where

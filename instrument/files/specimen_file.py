@@ -245,7 +245,7 @@ def read_specimen(path: Path) -> Specimen:
 
 def read_specimen_document(path: Path) -> SpecimenDocument:
     """A plate's document, the rows of a law's table in it. Raises `BadInput`."""
-    return with_rows(read_document(path, SpecimenDocument), path.parent)
+    return with_rows(read_document(path, SpecimenDocument), path)
 
 
 def specimen_of(d: SpecimenDocument) -> Specimen:

@@ -159,7 +159,7 @@ def read_structure_document(path: Path) -> AnyDocument:
     kinds = [name for name in ("plate", *_DOCUMENTS) if name in tables]
     if len(kinds) > 1:
         raise BadInput(f"{path}: [{kinds[0]}] and [{kinds[1]}], expected one of them")
-    return with_rows(read_document(path, document_type(tables)), path.parent)
+    return with_rows(read_document(path, document_type(tables)), path)
 
 
 def described(document: AnyDocument) -> AnySpecimen:

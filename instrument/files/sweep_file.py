@@ -1,7 +1,7 @@
 """A sweep as CSV: columns with their units in the name, `#` comments, any order."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
@@ -13,6 +13,7 @@ from fitting.specimen import Drive, Reading
 from fitting.sweep import Sweep, segments_by_gap
 from instrument.errors import BadInput
 from instrument.files.column import Column
+from instrument.files.near_columns import words_of_near
 from instrument.files.nearest import nearest
 from instrument.files.point_columns import understood
 from instrument.files.table import check_frequency, check_whole, number, read_rows
@@ -55,6 +56,11 @@ class SweepFile:
     unknown: dict[str, list[str]]
     reads: Reading | None = None
     """As its comments say; None where they do not."""
+
+    @property
+    def remark(self) -> str:
+        """For people, of columns whose names are nearly those of ours; empty where there are none."""
+        return words_of_near(self.path, [*self.columns, *self.unknown])
 
     @property
     def temperature_c(self) -> float | None:
@@ -148,17 +154,20 @@ def reading_said(lines: Iterable[str]) -> Reading | None:
     return cast(Reading, found.pop()) if len(found) == 1 else None
 
 
-def sweep_of_columns(path: Path, columns: dict[str, Array], reads: Reading | None = None) -> SweepFile:
+def sweep_of_columns(
+    path: Path, columns: dict[str, Array], reads: Reading | None = None, lines: Sequence[int] = ()
+) -> SweepFile:
     """The same of columns from another program's file, NaN for what is not known of a row.
 
-    Shape (rows,) each; `reads`: as that file says. Raises `BadInput` naming file, row and column.
+    Shape (rows,) each; `reads`: as that file says; `lines`: of its rows, where they are known. Raises
+    `BadInput` naming file, row or line, and column.
     """
     known = {column.name: column for column in understood()}
     own = {name: values for name, values in columns.items() if name in known}
+    rows = [f"line {n}" for n in lines] or [f"row {n + 1}" for n in range(len(columns["frequency_hz"]))]
     for name, values in own.items():
-        for row, value in enumerate(values.tolist(), start=1):
-            _check_number(f"{path}: row {row}", known[name], value, f"{value:g}")
-    rows = [f"row {n}" for n in range(1, len(columns["frequency_hz"]) + 1)]
+        for row, value in zip(rows, values.tolist(), strict=True):
+            _check_number(f"{path}: {row}", known[name], value, f"{value:g}")
     _check_phasors(path, rows, own)
     _check_twice(path, rows, own)
     others = {name: values.tolist() for name, values in columns.items() if name not in known}

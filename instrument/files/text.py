@@ -3,7 +3,7 @@
 import codecs
 from pathlib import Path
 
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 
 LARGEST_BYTES = 200_000_000
 
@@ -22,7 +22,7 @@ def read_content(path: Path) -> bytes:
             raise BadInput(f"{path}: {path.stat().st_size} bytes, expected at most {LARGEST_BYTES}")
         return path.read_bytes()
     except OSError as error:
-        raise BadInput(f"{path}: {error.strerror or error}") from None
+        raise BadInput(f"{path}: {system_words(error)}") from None
 
 
 def read_text(path: Path, encoding: str = "utf-8-sig") -> str:

@@ -3,6 +3,7 @@
 import re
 import tomllib
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any, TypeVar, get_args
 
@@ -81,7 +82,10 @@ def document_faults(path: Path, model: type[BaseModel]) -> list[str]:
 
 
 def faults(error: ValidationError, prefix: str = "", model: type[BaseModel] | None = None) -> list[str]:
-    """Place, what was found, what is expected: one line a fault. `model` has the keys that are known."""
+    """Place, what was found, what is expected: one line a fault.
+
+    `model`, of a file for people, has the keys that are known; what is repeated there is counted from 1.
+    """
     return [_said(dict(fault), prefix, model) for fault in error.errors()]
 
 
@@ -131,8 +135,19 @@ def _expected(fault: dict[str, Any]) -> str:
     return f"expected {number}{wanted}"
 
 
+def _counted(place: tuple[int | str, ...]) -> str:
+    """`sweep.segments, number 1, points`, as other faults of a file have it."""
+    said = ""
+    for before, part in pairwise(("", *place)):
+        if isinstance(part, int):
+            said += f", number {part + 1}"
+        else:
+            said += f"{', ' if isinstance(before, int) else '.' if said else ''}{part}"
+    return said
+
+
 def _said(fault: dict[str, Any], prefix: str, model: type[BaseModel] | None = None) -> str:
-    place = prefix + ".".join(str(part) for part in fault["loc"])
+    place = prefix + (_counted(fault["loc"]) if model is not None else ".".join(map(str, fault["loc"])))
     message = _expected(fault)
     found = "" if isinstance(fault["input"], dict | list) else f"{fault['input']!r}"[:_LONGEST] + ", "
     if fault["type"] == "missing":
@@ -141,6 +156,8 @@ def _said(fault: dict[str, Any], prefix: str, model: type[BaseModel] | None = No
         near = nearest(str(fault["loc"][-1]), _keys_at(model, fault["loc"]))
         return f"{place}: unknown key" + (f", the nearest is {near}" if near else "")
     if fault["type"] in _NO_TABLE:
+        if any(isinstance(part, int) for part in fault["loc"][-1:]):
+            return f"{place}: {found}expected a table"
         several = isinstance(fault["input"], list)
         return f"{place}: {'[[' + place + ']], ' if several else found}expected one table [{place}]"
     if place == prefix:

@@ -11,7 +11,7 @@ import pyuff
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 from instrument.files.rates import rate_of_step
 from instrument.files.table import rate_of_times
 from instrument.files.units import KNOWN, Quantity, Unit, unit_of
@@ -275,7 +275,7 @@ def _check_closed(path: Path) -> None:
     try:
         marks = len(_MARK.findall(path.read_bytes()))
     except OSError as error:
-        raise BadInput(f"{path}: {error.strerror or error}") from None
+        raise BadInput(f"{path}: {system_words(error)}") from None
     if marks % 2:
         raise BadInput(f"{path}: cut off in data set {marks // 2 + 1}, expected -1 at its end")
 

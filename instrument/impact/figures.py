@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fitting.modal.frf import Motion
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 from instrument.impact.damping import Damping, marks
 from instrument.impact.mode import Mode
 
@@ -33,7 +33,7 @@ def save_figures(found: Damping, folder: Path) -> list[Path]:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise BadInput(f"{folder}: {error.strerror or error}") from None
+        raise BadInput(f"{folder}: {system_words(error)}") from None
     drawn = {"frf.png": frf_figure(found)}
     if found.hits:
         drawn["hits.png"] = hits_figure(found)

@@ -64,7 +64,8 @@ def file_of_foreign(path: Path) -> SweepFile:
         raise BadInput(
             f"{path}: {'; '.join(found.said)}: no response over a base's acceleration, expected one"
         )
-    return sweep_of_columns(path, one_table(found.sweeps), found.reads)
+    table = one_table(found.sweeps)
+    return sweep_of_columns(path, table, found.reads, found.lines_of(len(table["frequency_hz"])))
 
 
 def _sweep(path: Path, frf: Frf, amplitude: float) -> Sweep:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, get_args
 
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 from instrument.interchange.csv_export import export_csv
 from instrument.interchange.mat_export import export_mat
 from instrument.interchange.uff_export import export_uff
@@ -30,7 +30,7 @@ def export_session(contents: Contents, to: Format, folder: Path) -> Exported:
         folder.mkdir(parents=True, exist_ok=True)
         return _written(contents, to, folder)
     except OSError as error:
-        raise BadInput(f"{folder}: {error.strerror or error}") from None
+        raise BadInput(f"{folder}: {system_words(error)}") from None
 
 
 def _written(contents: Contents, to: Format, folder: Path) -> Exported:

@@ -1,5 +1,6 @@
 """What a foreign file holds once it is understood: sweeps, FRFs, hits, in SI units."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -46,6 +47,8 @@ class Ratio:
     """Sweep and segment, where the file says."""
     response: str = ""
     """Between which points: ratios of one name are passes, of several ones they are spots."""
+    beside: Columns = field(default_factory=dict)
+    """Columns of ours on the same lines, of a ratio over a base's motion."""
 
 
 @dataclass(frozen=True)
@@ -70,6 +73,8 @@ class Found:
     """What the laser of its sweeps sees, where the file says."""
     said: list[str] = field(default_factory=list)
     """What was found, and what was passed over and why: one line each."""
+    lines: Sequence[int] = ()
+    """Of a text, that of each row of its table."""
     _responses: list[tuple[str, Columns]] = field(default_factory=list)
     """Of the sweeps that are ratios."""
 
@@ -91,6 +96,15 @@ class Found:
             self._add_frf(ratio, good, coherence)
         else:
             self._add_sweep(ratio.response, _columns(ratio, good))
+
+    def lines_of(self, rows: int) -> Sequence[int]:
+        """Of a table of so many rows, where it is all of the text's; else none."""
+        return self.lines if len(self.lines) == rows else ()
+
+    def place(self, row: int, rows: int) -> str:
+        """Of a row, from 0, of a table of so many: a line where it is known."""
+        lines = self.lines_of(rows)
+        return f"line {lines[row]}" if lines else f"row {row + 1} of {rows}"
 
     @property
     def spots(self) -> list[str]:
@@ -144,7 +158,7 @@ def _columns(ratio: Ratio, good: NDArray[np.bool_]) -> Columns:
         "velocity_im_m_s": v.imag,
         "base_accel_re_m_s2": np.full(len(f), base),
         "base_accel_im_m_s2": np.zeros(len(f)),
-    }
+    } | {own: values[good] for own, values in ratio.beside.items()}
     if ratio.level_m_s2 is not None:
         columns["level_g"] = np.full(len(f), ratio.level_m_s2 / REFERENCE_M_S2)
     if ratio.place is not None:

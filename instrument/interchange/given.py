@@ -130,7 +130,15 @@ def _of_sweep(data: Path, specimen: Path | None) -> Given:
             "its specimen with [[mass]] (or the session itself)"
         )
     sweep, warm, ends = file.sweep(level, drive), file.temperature_c, file.temperature_range_c
-    return Given(read, sweep, None, reads=file.reads or "", temperature_c=warm, temperature_range_c=ends)
+    return Given(
+        read,
+        sweep,
+        None,
+        reads=file.reads or "",
+        remark=file.remark,
+        temperature_c=warm,
+        temperature_range_c=ends,
+    )
 
 
 def at_its_spot(data: Path | str, read: AnySpecimen, sweep: Sweep) -> tuple[AnySpecimen, Sweep]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from fitting.sweep import segments_by_gap
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 from instrument.files.at_once import write_at_once
 from instrument.files.impact_csv import write_frf_csv, write_impact_csv
 from instrument.files.modal_table import read_modal_rows
@@ -44,7 +44,8 @@ def import_file(path: Path, out: Path | None, naming: Naming | None = None) -> I
     found = read_foreign(path, naming)
     if found.sweeps:
         # Said by its own rows: nobody has seen those that would be written.
-        sweep_of_columns(path, one_table(found.sweeps))
+        table = one_table(found.sweeps)
+        sweep_of_columns(path, table, lines=found.lines_of(len(table["frequency_hz"])))
     target = out if out is not None else Path(f"{path.stem}.csv")
     if target.suffix.lower() != ".csv":
         raise BadInput(f"{target}: ending {target.suffix!r}, expected .csv")
@@ -69,7 +70,7 @@ def import_file(path: Path, out: Path | None, naming: Naming | None = None) -> I
         for key, file in unproven.items():
             file.replace(plan[key])
     except OSError as error:
-        raise BadInput(f"{target}: {error.strerror or error}") from None
+        raise BadInput(f"{target}: {system_words(error)}") from None
     finally:
         for file in unproven.values():
             file.unlink(missing_ok=True)

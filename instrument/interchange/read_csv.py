@@ -44,13 +44,28 @@ def read_csv(path: Path, naming: Naming | None = None) -> Found:
     words = [name for name in stands.names if name not in ("", "-") and name not in table]
     if words:
         found.said.append(f"passed over: {path.name}: {', '.join(words)[:200]}: no numbers")
+    found.lines = [] if "hit" in table else [line for line, _ in stands.rows]
     for name, part in _hits_apart(path, table):
-        if not read_table(name, part, found):
+        try:
+            is_known = read_table(name, part, found)
+        except FloatingPointError:
+            _refuse_infinite(path, table, found)
+            raise
+        if not is_known:
             raise NotSaid(_nothing(path, stands.names))
     if found.modes:
         read = read_said(path, text)
         found.modes = [replace(one, read=one.read or read) for one in found.modes]
     return found
+
+
+def _refuse_infinite(path: Path, table: Named, found: Found) -> None:
+    """Raise `BadInput` for the first cell that is no finite number, of columns with units before others."""
+    for name, values in sorted(table.items(), key=lambda column: unit_in(column[0]) is None):
+        bad = np.flatnonzero(np.isinf(values))
+        if bad.size:
+            place = found.place(int(bad[0]), len(values))
+            raise BadInput(f"{path}: {place}: {name} = {values[bad[0]]:g}, expected a finite number")
 
 
 def _nothing(path: Path, names: Sequence[str]) -> str:

@@ -14,6 +14,7 @@ from instrument.files.rates import CONTRADICTION
 from instrument.files.table import rate_of_times
 from instrument.files.units import DERIVATIVE, KNOWN, Quantity
 from instrument.interchange.celsius import with_celsius
+from instrument.interchange.columns_of_ours import with_columns_of_ours
 from instrument.interchange.found import CARRIED, Columns, Found, Ratio
 from instrument.interchange.read_modes import read_modes
 from instrument.interchange.said_by_name import ANGULAR, ANGULAR_HZ, BASE, NotSaid, axis_of
@@ -24,6 +25,8 @@ _RATES = ("sample_rate_hz", "sampling_rate_hz", "fs", "fs_hz", "sample_rate", "s
 _FREQUENCIES = ("frequency", "freq", "f")
 _TIMES = ("time", "t")
 _COHERENCE = "coh"
+_SPREAD = "velocity_std_m_s"
+"""Of a velocity: beside a ratio, whose level nobody knows, it is of none."""
 _LONGEST = 200
 _SAME_AXIS = 1e-6
 """Relative: between two columns of one axis, written with as many digits."""
@@ -44,25 +47,42 @@ def read_table(source: str, table: Named, found: Found) -> bool:
     if frequency is None:
         frequency = _axis(source, table, ANGULAR, ANGULAR_HZ)
     if frequency is not None:
+        if any(s.unit.per != "force" for s in signals):
+            table = with_columns_of_ours(source, table, found)
+        sweeps = len(found.sweeps)
         used = _on_lines(source, table, frequency[1], signals, found)
+        own = _own_taken(found.sweeps[sweeps:])
     elif any(s.unit.quantity == "force" for s in signals):
         used = _records(source, _rate_hz(source, table), signals, table.get("accepted"), found)
+        own = set()
     else:
         return False
-    _say_left(source, table, frequency, used, found)
+    _say_left(source, table, frequency, used, own, found)
     return bool(signals)
 
 
+def _own_taken(sweeps: list[Columns]) -> set[str]:
+    """Columns of ours that need no word more: sweeps have them, or it was said why not."""
+    spreads = {_SPREAD} - {name for columns in sweeps for name in columns}
+    return {*_others(), *CARRIED} - spreads if sweeps else set()
+
+
 def _say_left(
-    source: str, table: Named, frequency: tuple[str, Array] | None, used: list[Signal], found: Found
+    source: str,
+    table: Named,
+    frequency: tuple[str, Array] | None,
+    used: list[Signal],
+    own: set[str],
+    found: Found,
 ) -> None:
-    """Of what was not taken, its names: nobody else would miss them."""
-    taken = {name for signal in used for name in signal.names}
-    words = (*_RATES, "accepted", "hit", *_others(), *CARRIED)
-    left = [n for n in table if n not in taken and not n.lower().startswith(words)]
-    left = [n for n in left if not _is_coherence(n) and bracketed(n)[1][:1] not in ([t] for t in _TIMES)]
+    """Of what was not taken, its names: nobody else would miss them. `own`: columns of ours that were."""
+    taken = {name for signal in used for name in signal.names} | own
+    left = [n for n in table if n not in taken and n.lower() not in (*_RATES, "accepted", "hit")]
+    left = [n for n in left if not _is_coherence(n)]
     if frequency is not None:
         left = [n for n in left if not _says_the_same(table, n, *frequency)]
+    else:
+        left = [n for n in left if bracketed(n)[1][:1] not in ([t] for t in _TIMES)]
     if used and left:
         found.said.append(f"passed over: {source}: {', '.join(left)[:_LONGEST]}")
 
@@ -127,11 +147,13 @@ def _on_lines(source: str, table: Named, f: Array, signals: list[Signal], found:
         found.said.append(f"passed over: {source}: {s.name}: {s.values.shape} beside {len(f)} frequencies")
     signals = [s for s in signals if s.values.shape == f.shape]
     alone = sum(s.unit.per is not None for s in signals) == 1
+    beside = _beside(source, table, f, found)
     for s in signals:
         if s.unit.per is not None:
             if not any(is_unit_said(name) for name in s.names):
                 found.said.append(f"{source}: {s.name}: no unit, taken in SI's")
-            found.add_ratio(_ratio(source, s, f), _coherence(table, s.name, alone=alone))
+            kept = {name: values for name, values in beside.items() if name != _SPREAD}
+            found.add_ratio(_ratio(source, s, f, kept), _coherence(table, s.name, alone=alone))
     plain = [s for s in signals if s.unit.per is None]
     forces = [s for s in plain if s.unit.quantity == "force"]
     motions = [s for s in plain if s.unit.quantity in DERIVATIVE]
@@ -147,7 +169,7 @@ def _on_lines(source: str, table: Named, f: Array, signals: list[Signal], found:
             f"{source}: {', '.join(s.name for s in motions + forces)}: which is the response? expected one "
             f"velocity, and one force or motion of the base (a name with one of {', '.join(sorted(BASE))})"
         )
-    found.sweeps.append(_sweep(source, table, f, readings[0], drives[0] if drives else None, found))
+    found.sweeps.append(_sweep(source, f, readings[0], drives[0] if drives else None, beside, found))
     return [*ratios, *readings, *drives]
 
 
@@ -159,21 +181,22 @@ def _columns_apart(s: Signal, lines: int) -> list[Signal]:
     return [replace(s, name=f"{s.name} {k + 1}", values=columns[:, k]) for k in range(columns.shape[1])]
 
 
-def _ratio(source: str, s: Signal, f: Array) -> Ratio:
+def _ratio(source: str, s: Signal, f: Array, beside: Columns) -> Ratio:
     if not np.iscomplexobj(s.values):
         raise BadInput(
             f"{source}: {s.name}: no phase, expected real and imaginary part, or magnitude and phase"
         )
     name = f"{source}: {s.name}"
-    return Ratio(name, f, s.values.astype(complex), s.unit.quantity, s.unit.per or "force", response=s.name)
+    over = s.unit.per or "force"
+    return Ratio(name, f, s.values.astype(complex), s.unit.quantity, over, response=s.name, beside=beside)
 
 
 def _sweep(
-    source: str, table: Named, f: Array, reading: Signal, drive: Signal | None, found: Found
+    source: str, f: Array, reading: Signal, drive: Signal | None, beside: Columns, found: Found
 ) -> Columns:
     columns: Columns = {"frequency_hz": f}
     v = _as(source, reading, "velocity", f)
-    _check_rows(source, reading, f)
+    _check_rows(source, reading, f, found)
     _check_sizes(source, reading, drive)
     columns |= _phasor("velocity", "m_s", v) if np.iscomplexobj(v) else {"velocity_m_s": v}
     over = ", no base channel"
@@ -183,7 +206,7 @@ def _sweep(
         columns |= _phasor("force", "n", a) if is_force else _phasor("base_accel", "m_s2", a)
         unsaid = np.iscomplexobj(v) and not np.iscomplexobj(a)
         over = f", with {drive.words}{' (no phase: taken as 0)' if unsaid else ''}"
-    columns |= _beside(source, table, f, found)
+    columns |= beside
     how = "phasors" if np.iscomplexobj(v) else "amplitudes"
     band = f"{len(f)} points, {f.min():.5g} to {f.max():.5g} Hz"
     found.said.append(f"{source}: {reading.words} as velocity {how}{over}, {band}")
@@ -213,12 +236,12 @@ def _check_sizes(source: str, reading: Signal, drive: Signal | None) -> None:
             )
 
 
-def _check_rows(source: str, reading: Signal, f: Array) -> None:
+def _check_rows(source: str, reading: Signal, f: Array, found: Found) -> None:
     """Raise `BadInput` for a row of a sweep that is none."""
     for what, bad in (("no number", ~np.isfinite(reading.values)), ("a frequency not above 0", ~(f > 0))):
         if bad.any():
-            row = int(np.flatnonzero(bad)[0]) + 1
-            raise BadInput(f"{source}: {reading.name}: {what} in row {row} of {len(f)}, expected none such")
+            place = found.place(int(np.flatnonzero(bad)[0]), len(f))
+            raise BadInput(f"{source}: {reading.name}: {what} in {place}, expected none such")
 
 
 def _as(source: str, signal: Signal, wanted: Quantity, f: Array) -> NDArray[Any]:

@@ -95,7 +95,9 @@ def _checked(path: Path, found: Found) -> Found:
             size = np.abs(np.asarray(values, dtype=float))
             known = size[~np.isnan(size)] if name in CARRIED else size
             if not np.all(known <= LARGEST):
-                raise BadInput(f"{path}: {name}: values that are none, or beyond {LARGEST:g}")
+                bad = ~(size <= LARGEST) & ~(np.isnan(size) & (name in CARRIED))
+                place = found.place(int(np.flatnonzero(bad)[0]), size.size)
+                raise BadInput(f"{path}: {name}: no number, or one beyond {LARGEST:g}, in {place}")
     return found
 
 

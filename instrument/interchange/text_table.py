@@ -148,6 +148,10 @@ def _check_above(path: Path, above: Sequence[tuple[int, list[str]]], first: tupl
                 if odd > n and len(cells) == len(first[1]) and not names and not _is_row(cells):
                     shown = ", ".join(cells)[:_MOST_SHOWN]
                     raise BadInput(f"{path}: line {odd}: {shown!r} among rows of numbers, expected numbers")
+            for odd, cells in above:
+                if odd > n and len(row) == len(first[1]) != len(cells) and _is_row(cells):
+                    around = f"{len(row)} as in line {n} and in line {first[0]}"
+                    raise BadInput(f"{path}: line {odd}: {len(cells)} columns, expected {around}")
             table = f"the table that begins in line {first[0]} with {len(first[1])}"
             raise BadInput(
                 f"{path}: line {n}: {len(row)} columns of numbers above {table}, expected one table"

@@ -27,6 +27,15 @@ _ENGLISH = {
     "temperatur": "temperature",
     "kohaerenz": "coherence",
     "koharenz": "coherence",
+    # Of a point
+    "abschnitt": "segment",
+    "durchlauf": "sweep",
+    "durchgang": "sweep",
+    "balayage": "sweep",
+    "gewichtung": "weight",
+    "ponderation": "weight",
+    "nummer": "number",
+    "numero": "number",
     # Where
     "basis": "base",
     "fusspunkt": "base",

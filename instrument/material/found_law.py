@@ -43,6 +43,9 @@ Warmth = Annotated[float, Field(gt=-273.15, le=LARGEST, allow_inf_nan=False)]
 """Degrees Celsius."""
 
 
+_EXPECTED = "expected the JSON of 'viscorig identify' or 'viscorig diagnose', or a session"
+
+
 def _an_error(value: float) -> float:
     """NaN says that nothing is known."""
     if value < 0 or value > LARGEST:
@@ -170,14 +173,13 @@ def read_law(path: Path, progress: Progress = quiet) -> MaterialLaw:
     try:
         facts = json.loads(read_text(path))
     except json.JSONDecodeError as error:
-        raise BadInput(f"{path}: line {error.lineno}: not JSON: {error.msg}") from None
+        said = f"line {error.lineno}: not JSON ({error.msg})"
+        raise BadInput(f"{path}: {said}, {_EXPECTED}") from None
     except RecursionError:
-        raise BadInput(f"{path}: not JSON that can be read: too deep") from None
+        raise BadInput(f"{path}: not JSON that can be read (too deep), {_EXPECTED}") from None
     found = _of_facts(path, facts)
     if found is None:
-        raise BadInput(
-            f"{path}: expected the JSON of 'viscorig identify' or 'viscorig diagnose', or a session"
-        )
+        raise BadInput(f"{path}: {_EXPECTED}")
     return found
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from fitting.numerics.chances import Z_95
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 from instrument.files.dma_file import DmaTable
 from instrument.material.found_law import MaterialLaw
 from instrument.results.drawing import DATA, frequency_in_octaves, label, legend, panels
@@ -45,5 +45,5 @@ def save_overlay(law: MaterialLaw, table: DmaTable, folder: Path) -> Path:
         folder.mkdir(parents=True, exist_ok=True)
         figure.savefig(path, dpi=110)
     except OSError as error:
-        raise BadInput(f"{folder}: {error.strerror or error}") from None
+        raise BadInput(f"{folder}: {system_words(error)}") from None
     return path

@@ -12,7 +12,7 @@ from fitting.arrays import Array
 from fitting.digits import two_digits
 from fitting.numerics.chances import Z_95
 from fitting.sweep import segments_by_gap
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 from instrument.facts.diagnosis import DiagnosisResult, PointLeft, StageName
 from instrument.facts.result import Result
 from instrument.results.diagnosis_words import log_odds, probability_words, segment_place, with_verdict
@@ -53,7 +53,7 @@ def save_diagnosis_figures(found: DiagnosisResult, folder: Path) -> list[Path]:
         for name, figure in drawn.items():
             figure.savefig(folder / name, dpi=110)
     except OSError as error:
-        raise BadInput(f"{folder}: {error.strerror or error}") from None
+        raise BadInput(f"{folder}: {system_words(error)}") from None
     return [folder / name for name in drawn]
 
 

@@ -41,6 +41,7 @@ def diagnosis_from(found: Diagnosed, sweep: Sweep) -> DiagnosisResult:
         after=_stage(r.after),
         adjusted=adjusted_from(r.after.adjusted),
         p_value=r.p_value,
+        resamples=r.resamples,
         nested_held_out_rms_percent=r.nested_held_out_rms_percent,
         next_measurement=r.next_measurement,
         explanation=r.explanation,

@@ -155,12 +155,21 @@ def probability_words(candidate: CandidateFitted, found: DiagnosisResult) -> str
 def resampling_words(found: DiagnosisResult) -> str:
     """What the search makes of data without any effect, and of data it has not seen; empty if not asked."""
     p, rms = found.p_value, found.nested_held_out_rms_percent
-    said = (
-        [] if p is None else [f"sweeps without any effect gain as much in {two_digits(100 * p)} % of cases"]
-    )
+    said = [] if p is None else [f"sweeps without any effect gain as much in {_as_often(p, found.resamples)}"]
     if rms is not None:
         said.append(f"data left out, the whole search repeated without them: {two_digits(rms)} % rms")
     return "; ".join(said)
+
+
+def _as_often(p_value: float, resamples: int) -> str:
+    """The data count among those that gain as much, so that no chance is nought."""
+    percent = two_digits(100 * p_value)
+    if not resamples:
+        return f"up to {percent} % of cases"
+    times = round(p_value * (1 + resamples)) - 1
+    return (
+        f"{times} of {resamples} (up to {percent} %)" if times else f"none of {resamples} (below {percent} %)"
+    )
 
 
 def log_odds(found: DiagnosisResult) -> list[float | None]:

@@ -179,7 +179,8 @@ def read_fit(path: Path) -> FoundLaw:
             )
         return FoundLaw.model_validate(facts)
     except json.JSONDecodeError as error:
-        raise BadInput(f"{path}: line {error.lineno}: not JSON: {error.msg}") from None
+        said = f"line {error.lineno}: not JSON ({error.msg})"
+        raise BadInput(f"{path}: {said}, expected the JSON of 'viscorig identify'") from None
     except (ValidationError, RecursionError, OutsideModel):
         raise BadInput(f"{path}: expected the JSON of 'viscorig identify'") from None
 

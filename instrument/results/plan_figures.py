@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from fitting.digits import two_digits
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 from instrument.facts.plan import PlanResult
 from instrument.results.drawing import (
     DATA,
@@ -30,7 +30,7 @@ def save_plan_figures(found: PlanResult, folder: Path) -> list[Path]:
         for name, figure in drawn.items():
             figure.savefig(folder / name, dpi=110)
     except OSError as error:
-        raise BadInput(f"{folder}: {error.strerror or error}") from None
+        raise BadInput(f"{folder}: {system_words(error)}") from None
     return [folder / name for name in drawn]
 
 

@@ -11,7 +11,7 @@ from fitting.identification.kramers_kronig import FIRST_ORDER, KramersKronig
 from fitting.identification.pointwise import PointwiseLaw
 from fitting.identification.result import LawBand
 from fitting.numerics.chances import Z_95
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 from instrument.models.pointwise import Pointwise
 from instrument.results.drawing import (
     DATA,
@@ -36,7 +36,7 @@ def save_pointwise_figure(found: Pointwise, band: LawBand, folder: Path) -> Path
         folder.mkdir(parents=True, exist_ok=True)
         pointwise_figure(found.law, band, found.causal).savefig(path, dpi=110)
     except OSError as error:
-        raise BadInput(f"{folder}: {error.strerror or error}") from None
+        raise BadInput(f"{folder}: {system_words(error)}") from None
     return path
 
 

@@ -13,7 +13,7 @@ from instrument.check.faults import experiment_objections
 from instrument.check.forecast import Forecast
 from instrument.check.sensors import sensor_remarks
 from instrument.check.work import planned_regions, planned_work
-from instrument.errors import BadInput, RigStopped, StoppedByUser
+from instrument.errors import BadInput, RigStopped, StoppedByUser, system_words
 from instrument.progress import Progress, quiet
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl
@@ -100,7 +100,8 @@ def _run(
     if objections:
         more = f" (and {len(objections) - 1} more: viscorig check lists them)" if len(objections) > 1 else ""
         raise BadInput(objections[0] + more)
-    journal, name = open_journal(experiment, out, resume)
+    command = parts[0] if len(parts) == 1 else "run"
+    journal, name = open_journal(experiment, out, resume, command)
     entries = journal.entries()
     earlier = [event for e in entries for event in part_events(journal.folder / e.file)]
     path = journal.folder.parent / f"{name}.h5"
@@ -115,13 +116,16 @@ def _run(
     session = SessionRun(
         experiment, journal, forecast, control, earlier, parts, fit, diagnose, companion, progress
     )
-    begun = (parts[0] if len(parts) == 1 else "run", str(experiment.path))
+    begun = (command, str(experiment.path))
     try:
         with Recorder(journal, entries, watch) as recorder:
             session.run(recorder)
         recorder.check()
         finish_session(journal, path)
-    except (RigStopped, DriverError, OSError) as error:
+    except OSError as error:
+        said = f"{error.filename or journal.folder}: {system_words(error)}"
+        raise RigStopped(f"{' '.join(said.split())}; {kept(journal, path, begun)}") from error
+    except (RigStopped, DriverError) as error:
         raise RigStopped(f"{' '.join(str(error).split())}; {kept(journal, path, begun)}") from error
     except KeyboardInterrupt:
         raise StoppedByUser(kept(journal, path, begun)) from None

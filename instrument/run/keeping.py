@@ -16,8 +16,13 @@ from instrument.stream.derived import HitJudged, PointMeasured
 log = logging.getLogger(__name__)
 
 
-def open_journal(experiment: Experiment, out: Path, resume: Path | None) -> tuple[SessionJournal, str]:
-    """The folder of a new session, or of one to carry on, locked; and its name. Raises `BadInput`."""
+def open_journal(
+    experiment: Experiment, out: Path, resume: Path | None, command: str = "run"
+) -> tuple[SessionJournal, str]:
+    """The folder of a new session, or of one to carry on, locked; and its name. Raises `BadInput`.
+
+    `command`: which one begins it.
+    """
     now = datetime.now(UTC)
     if resume is not None:
         journal = SessionJournal(resume)
@@ -32,7 +37,8 @@ def open_journal(experiment: Experiment, out: Path, resume: Path | None) -> tupl
     stem = re.sub(r"[^A-Za-z0-9_-]+", "-", experiment.path.stem).strip("-") or "session"
     name = f"{stem}-{now:%Y%m%dT%H%M%SZ}"
     journal = SessionJournal(out / f"{name}.running")
-    journal.begin(experiment.configuration(name, now.isoformat(timespec="seconds")))
+    made = experiment.configuration(name, now.isoformat(timespec="seconds"))
+    journal.begin(made.model_copy(update={"command": command}))
     journal.lock()
     return journal, name
 

@@ -43,6 +43,8 @@ class Configuration(BaseModel):
     experiment: ExperimentDocument
     rig: RigDocument
     specimen: AnyDocument
+    command: str = ""
+    """Which one began it: `run`, `hammer` or `sweep`; empty in sessions of older versions."""
 
     def the_specimen(self) -> AnySpecimen:
         """The specimen as the model is told, read as this rig's laser does."""

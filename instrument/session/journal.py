@@ -10,7 +10,7 @@ from typing import IO
 
 from pydantic import TypeAdapter
 
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 from instrument.session.configuration import Configuration
 from instrument.session.storage import checksum, seal
 
@@ -70,16 +70,17 @@ class SessionJournal:
         try:
             self.folder.mkdir(parents=True)
         except FileExistsError:
+            self.refuse_while_it_goes_on()
             raise BadInput(f"{self.folder}: exists already: --resume it, or 'viscorig recover' it") from None
         except OSError as error:
-            raise BadInput(f"{self.folder}: {error.strerror or error}") from None
+            raise BadInput(f"{self.folder}: {system_words(error)}") from None
         temporary = self.folder / (CONFIGURATION + ".tmp")
         try:
             temporary.write_text(configuration.model_dump_json(indent=1), encoding="utf-8")
             seal(temporary, self.folder / CONFIGURATION)
         except OSError as error:
             self.remove()
-            raise BadInput(f"{self.folder}: {error.strerror or error}") from None
+            raise BadInput(f"{self.folder}: {system_words(error)}") from None
 
     def lock(self) -> None:
         """One run at a time. Raises `BadInput` where another one goes on in this folder."""
@@ -90,7 +91,24 @@ class SessionJournal:
             fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
             self._lock.close()
-            raise BadInput(f"{self.folder}: another run goes on in it, expected one at a time") from None
+            raise self._goes_on() from None
+
+    def refuse_while_it_goes_on(self) -> None:
+        """Raise `BadInput` while a run goes on in this folder; nothing is written into it."""
+        try:
+            lock = (self.folder / _LOCK).open()
+        except OSError:
+            return
+        with lock:
+            if fcntl is None:
+                return
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError:
+                raise self._goes_on() from None
+
+    def _goes_on(self) -> BadInput:
+        return BadInput(f"{self.folder}: another run goes on in it, expected one at a time")
 
     def unlock(self) -> None:
         """Let another run in; also twice."""
@@ -150,7 +168,7 @@ class SessionJournal:
         try:
             lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
         except OSError as error:
-            raise BadInput(f"{path}: {error.strerror or error}") from None
+            raise BadInput(f"{path}: {system_words(error)}") from None
         for k, line in enumerate(lines):
             if why := self._fault(_entry(line), k + 1):
                 return good, why, lines[k:]

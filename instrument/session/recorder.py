@@ -11,7 +11,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from time import monotonic
 
-from instrument.errors import RigStopped
+from instrument.errors import RigStopped, system_words
 from instrument.session.journal import Entry, SessionJournal
 from instrument.session.storage import write_part
 from instrument.stream.derived import (
@@ -111,7 +111,8 @@ class Recorder:
     def check(self) -> None:
         """Raises `RigStopped` once the disk has failed."""
         if self._failure is not None:
-            raise RigStopped(f"{self._journal.folder}: recording failed: {self._failure}")
+            why = system_words(self._failure) if isinstance(self._failure, OSError) else self._failure
+            raise RigStopped(f"{self._journal.folder}: recording failed: {why}")
         if not self._thread.is_alive() and not self._left:
             raise RigStopped(f"{self._journal.folder}: recording failed: its thread has ended")
 

@@ -63,7 +63,8 @@ def write_session(path: Path, configuration: Configuration, parts: list[Path]) -
     """Put a session together from its sealed parts. Raises `OSError` where the disk is too full for it."""
     needed = _ROOM * sum(part.stat().st_size for part in parts) + _OVERHEAD_BYTES
     if (free := shutil.disk_usage(path.parent).free) < needed:
-        raise OSError(errno.ENOSPC, f"{free / 1e6:.0f} MB free, {needed / 1e6:.0f} MB needed for {path.name}")
+        room = f"{free / 1e6:.0f} MB free, {needed / 1e6:.0f} MB needed for {path.name}"
+        raise OSError(errno.ENOSPC, f"disk full: {room}")
     temporary = path.with_suffix(".tmp")
     try:
         _put_together(temporary, configuration, parts)

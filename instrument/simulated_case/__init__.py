@@ -3,7 +3,7 @@
 from pathlib import Path
 from random import Random
 
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 from instrument.files.text import read_text
 
 FILES = ("experiment.toml", "rig.toml", "specimen.toml")
@@ -63,5 +63,5 @@ def write_case(folder: Path, *, seed: int = 1, effect: str | None = None) -> Pat
                 text = text.replace("seed = 1\n", f"seed = {seed}\n{hidden}")
             (folder / name).write_text(text, encoding="utf-8")
     except OSError as error:
-        raise BadInput(f"{folder}: {error.strerror or error}") from None
+        raise BadInput(f"{folder}: {system_words(error)}") from None
     return folder / "experiment.toml"

@@ -8,6 +8,7 @@ from typing import Self
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.data.times import is_timed
 from fitting.diagnosis.problem.every_point import EveryPoint
 from fitting.diagnosis.problem.narrow_resonances import Errs, narrow_of
 from fitting.diagnosis.problem.nodes import HZ_A_NODE, Nodes
@@ -266,7 +267,8 @@ class DiagnosisProblem:
 
 def points_of(sweep: Sweep, specimen: StatedSpecimen) -> Points:
     """What effects may ask of a sweep's points."""
-    if sweep.time_s is not None:
+    timed = is_timed(sweep)
+    if sweep.time_s is not None and timed:
         time = sweep.time_s - sweep.time_s.min()
     else:
         time = _SECONDS_A_POINT * np.argsort(np.argsort(sweep.frequency_hz, kind="stable")).astype(float)
@@ -274,7 +276,7 @@ def points_of(sweep: Sweep, specimen: StatedSpecimen) -> Points:
         omega=sweep.omega,
         acceleration_m_s2=sweep.commanded_m_s2,
         time_s=time,
-        timed=sweep.time_s is not None,
+        timed=timed,
         has_phase=sweep.has_phase,
         reads=specimen.reads,
         drive=specimen.drive,

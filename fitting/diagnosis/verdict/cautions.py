@@ -6,11 +6,14 @@ from fitting.diagnosis.search.catalogue_search import Search
 from fitting.diagnosis.verdict.judgement import Judgement, against_by_checks
 from fitting.identification.result import BIASED
 
-NO_DRIFT = (
-    "the points carry no time: that the specimen warmed or cooled during the sweep was not considered, "
-    "expected a column time_s"
+_NO_TIME, _NO_SECONDS = "the points carry no time", "the points' times are all one or no seconds"
+_NOT_CONSIDERED = (
+    "that the specimen warmed or cooled during the sweep was not considered, expected a column time_s"
 )
+NO_DRIFT = f"{_NO_TIME}: {_NOT_CONSIDERED}"
 """Of sweeps too long for an even pace to be supposed."""
+NO_SECONDS = f"{_NO_SECONDS}: {_NOT_CONSIDERED} of seconds"
+"""The same where there is a column of times."""
 
 
 def warnings_of(search: Search, judgement: Judgement) -> tuple[str, ...]:
@@ -36,10 +39,12 @@ def warnings_of(search: Search, judgement: Judgement) -> tuple[str, ...]:
         said += [e.caution for e in accepted.fitted.effects if e.caution]
     names = {n for group in judgement.equivalent.values() for n in group}
     if not problem.points.timed:
+        stated = problem.sweep.time_s is not None
         if "temperature_drift" in names:
-            said.append("the points carry no time: the drift assumes an even sweep upwards in frequency")
+            why = _NO_SECONDS if stated else _NO_TIME
+            said.append(f"{why}: the drift assumes an even sweep upwards in frequency")
         elif not judgement.by_hand and search.objects_to("temperature_drift"):
-            said.append(NO_DRIFT)
+            said.append(NO_SECONDS if stated else NO_DRIFT)
     by_hand = judgement.group[0][0] if judgement.by_hand else None
     if by_hand is not None and (why := against_by_checks(by_hand)):
         what = f"{' and '.join(by_hand.names)}, your word," if by_hand.names else "no effect"

@@ -110,7 +110,7 @@ def in_light_of(judgement: Judgement, p_value: float | None) -> Judgement:
         or judgement.verdict not in ("effect", "ambiguous")
     ):
         return judgement
-    why = f"gains no more than {two_digits(100 * p_value)} % of sweeps without any effect do"
+    why = f"gains what up to {two_digits(100 * p_value)} % of sweeps without any effect gain"
     nearest = judgement.accepted.names if judgement.accepted is not None else ()
     return replace(judgement, verdict="none", accepted=None, equivalent={}, refused=nearest, why=why)
 

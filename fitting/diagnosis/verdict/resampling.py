@@ -104,7 +104,9 @@ class Resampled:
     """What resampling said; None for what was not asked for, or cannot be."""
 
     p_value: float | None = None
-    """Chance that a sweep without any effect gains as much."""
+    """Chance that a sweep without any effect gains as much, itself counted among them."""
+    repeats: int = 0
+    """On how many such sweeps."""
     nested_rms_percent: float | None = None
     """Error on points left out one by one, or segments, the selection repeated each time."""
 
@@ -119,9 +121,8 @@ def resampled_of(
     tasks = list(range(repeats))
     gains = list(executor.each(again.gain_without_effect, tasks, lambda x: report(_OF_REPEATS * x)))
     p = (1 + sum(g >= found for g in gains)) / (1 + repeats)
-    return Resampled(
-        p, nested_rms_percent(again, executor, lambda x: report(_OF_REPEATS + (1 - _OF_REPEATS) * x))
-    )
+    nested = nested_rms_percent(again, executor, lambda x: report(_OF_REPEATS + (1 - _OF_REPEATS) * x))
+    return Resampled(p, repeats, nested)
 
 
 def repeats_of(points: int, wanted: int | None) -> int:

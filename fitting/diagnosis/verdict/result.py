@@ -147,6 +147,8 @@ class Diagnosis:
     """Accepted or declined on someone's word."""
     p_value: float | None = None
     """Chance that data without any effect gain as much, by resampling; None where not asked for."""
+    resamples: int = 0
+    """Sweeps that it was found from."""
     nested_held_out_rms_percent: float | None = None
     """Held out with the selection repeated."""
     rivals: Rivals | None = field(default=None, compare=False, repr=False)

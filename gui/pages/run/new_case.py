@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 from fitting.specimen import Kind
 from gui.asking import ask_folder
 from gui.widgets import button
-from instrument.errors import BadInput
+from instrument.errors import BadInput, system_words
 from instrument.files.new_file import EXPERIMENT, SPECIMENS, write_real
 from instrument.simulated_case import DEFAULT_EFFECT, EFFECTS, FILES, chosen_effect, write_case
 
@@ -108,7 +108,7 @@ def write(folder: Path, effect: str | None, seed: int, specimen: Kind = "plate")
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise BadInput(f"{folder}: {error.strerror or error}") from None
+        raise BadInput(f"{folder}: {system_words(error)}") from None
     if effect is None:
         return write_real(folder, specimen)
     return write_case(folder, seed=seed, effect=chosen_effect(effect, seed))

@@ -89,6 +89,16 @@ def test_a_fault_stands_at_its_place_in_words(name, place, text, said):
     assert said in edited.faults()[place]
 
 
+def test_a_table_of_a_law_that_is_not_there_stands_at_its_path(tmp_path):
+    text = case_file("specimen.toml").read_text()
+    before, _, rest = text.partition("[core.law]")
+    after = rest[rest.index("\n[") :]
+    path = tmp_path / "specimen.toml"
+    path.write_text(f'{before}[core.law]\nkind = "table"\npath = "gone.csv"\n{after}')
+    found = Draft.of(path, SpecimenDocument).faults()
+    assert found[("core", "law", "path")].startswith("'gone.csv': no such file, expected a CSV")
+
+
 def test_a_table_is_switched_off_and_on():
     edited = draft()
     edited.switch(("sweep", "sentinel"), off=True, as_false=True)

@@ -61,3 +61,8 @@ def test_a_list_of_files_that_is_not_written_as_ours_is_told_from_a_sweep(tmp_pa
     said = f"a list of files with the columns {heads}: expected a column 'data', commas between its columns"
     with pytest.raises(BadInput, match=re.escape(said)):
         tasks_of([path], None)
+
+
+def test_a_file_that_is_not_there_is_said_to_be_so_before_its_specimen_is_missed(tmp_path):
+    with pytest.raises(BadInput, match=r"gone\.csv: no such file"):
+        tasks_of([tmp_path / "gone.csv"], None)

@@ -197,7 +197,7 @@ def test_a_number_too_large_to_compute_with_is_refused_in_one_line(capsys, here,
 def test_an_endless_phase_is_refused_in_one_line(capsys, here):
     rows = [f"{f},1,inf" for f in range(10, 14)]
     (here / "new.csv").write_text("\n".join(["frequency_hz,velocity_mm_s,velocity_phase_deg", *rows]) + "\n")
-    refused(capsys, here, "import new.csv --out out.csv", "new.csv: values that are none")
+    refused(capsys, here, "import new.csv --out out.csv", "new.csv: line 2: velocity_phase_deg = inf")
 
 
 def test_a_refused_import_leaves_nothing(capsys, here):

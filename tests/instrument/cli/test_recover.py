@@ -1,15 +1,17 @@
 import json
 
+import pytest
 from sessions import block, configuration, point
 
 from instrument.cli.main import run
+from instrument.errors import BadInput
 from instrument.session.journal import SessionJournal
 from instrument.session.recorder import Recorder
 from instrument.stream.raw import AcquisitionBegan
 
 
-def begun(folder):
-    SessionJournal(folder).begin(configuration())
+def begun(folder, made=None):
+    SessionJournal(folder).begin(made or configuration())
     return folder
 
 
@@ -17,6 +19,34 @@ def test_the_folder_above_a_run_will_do(tmp_path, capsys):
     inside = begun(tmp_path / "one.running")
     assert run(["recover", str(tmp_path)]) == 2
     assert f"{inside}: nothing was completed" in capsys.readouterr().err
+
+
+def test_a_run_that_still_goes_on_is_left_alone(tmp_path, capsys):
+    folder = recorded(tmp_path / "one.running", 2)
+    owner = SessionJournal(folder)
+    owner.lock()
+    try:
+        assert run(["recover", str(folder)]) == 2
+        assert f"{folder}: another run goes on in it" in capsys.readouterr().err
+        assert not (tmp_path / "one.h5").exists()
+        with pytest.raises(BadInput, match="another run goes on in it"):
+            SessionJournal(folder).begin(configuration())
+    finally:
+        owner.unlock()
+    assert run(["recover", str(folder)]) == 0
+    with pytest.raises(BadInput, match="exists already: --resume it"):
+        SessionJournal(folder).begin(configuration())
+
+
+@pytest.mark.parametrize(("command", "said"), [("sweep", "sweep"), ("run", "run"), ("", "run")])
+def test_the_command_that_was_broken_off_is_named(tmp_path, capsys, command, said):
+    made = configuration()
+    made = made.model_copy(
+        update={"command": command, "experiment": made.experiment.model_copy(update={"hammer": None})}
+    )
+    folder = recorded(tmp_path / "one.running", 1, made)
+    assert run(["recover", str(folder)]) == 0
+    assert f"to go on: viscorig {said} EXPERIMENT.toml --resume {folder}" in capsys.readouterr().out
 
 
 def test_of_two_runs_in_a_folder_one_has_to_be_named(tmp_path, capsys):
@@ -28,9 +58,9 @@ def test_of_two_runs_in_a_folder_one_has_to_be_named(tmp_path, capsys):
     assert len(said.splitlines()) == 1
 
 
-def recorded(folder, steps):
+def recorded(folder, steps, made=None):
     """A run of some steps, a part each."""
-    journal = SessionJournal(begun(folder))
+    journal = SessionJournal(begun(folder, made))
     with Recorder(journal, []) as recorder:
         recorder.record(AcquisitionBegan(1, "sweep", 8192.0, ("base", "velocity")))
         for k in range(steps):

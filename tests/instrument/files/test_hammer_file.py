@@ -43,3 +43,10 @@ def test_what_is_no_hammer_test_is_one_line(tmp_path, content, said):
     with pytest.raises(BadInput, match=said) as caught:
         read_hammer(written(tmp_path, content))
     assert "expected the JSON of 'viscorig damping'" in str(caught.value)
+
+
+def test_a_file_that_is_not_json_is_told_what_is_expected(tmp_path):
+    (tmp_path / "a.json").write_text("no json")
+    said = r"a\.json: line 1: not JSON \(.*\), expected the JSON of 'viscorig damping', or a session"
+    with pytest.raises(BadInput, match=said):
+        read_hammer(tmp_path / "a.json")

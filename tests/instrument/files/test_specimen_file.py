@@ -197,7 +197,7 @@ BAD = {
         re.sub(r"\[constraining\].*?\[core\]", "[core]", GOOD, flags=re.S),
         "[constraining] is missing",
     ),
-    "ratio over 100 %": (GOOD.replace("0.29,", "290.0,"), "damping.modal_percent.0"),
+    "ratio over 100 %": (GOOD.replace("0.29,", "290.0,"), "damping.modal_percent, number 1"),
     "absurd": (GOOD.replace("thickness_mm = 1.9", "thickness_mm = 1e300"), "substrate.thickness_mm"),
     "endless nesting": ("a = " + "[" * 5000, "not"),
     "endless digits": (GOOD.replace("length_mm = 300.2", "length_mm = 3" + "0" * 5000), "not a specimen"),

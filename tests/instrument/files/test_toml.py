@@ -1,9 +1,14 @@
 """Faults of a file in one line, in this program's words."""
 
 import pytest
+from pydantic import Field
 
 from instrument.errors import BadInput
 from instrument.files.toml import Positive, TomlTable, parse_document
+
+
+class Part(TomlTable):
+    count: int = 1
 
 
 class Small(TomlTable):
@@ -13,6 +18,7 @@ class Small(TomlTable):
     name: str = ""
     several: tuple[float, ...] = ()
     young_gpa: Positive = 1.0
+    part: list[Part] = Field(default_factory=list)
 
 
 @pytest.mark.parametrize(
@@ -31,6 +37,8 @@ class Small(TomlTable):
         ("on = 1", "on: 1, expected true or false"),
         ("name = 3", "name: 3, expected text in quotes"),
         ("several = 3.0", "several: 3.0, expected a list"),
+        ("[[part]]\n[[part]]\ncount = 1.5", "part, number 2, count: 1.5, expected a whole number"),
+        ("part = [3]", "part, number 1: 3, expected a table"),
     ],
 )
 def test_what_was_expected_is_said_plainly(tmp_path, text, said):

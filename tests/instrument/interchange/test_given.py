@@ -138,3 +138,8 @@ def test_known_masses_in_another_program_s_file_are_asked_about_too(tmp_path):
     savemat(tmp_path / "a.mat", {k: np.array(v) for k, v in variables.items()})
     with pytest.raises(BadInput, match="column mass_kg: a known mass was on the plate in some rows"):
         read_given(tmp_path / "a.mat", case_file("zn1.toml"), None)
+
+
+def test_columns_of_nearly_a_known_name_are_remarked_on(tmp_path):
+    (tmp_path / "a.csv").write_text("frequency_hz,velocity_m_s,time\n20,0.1,0\n40,0.2,5\n")
+    assert "time (is it time_s?)" in read_given(tmp_path / "a.csv", case_file("zn1.toml"), None).remark

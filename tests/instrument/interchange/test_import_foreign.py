@@ -6,6 +6,7 @@ from foreign_files import BASE, RATIO, F, V, frf_set, lms, over_base, sweep_of, 
 from scipy.io import savemat
 from uff_files import write_sets
 
+from instrument.errors import BadInput
 from instrument.files.impact_csv import read_impact_csv
 from instrument.files.sweep_file import read_sweep
 from instrument.interchange.importing import import_file
@@ -164,3 +165,9 @@ def test_a_record_with_times(tmp_path):
     (hit,) = read_impact_csv(tmp_path / "out.csv")
     assert hit.sample_rate_hz == pytest.approx(2000)
     assert hit.responses[0].samples[1] == pytest.approx(9.80665)
+
+
+def test_a_row_of_a_text_is_named_by_its_line(tmp_path):
+    (tmp_path / "a.csv").write_text("# of a rig\n\nf [Hz],v [m/s],Weight\n20,0.1,1\n30,0.2,0\n")
+    with pytest.raises(BadInput, match=r"a\.csv: line 5: weight = 0, expected more than 0"):
+        import_file(tmp_path / "a.csv", tmp_path / "b.csv")

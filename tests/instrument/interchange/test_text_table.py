@@ -99,7 +99,7 @@ REFUSED = {
     "a column in one row": (TABLE.replace("\n4.125", "\n7,4.125"), "4 columns, expected 3"),
     "a column in a row amid others": (
         TABLE.replace("\n1.85", "\n7,1.85"),
-        "line 2: 3 columns of numbers above",
+        "line 3: 4 columns, expected 3 as in line 2 and in line 4",
     ),
     "a spreadsheet's error in a first cell": (
         TABLE.replace("\n1.85", "\n#N/A,,\n1.85"),
@@ -126,6 +126,15 @@ REFUSED = {
         "are not those of real and imaginary part",
     ),
     "no units": ("Frequency,Real,Imag\n" + rows(","), "units in the names.*--columns"),
+    "an infinite cell": (
+        "f [Hz],v re [m/s],v im [m/s]\n20,0.1,1\n# a break\n\n30,1,inf\n",
+        r"line 5: v im \[m/s\] = inf, expected a finite number",
+    ),
+    "a cell that is no number": (
+        "f [Hz],v re [m/s],v im [m/s]\n20,0.1,1\n30,nan,1\n",
+        r"v re \[m/s\]: no number in line 3, expected none such",
+    ),
+    "a number that is too large": ("f [Hz],v [m/s]\n20,0.1\n30,2e31\n", "velocity_m_s: .*, in line 3"),
     "words": ("a,b\nx,y\n", "no rows of numbers"),
 }
 

@@ -14,6 +14,7 @@ from instrument.cli.main import run
 from instrument.errors import BadInput
 from instrument.material.comparing import compare
 from instrument.material.found_law import read_law
+from instrument.results.fit_file import read_fit
 
 
 @pytest.fixture
@@ -181,3 +182,10 @@ def test_nothing_is_printed_where_the_mounts_are_refused(tmp_path, capsys):
 def test_one_file_is_not_enough(tmp_path, capsys):
     assert run(["compare", str(tmp_path / "a.json")]) == 2
     assert "two or more" in capsys.readouterr().err
+
+
+def test_a_file_that_is_not_json_is_told_what_is_expected(tmp_path):
+    (tmp_path / "a.json").write_text("{")
+    for read in (read_law, read_fit):
+        with pytest.raises(BadInput, match=r"not JSON \(.*\), expected the JSON of 'viscorig identify'"):
+            read(tmp_path / "a.json")

@@ -229,6 +229,7 @@ def test_of_few_points_it_is_said_what_a_search_finds_by_chance():
     assert found.verdict == "none"
     # Of two sweeps without any effect, and the one that was measured.
     assert found.p_value in (2 / 3, 1.0)
+    assert found.resamples == 2
     # The selection repeated without each point: no better than one law alone.
     assert found.nested_held_out_rms_percent > 0.95 * found.before.validation.leave_one_out_rms_percent
 

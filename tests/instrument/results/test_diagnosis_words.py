@@ -96,9 +96,15 @@ def test_resampling_is_said_where_it_was_done():
     assert resampling_words(diagnosis()) == ""
     said = resampling_words(diagnosis().but(p_value=0.05, nested_held_out_rms_percent=2.345))
     assert said == (
-        "sweeps without any effect gain as much in 5 % of cases; "
+        "sweeps without any effect gain as much in up to 5 % of cases; "
         "data left out, the whole search repeated without them: 2.3 % rms"
     )
+
+
+@pytest.mark.parametrize(("p", "times"), [(0.05, "none of 19 (below 5 %)"), (0.3, "5 of 19 (up to 30 %)")])
+def test_how_often_data_without_any_effect_gain_as_much_is_counted(p, times):
+    said = resampling_words(diagnosis().but(p_value=p, resamples=19))
+    assert said == f"sweeps without any effect gain as much in {times}"
 
 
 def test_every_law_of_an_unknown_cause_is_marked(capsys):

@@ -63,6 +63,7 @@ def test_a_new_session_is_called_by_its_experiment_and_the_time(begin, tmp_path)
     assert name.startswith("a-first-try-20")
     assert journal.folder == tmp_path / f"{name}.running"
     assert journal.configuration().name == name
+    assert journal.configuration().command == "run"
     assert journal.entries() == []
     _, other = begin("§§.toml")
     assert other.startswith("session-")

@@ -11,11 +11,12 @@ from shear_pair_problem import GAIN, HIGH, LAW, MASS, PAIR, ShearPairProblem
 from fitting.diagnosis import diagnose
 from fitting.diagnosis.diagnose import seen_in_channels
 from fitting.diagnosis.executor import Executor
+from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.diagnosis.search.asked import Beside, OfEffect, OneOfPair, Second, ToFollow
 from fitting.diagnosis.search.candidate_fits import CandidateFits
 from fitting.diagnosis.search.candidates import Known
 from fitting.diagnosis.search.singles import Singles
-from fitting.diagnosis.verdict.cautions import NO_DRIFT
+from fitting.diagnosis.verdict.cautions import NO_DRIFT, NO_SECONDS
 from fitting.effects import CATALOGUE
 from fitting.effects.base import ChannelFinding, Effect
 from fitting.errors import OutsideModel
@@ -312,6 +313,13 @@ def test_that_a_drift_could_not_be_considered_without_times_is_said(clean):
     drift = CATALOGUE["temperature_drift"].standing_on(PAIR)
     assert NO_DRIFT in clean.diagnosed(GAIN, drift).warnings
     assert NO_DRIFT not in clean.diagnosed(GAIN).warnings
+
+
+def test_nor_by_times_that_are_all_one(clean, monkeypatch):
+    drift = CATALOGUE["temperature_drift"].standing_on(PAIR)
+    same = replace(clean.sweep, time_s=np.full(len(clean.sweep), 5.0))
+    monkeypatch.setattr(clean, "problem", SmallProblem.of_small(same, PAIR))
+    assert NO_SECONDS in clean.diagnosed(GAIN, drift).warnings
 
 
 @pytest.mark.parametrize(("by_hand", "to_its_end"), [(["gain_error"], True), (None, False)])
