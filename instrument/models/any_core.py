@@ -61,7 +61,7 @@ class AnyCore:
     stated: Array
     """The core stated in the file, as `log_velocity` takes it. Shape (4,)."""
     unknowns: int = 4
-    """How many of a core's numbers are sought: one resonance tells no rising loss from a factor."""
+    """How many of a core's numbers are sought at most: one resonance tells no rising loss from a factor."""
 
     @property
     def middle(self) -> float:

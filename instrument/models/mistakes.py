@@ -87,13 +87,18 @@ class Mistake:
     def is_unit(self, factor: complex, drive: Drive) -> bool:
         """Whether it is a known unit of size alone, far from one."""
         size = abs(factor)
-        known = any(abs(np.log(size / value)) < _SAME for value in _units(drive))
+        known = any(_is_same(size, value) for value in _units(drive))
         alone = not (self.motion or self.conjugated or self.words)
         return alone and known and abs(np.log(size)) > _FAR and bool(abs(np.angle(factor)) < _SAME_TURN)
 
     def is_habit(self, factor: complex) -> bool:
         """Whether it is one of rms, amplitude and peak to peak."""
-        return any(abs(np.log(abs(factor) / value)) < _SAME for value in _HABITS)
+        return any(_is_same(abs(factor), value) for value in _HABITS)
+
+
+def _is_same(size: float, value: float) -> bool:
+    """Whether a factor is a known one. What is far from one is hardly anything else, and may be less near."""
+    return bool(abs(np.log(size / value)) < (_SAME if abs(np.log(value)) < _FAR else 2 * _SAME))
 
 
 def _units(drive: Drive) -> dict[float, str]:
@@ -209,7 +214,7 @@ def _size(size: float, drive: Drive) -> list[str]:
     name = "base acceleration" if drive == "base" else "force"
     known = {**_units(drive), **_HABITS}
     nearest = min(known, key=lambda value: abs(np.log(size / value)))
-    if abs(np.log(size / nearest)) < _SAME:
+    if _is_same(size, nearest):
         return [known[nearest].format(drive=name)]
     if SLIGHT[0] < size < SLIGHT[1]:
         return []
