@@ -288,9 +288,10 @@ def test_a_sensor_on_wax_is_not_taken_for_the_core(without, on_base):
         factor = 1 / rises if on_base else rises
         given.append(replace(file, sweep=replace(file.sweep, velocity_m_s=factor * file.sweep.velocity_m_s)))
     found = diagnose_together(given, without=without).found.result
-    assert found.verdict == "effect"
+    # It shows by too little for its formula to be tested.
+    assert found.equivalent == {"sensor_mounting": ("sensor_mounting", "unlisted")}
     (effect,) = found.effects
-    assert effect.name == "sensor_mounting"
+    assert effect.probability > 0.85
     assert effect.parameters["on_base"].value == on_base
     frequency = effect.parameters["frequency"]
     assert abs(frequency.value - f_0) < 3 * frequency.standard_error < 0.3 * f_0
