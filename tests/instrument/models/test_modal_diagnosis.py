@@ -10,8 +10,10 @@ from mode_cases import read_off, solid_modes, stated
 from rivals import all_but, among
 from scipy.optimize import root
 
+from fitting.dynamics.complex_modes import complex_modes
 from fitting.laws import LAWS
 from fitting.mode_tables.table import ModalTable
+from fitting.plate.plate import Plate
 from fitting.stated.layers import Core, Face
 from fitting.structures.beam import Beam
 from fitting.structures.small_modes import small_modes
@@ -140,3 +142,15 @@ def test_a_channel_is_not_looked_for_in_modes():
     assert {n for s in found.scored for n in s.names} == {"core_thickness"}
     # Their errors are not stated: nothing can be said of their size.
     assert all(not s.checks for s in found.scored)
+
+
+def test_a_table_of_a_plate_that_a_base_would_shake_off_its_axis_is_diagnosed(zn1):
+    """Nothing drives or reads a table: effects of a base and a pickup have no meaning there."""
+    specimen = replace(zn1, elements=(5, 4))
+    assert specimen.pickup_m[1] != pytest.approx(specimen.width_m / 2)
+    modes = complex_modes(Plate(specimen), specimen.core.law, 4)
+    f, eta = np.array([m.frequency_hz for m in modes]), np.array([m.loss_factor for m in modes])
+    table = ModalTable(np.arange(1.0, 5.0), f, eta, read="model")
+    found = diagnose_tables([table], [specimen])
+    assert found.found.judgement.verdict == "none"
+    assert not {"base_roll", "base_rocking"} & {e.name for e in found.effects}
