@@ -24,11 +24,8 @@ from fitting.identification.model import SweepModel
 from fitting.identification.residuals import Residuals
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
-from instrument.campaign.noise import NoiseFigures
-from instrument.campaign.plant.cases import Truth, measured
-from instrument.campaign.plant.materials import draw_material
-from instrument.campaign.plant.severities import Severity
-from instrument.campaign.schedule import Schedule
+from instrument.bench.elastic_root import elastic_root_sweep
+from instrument.bench.sweeps import GRID_HZ, synthetic_sweep
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.diagnosis import Diagnosed, diagnose
@@ -36,8 +33,6 @@ from instrument.models.specimen_models import Models
 from instrument.paper_case import TABLE_4, case_file
 from instrument.progress import Progress, quiet
 
-GRID_HZ = np.concatenate([np.linspace(14, 26, 121), np.linspace(80, 125, 116), np.linspace(245, 315, 116)])
-"""353 frequencies in three resonance regions."""
 TIMED_EIGENPROBLEMS = 10
 PAPER_STEPS = 5
 """The paper reports five iterations, each with its response and four differences."""
@@ -119,34 +114,6 @@ def _diagnosis_rows(diagnosed: list[tuple[Sweep, Diagnosed]]) -> list[BenchLine]
         name = f"diagnosis, the whole catalogue, {len(sweep)} points at {levels} level" + "s" * (levels > 1)
         rows.append(BenchLine(name, found.seconds))
     return rows
-
-
-def elastic_root_sweep(g_m_s2: float, levels_g: tuple[float, ...], seed: int = 0) -> Sweep:
-    """The solid plate on springs at its root, 353 points a level, noise of 0.4 % of the peak."""
-    f, levels = np.tile(GRID_HZ, len(levels_g)), np.repeat(np.array(levels_g, float), len(GRID_HZ))
-    segment = np.digitize(f, [50, 200]).astype(np.intp) + 1
-    number = segment + 3 * np.repeat(np.arange(len(levels_g)), len(GRID_HZ))
-    schedule = Schedule(f, segment, number, levels, np.linspace(0.0, 2.0 * len(f), len(f)))
-    clamp: dict[str, Severity] = {"clamp_compliance": {"along_x_n_m3": 3e13, "along_z_n_m3": 3e13}}
-    rng = np.random.default_rng(seed)
-    truth = Truth(clamp, draw_material(rng), NoiseFigures(fraction_of_peak=0.004, repeat_scatter=0.002))
-    return measured(truth, schedule, g_m_s2, rng)
-
-
-def synthetic_sweep(specimen: Specimen, seed: int = 0, noise: float = 0.005) -> Sweep:
-    """353 phasors of Table 4's law on the reduced model, with relative noise of the given size."""
-    models = Models.of(specimen, GRID_HZ)
-    v = models.predict(TABLE_4, GRID_HZ)
-    rng = np.random.default_rng(seed)
-    scatter = rng.normal(size=(2, len(v))) * noise * np.abs(v)
-    return Sweep(
-        frequency_hz=GRID_HZ,
-        velocity_m_s=v + scatter[0] + 1j * scatter[1],
-        commanded_m_s2=np.full(len(v), specimen.base_acceleration_m_s2),
-        segment=np.digitize(GRID_HZ, [50, 200]).astype(np.intp) + 1,
-        sweep=np.ones(len(v), dtype=np.intp),
-        std_m_s=noise * np.abs(v),
-    )
 
 
 def _set_up(specimen: Specimen, progress: Progress) -> Models:

@@ -7,8 +7,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from instrument.campaign import bench
-from instrument.campaign.bench import elastic_root_sweep, run_bench, synthetic_sweep
+from instrument.bench import elastic_root, sweeps, table
+from instrument.bench.elastic_root import elastic_root_sweep
+from instrument.bench.sweeps import synthetic_sweep
+from instrument.bench.table import run_bench
+from instrument.models.specimen_models import Models
 from instrument.paper_case import TABLE_4
 
 FEW_HZ = np.array([14.0, 20.0, 26.0, 80.0, 125.0])
@@ -33,21 +36,22 @@ def plate(zn1):
 def quick(monkeypatch, plate):
     """Few points, few repetitions."""
     for name, value in (
-        ("GRID_HZ", FEW_HZ),
         ("RANDOM_POINTS", 3),
         ("TIMED_EIGENPROBLEMS", 2),
         ("_REPEATS", 1),
     ):
-        monkeypatch.setattr(bench, name, value)
-    monkeypatch.setattr(bench, "read_specimen", lambda path: plate)
+        monkeypatch.setattr(table, name, value)
+    for module in (elastic_root, sweeps, table):
+        monkeypatch.setattr(module, "GRID_HZ", FEW_HZ)
+    monkeypatch.setattr(table, "read_specimen", lambda path: plate)
 
 
 def test_ratios_are_of_the_times_in_the_same_table(quick, monkeypatch, plate):
     def diagnose(sweep, specimen, *, progress):
         return SimpleNamespace(seconds=float(len(sweep)), setup_seconds=7.0)
 
-    monkeypatch.setattr(bench, "diagnose", diagnose)
-    monkeypatch.setattr(bench, "elastic_root_sweep", lambda g, levels: Swept(levels))
+    monkeypatch.setattr(table, "diagnose", diagnose)
+    monkeypatch.setattr(table, "elastic_root_sweep", lambda g, levels: Swept(levels))
     before = os.environ["VISCORIG_CACHE"]
     lines = run_bench()
     assert os.environ["VISCORIG_CACHE"] == before
@@ -57,7 +61,7 @@ def test_ratios_are_of_the_times_in_the_same_table(quick, monkeypatch, plate):
         "the paper's sweep": lines[0].seconds,
         "the paper's fit": lines[1].seconds,
     }
-    assert lines[1].seconds == pytest.approx(bench.PAPER_STEPS * 5 * lines[0].seconds)
+    assert lines[1].seconds == pytest.approx(table.PAPER_STEPS * 5 * lines[0].seconds)
     compared = [line for line in lines if line.to is not None]
     assert len(compared) == 7
     for line in compared:
@@ -72,7 +76,7 @@ def test_ratios_are_of_the_times_in_the_same_table(quick, monkeypatch, plate):
 
 def test_a_synthetic_sweep_is_the_model_with_the_noise_it_states(quick, plate):
     clean, noisy = (synthetic_sweep(plate, seed, 1e-9 if seed == 0 else 0.05) for seed in (0, 1))
-    models = bench.Models.of(plate, FEW_HZ)
+    models = Models.of(plate, FEW_HZ)
     np.testing.assert_allclose(clean.velocity_m_s, models.predict(TABLE_4, FEW_HZ), rtol=1e-7)
     np.testing.assert_allclose(noisy.std_m_s, 0.05 * np.abs(models.predict(TABLE_4, FEW_HZ)))
     off = np.abs(noisy.velocity_m_s / clean.velocity_m_s - 1)
@@ -80,19 +84,15 @@ def test_a_synthetic_sweep_is_the_model_with_the_noise_it_states(quick, plate):
     assert clean.segment.tolist() == [1, 1, 1, 2, 2]
 
 
-def test_a_sweep_at_three_levels_has_every_point_at_each(quick, monkeypatch):
-    asked = []
-    monkeypatch.setattr(bench, "measured", lambda truth, schedule, g, rng: asked.append((truth, schedule, g)))
-    elastic_root_sweep(9.81, (0.25, 0.5, 1.0))
-    ((truth, schedule, g),) = asked
-    assert truth.names == ("clamp_compliance",)
-    levels = np.array(schedule.level_g).reshape(3, len(FEW_HZ))
-    assert levels.tolist() == [[level] * len(FEW_HZ) for level in (0.25, 0.5, 1.0)]
-    assert g == 9.81
+def test_a_sweep_at_three_levels_has_every_point_at_each(quick):
+    sweep = elastic_root_sweep(9.81, (0.25, 0.5, 1.0))
+    levels_g = sweep.commanded_m_s2.reshape(3, len(FEW_HZ)) / 9.81
+    np.testing.assert_allclose(levels_g, np.repeat([[0.25], [0.5], [1.0]], len(FEW_HZ), axis=1))
+    assert sweep.sweep.tolist() == [1, 1, 1, 2, 2, 4, 4, 4, 5, 5, 7, 7, 7, 8, 8]
 
 
 def test_a_cache_folder_is_put_back_as_it_was(monkeypatch):
     monkeypatch.delenv("VISCORIG_CACHE")
-    with bench._cache_in("/somewhere"):
+    with table._cache_in("/somewhere"):
         assert os.environ["VISCORIG_CACHE"] == "/somewhere"
     assert "VISCORIG_CACHE" not in os.environ
