@@ -205,3 +205,18 @@ class OfFiles(Effect):
         elif self.files == 1:
             where = "at every pickup"
         return f"{where} {self.inner.story(u)}"
+
+
+def inner_of(effect: Effect) -> Effect:
+    """The effect itself, of whichever files its form is."""
+    return effect.inner if isinstance(effect, OfFiles) else effect
+
+
+def own_unknowns(effect: Effect, place: Place) -> NDArray[np.intp] | None:
+    """Which of an effect's unknowns `inner_of` it has at a place; None where that lacks it.
+
+    Shape (parameters of the inner effect,).
+    """
+    if not isinstance(effect, OfFiles):
+        return np.arange(len(effect.parameters))
+    return effect.places(place) if effect.holds(place) else None
