@@ -22,7 +22,7 @@ from fitting.diagnosis.inference.whitening import SHARE
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.model_error import model_error
 from fitting.diagnosis.response.sweep_response import SweepResponse
-from fitting.diagnosis.several.of_files import OfFiles, Place
+from fitting.diagnosis.several.of_files import Place, inner_of, own_unknowns
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.several.several_problem import SeveralProblem
 from fitting.diagnosis.verdict.result import Rivals, name_of
@@ -316,11 +316,9 @@ class Expecting:
         """Effects that the readings have, and where their unknowns are."""
         effects, places, start = [], [], fitted.stated
         for e in fitted.effects:
-            inner = e.inner if isinstance(e, OfFiles) else e
-            here = not isinstance(e, OfFiles) or e.holds(self._place)
-            if here and inner.name not in without:
+            own, inner = own_unknowns(e, self._place), inner_of(e)
+            if own is not None and inner.name not in without:
                 effects.append(inner)
-                own = e.places(self._place) if isinstance(e, OfFiles) else np.arange(len(e.parameters))
                 places.append(start + own)
             start += len(e.parameters)
         return effects, places
@@ -347,22 +345,21 @@ class Expecting:
         by_z = bare.by_stated(nuisances, z)
         for k, g in enumerate(self._stated):
             by[column[g]] += by_z[k]
-        scale, fresh, start = _scales(fitted), [], fitted.stated
-        for e in fitted.effects:
-            inner = e.inner if isinstance(e, OfFiles) else e
-            u = fitted.u[start : start + len(inner.parameters)]
+        scale, fresh = _scales(fitted), []
+        # The bare plate is that of the first file: what is in another one it does not feel.
+        for inner, places in zip(*self._effects(fitted, frozenset()), strict=True):
+            u = fitted.u[places]
             felt = _felt(inner, u)
             shifts = np.array([inner.bare_shift(bare, one) for one in felt])
             shift = shift + shifts.mean(axis=0)
             if len(felt) > 1:
                 fresh.append((shifts[1] - shifts[0]) / 2)
-            for m, q in enumerate(inner.parameters):
-                if fitted.free[start + m]:
+            for m, (q, g) in enumerate(zip(inner.parameters, places.tolist(), strict=True)):
+                if fitted.free[g]:
                     h = 1e-4 * (abs(u[m]) if q.logarithmic else q.typical or 1.0)
                     moved = [np.where(np.arange(len(u)) == m, one + h, one) for one in felt]
                     there = np.mean([inner.bare_shift(bare, one) for one in moved], axis=0)
-                    by[column[start + m]] += scale[start + m] * (there - shifts.mean(axis=0)) / h
-            start += len(e.parameters)
+                    by[column[g]] += scale[g] * (there - shifts.mean(axis=0)) / h
         rows = known.root[: len(by)].T @ by
         every = np.concatenate([rows, np.array(fresh)]) if fresh else rows
         return Forecast(bare.whitened_change(shift), bare.whitened_change(every.T), len(rows))

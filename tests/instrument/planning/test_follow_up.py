@@ -6,9 +6,16 @@ from itertools import groupby
 import numpy as np
 import pytest
 
+from fitting.data.noise import noise_of
+from fitting.diagnosis.inference.begin import begin
+from fitting.diagnosis.inference.refit import evaluated
 from fitting.diagnosis.inference.usual_law import polished
 from fitting.diagnosis.inference.whitening import SHARE
 from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.several.of_files import ALIKE, OfFiles
+from fitting.diagnosis.several.responses import response_of
+from fitting.diagnosis.several.several_problem import SeveralProblem
+from fitting.diagnosis.verdict.result import Rivals
 from fitting.effects import CATALOGUE
 from fitting.planning.forms import forms_of
 from fitting.planning.further import Expecting, Further
@@ -28,6 +35,7 @@ from instrument.stepped_sine.settings import Limits, SweepSettings
 from tests.diagnosis_cases import diagnosed, diagnosis, sweep
 
 EVEN = np.array([0.5, 0.5])
+STIFFER, SCALE = CATALOGUE["substrate_stiffness"], 1.05
 
 
 @pytest.fixture(scope="module")
@@ -319,6 +327,32 @@ def test_a_bare_plate_says_less_of_gain_and_spot_than_another_spot(expecting, ra
     # Not nothing: a wrong explanation has pulled at the metal's numbers.
     found = outcome(expecting.struck(bare_modes_expected(expecting.member)), EVEN)
     assert found.between(0, 1) < 0.5 * of_kind(ranked, "spot").separation
+
+
+@pytest.fixture(scope="module")
+def in_files(rivals):
+    """A stiffer substrate in both files, in the first one and in the second one alone."""
+    one, plate = rivals.problem, rivals.reduced
+    both = SeveralProblem.of_members([one, one], [plate, plate])
+    begun = begin(both, plate, noise_of(both.sweep), None, rivals.each[0][0].law)
+    fits = []
+    for file in (ALIKE, 1, 2):
+        form = OfFiles(STIFFER, 2, file)
+        response = response_of(begun.problem, [form])
+        u = np.concatenate([begun.none.u, [SCALE, file]])
+        fits.append(evaluated(response, begun.evidence, begun.none.law, u))
+    return Expecting(Rivals(begun.problem, begun.evidence, tuple((f, 1 / 3) for f in fits), plate), 6)
+
+
+def test_a_hammer_test_of_the_first_plate_feels_nothing_that_is_in_another_file_alone(in_files):
+    bare = bare_modes_expected(in_files.member)
+    alike, first, second = in_files.struck(bare)
+    np.testing.assert_allclose(first.mean, alike.mean)
+    stiffer = bare.whitened_change(STIFFER.bare_shift(bare, np.array([SCALE])))
+    np.testing.assert_allclose(alike.mean - second.mean, stiffer)
+    assert np.abs(stiffer).max() > 1
+    # Nor does it know the test's frequencies less well for not knowing that stiffness.
+    assert np.linalg.norm(second.root) < np.linalg.norm(first.root)
 
 
 def test_nothing_is_proposed_where_one_explanation_is_left(rivals):
