@@ -314,13 +314,12 @@ class Expecting:
 
     def _effects(self, fitted: Refitted, without: frozenset[str]) -> tuple[list[Effect], list[Places]]:
         """Effects that the readings have, and where their unknowns are."""
-        effects, places, start = [], [], fitted.stated
-        for e in fitted.effects:
+        effects, places = [], []
+        for e, part in fitted.each():
             own, inner = own_unknowns(e, self._place), inner_of(e)
             if own is not None and inner.name not in without:
                 effects.append(inner)
-                places.append(start + own)
-            start += len(e.parameters)
+                places.append(part.start + own)
         return effects, places
 
     @property

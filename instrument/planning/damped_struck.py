@@ -12,7 +12,7 @@ import numpy as np
 
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.plate_poles import PlatePoles
-from fitting.diagnosis.several.of_files import OfFiles
+from fitting.diagnosis.several.of_files import inner_of
 from fitting.diagnosis.several.sharing import (
     CHANNELS,
     OF_EACH_FILE,
@@ -73,16 +73,12 @@ def damped_struck(
     stated = expecting.member.nuisances.specimen
     if not isinstance(stated, Specimen) or stated.boundary != "cantilever" or expecting.struck_already:
         return
-    effects = [[_inner(e) for e in known.fitted.effects] for known in expecting.known]
+    effects = [[inner_of(e) for e in known.fitted.effects] for known in expecting.known]
     if len({frozenset(e.name for e in each if not _of_the_mounting(e)) for each in effects}) > 1:
         hangs = free_specimen(stated, whole_length_m)
         yield from _hung_free(expecting, hangs, [e for each in effects for e in each], settings)
     if any(e.needs >= BASE for each in effects for e in each):
         yield from _in_clamp(expecting, stated, lines)
-
-
-def _inner(effect: Effect) -> Effect:
-    return effect.inner if isinstance(effect, OfFiles) else effect
 
 
 def _of_the_shaker(effect: Effect) -> bool:

@@ -42,19 +42,15 @@ def unsized(fitted: Refitted) -> bool:
     """
     if len(fitted.effects) < _CAUSES:
         return False
-    inner = np.full(len(fitted.u), np.nan)
-    inner[fitted.free] = np.sqrt(np.maximum(np.diag(fitted.covariance)[len(fitted.law.names) :], 0))
-    start = fitted.stated
-    for effect in fitted.effects:
-        own = slice(start, start + len(effect.parameters))
+    errors = fitted.unknown_errors()
+    for effect, own in fitted.each():
         sized = [
             _is_sized(q, float(value), float(error))
-            for q, value, error in zip(effect.parameters, fitted.u[own], inner[own], strict=True)
+            for q, value, error in zip(effect.parameters, fitted.u[own], errors[own], strict=True)
             if q.neutral is not None and not q.fixed
         ]
         if sized and not any(sized):
             return True
-        start = own.stop
     return False
 
 

@@ -220,3 +220,13 @@ def own_unknowns(effect: Effect, place: Place) -> NDArray[np.intp] | None:
     if not isinstance(effect, OfFiles):
         return np.arange(len(effect.parameters))
     return effect.places(place) if effect.holds(place) else None
+
+
+def copies_of(effect: Effect) -> list[NDArray[np.intp]]:
+    """Which of an effect's unknowns are those of `inner_of` it, once for each size that it has.
+
+    Shape (parameters of the inner effect,) each.
+    """
+    count = len(inner_of(effect).parameters)
+    copies = effect.copies if isinstance(effect, OfFiles) else 1
+    return [k * count + np.arange(count) for k in range(copies)]

@@ -171,14 +171,12 @@ def kin_along(
 
 def _inside(fitted: Refitted, plate: EnrichedReducedPlate) -> Mask:
     """Which columns of a fit are of what may move: not at a limit. Shape (columns,)."""
-    kept, start = fitted.weighted()[1], fitted.stated
+    kept = fitted.weighted()[1]
     inside = np.ones(len(fitted.u), bool)
-    for effect in fitted.effects:
-        own = slice(start, start + len(effect.parameters))
+    for effect, own in fitted.each():
         low, high = effect.limits(plate)
         u, size = fitted.u[own], np.maximum(np.abs(fitted.u[own]), _TINY)
         inside[own] = (u - low > _AT * size) & (high - u > _AT * size)
-        start = own.stop
     of_unknowns = inside[fitted.free]
     kept[len(kept) - len(of_unknowns) :] &= of_unknowns
     return kept

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fitting.diagnosis.several.among import among
-from fitting.diagnosis.several.of_files import EACH, OfFiles, Place, inner_of, own_unknowns
+from fitting.diagnosis.several.of_files import EACH, OfFiles, Place, copies_of, inner_of, own_unknowns
 from fitting.effects import CATALOGUE
 
 CLAMP, GAIN, STIFFNESS = (CATALOGUE[n] for n in ("clamp_compliance", "gain_error", "substrate_stiffness"))
@@ -197,3 +197,9 @@ def test_an_effect_s_own_unknowns_are_those_of_its_place_or_none():
     assert own_unknowns(second, Place(1)) is None
     assert own_unknowns(CLAMP, Place(2)).tolist() == [0]
     assert inner_of(second) is inner_of(CLAMP) is CLAMP
+
+
+def test_an_effect_has_the_unknowns_of_the_inner_one_once_for_each_size():
+    assert [own.tolist() for own in copies_of(OfFiles(LINE, 2, EACH))] == [[0, 1], [2, 3]]
+    assert [own.tolist() for own in copies_of(OfFiles(LINE, 2, 2))] == [[0, 1]]
+    assert [own.tolist() for own in copies_of(LINE)] == [[0, 1]]
