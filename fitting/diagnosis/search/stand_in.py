@@ -13,7 +13,9 @@ _CAUSES = 2
 _SIZED = 2.0
 """Standard errors from nothing at which an effect beside another has a size. A choice."""
 _AT = 1e-6
-"""Share of a limit: nearer to it, a fit would go on."""
+"""Share of a limit: nearer to it, a fit would go on. Of the limit itself, unlike in `verdict.kin` and
+`verdict.stage`: only limits away from where the effect is absent are asked, and not all have another beside
+them that is finite."""
 
 
 def stands_in(problem: DiagnosisProblem, fitted: Refitted) -> str:

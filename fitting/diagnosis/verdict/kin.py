@@ -60,7 +60,8 @@ _STRETCH = np.log(2) / 3
 """In ln f: of a third of an octave, as wide as what a resonance of a fixture or of a mass's rocking disturbs
 where it loses a tenth. A choice."""
 _AT = 1e-6
-"""Share of a number: nearer to its limit it may not move."""
+"""Share of a number: nearer to its limit it may not move. Of the number itself, unlike in `verdict.stage` and
+`search.stand_in`: a small one beside a limit of zero has room for more of its own size."""
 _MOST = 600.0
 """Of a logarithm of odds: numbers end there."""
 _Rows = dict[tuple[int, int], Complex]

@@ -23,7 +23,8 @@ from fitting.identification.uncertainty import Uncertainty, limits_reached
 from fitting.identification.validation import Validation
 
 _AT_LIMIT = 1e-6
-"""Of the range between an unknown's limits: nearer to one it sits on it, and its error says nothing."""
+"""Of the range between an unknown's limits: nearer to one it sits on it, and its error says nothing. Of the
+range, unlike in `verdict.kin` and `search.stand_in`: it is what the error is compared with, too."""
 FEW = 9
 """Frequencies at which a candidate's law is listed, and the reference ones."""
 
