@@ -23,8 +23,6 @@ from fitting.digits import seldom, two_digits
 
 _MOST_OF_KIN = 1 - 1e-9
 """Probability: what is listed keeps its order beside it."""
-_HALF_EACH = 0.5
-"""Share of both laws in the band where nothing explains the readings (decision 77)."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +73,7 @@ class Judgement:
         if self.unlisted is None:
             return list(self.group)
         if self.verdict == "unknown":
-            return [(none, _HALF_EACH), (self.unlisted, _HALF_EACH)]
+            return [(none, VERDICT.law_of_none), (self.unlisted, 1 - VERDICT.law_of_none)]
         akin = self.share_of_kin
         listed = [(t, (1 - akin) * share) for t, share in self.group]
         return [*listed, *((t, akin * share) for t, share in self.unlisted.weighing(none))]
