@@ -23,6 +23,7 @@ from instrument.run.live_fit import Fitter
 from instrument.run.part import Part
 from instrument.run.rig import Rig, open_rig
 from instrument.run.runner import Runner
+from instrument.run.striking import Striking
 from instrument.run.sweep_part import SweepPart
 from instrument.session.configuration import Experiment
 from instrument.session.journal import SessionJournal
@@ -151,7 +152,7 @@ class SessionRun:
         if settings is None or hammer is None:
             return
         self._emit(rig.operator.mount("bare"))
-        runner.hammer(settings.hits, hammer.wait_s)
+        Striking(runner, rig, self.analysis, self._emit).bare(settings.hits, hammer.wait_s)
         if self.analysis.damping is None:
             raise RigStopped(_without_a_hit(self.analysis, hammer.wait_s))
 
@@ -162,7 +163,9 @@ class SessionRun:
         assert hammer is not None
         names = [r.name for r in distinct(rig.vibrometer.ranges)]
         calibrated = [k for k, name in enumerate(names) if name in self.analysis.calibrations]
-        runner.strike(max(FEWEST_HITS, settings.hits), hammer.wait_s, names[max(calibrated, default=-1) :])
+        ranges = names[max(calibrated, default=-1) :]
+        wanted = max(FEWEST_HITS, settings.hits)
+        Striking(runner, rig, self.analysis, self._emit).treated(wanted, hammer.wait_s, ranges)
         if self.analysis.struck is before:
             raise RigStopped(_without_a_hit(self.analysis, hammer.wait_s))
 

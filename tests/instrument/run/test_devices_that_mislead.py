@@ -13,6 +13,7 @@ from drivers.errors import DriverError
 from drivers.simulated.lan_xi_measurement import Acquired
 from drivers.vibrometer.polytec_vibrometer import PolytecVibrometer
 from instrument.errors import RigStopped, StoppedByUser
+from instrument.run import watching
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl
 from instrument.run.experiment import run_experiment
@@ -104,7 +105,7 @@ MISLEADS = {
 def test_what_misleads_ends_the_run_before_it_counts(tmp_path, monkeypatch, name):
     mislead, said = MISLEADS[name]
     # The shaker is asked between any two blocks, however fast this computer makes them.
-    monkeypatch.setattr("instrument.run.runner._BEAT_S", 0.0)
+    monkeypatch.setattr(watching, "BEAT_S", 0.0)
     with formula_rig(tmp_path) as (rig, experiment):
         with pytest.raises(RigStopped, match=said):
             run(experiment, tmp_path, companion=RunAtPoint(3, lambda: mislead(rig)))

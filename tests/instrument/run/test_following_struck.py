@@ -22,7 +22,7 @@ from instrument.run.companion import Companion
 from instrument.run.experiment import run_experiment
 from instrument.run.operator import SimulatedOperator
 from instrument.run.replay import replay
-from instrument.run.runner import Runner
+from instrument.run.striking import Striking
 from instrument.session.configuration import read_whole_experiment
 from instrument.session.contents import contents_of
 from instrument.session.journal import JOURNAL
@@ -172,12 +172,12 @@ def test_killed_among_its_blows_it_ends_as_if_it_had_never_been(rig, finished):
 
 
 def test_three_overloads_of_the_laser_one_after_the_other_choose_its_next_range(tmp_path, monkeypatch):
-    strike = Runner.strike
+    strike = Striking.treated
 
     def finely(self, wanted, patience_s, ranges):
         strike(self, wanted, patience_s, ("5mm/s/V", *ranges))
 
-    monkeypatch.setattr(Runner, "strike", finely)
+    monkeypatch.setattr(Striking, "treated", finely)
     with formula_rig(tmp_path, sweep=SWEEP, hammer=True) as (_, experiment):
         found = run(that_strikes(experiment), tmp_path, (STRUCK,))
     events = events_of(found, RangeSet, HitJudged)
