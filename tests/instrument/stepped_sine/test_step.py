@@ -8,7 +8,8 @@ from station import BASE_V, RANGE, RATE, Station, began, of_kind
 
 from instrument.stepped_sine.calibration import Calibration
 from instrument.stepped_sine.settings import Limits, Settle, SweepSettings
-from instrument.stepped_sine.step import StepAnalysis, StepContext
+from instrument.stepped_sine.step import StepAnalysis
+from instrument.stepped_sine.step_context import StepContext
 from instrument.stream.derived import (
     DriveRequested,
     LimitExceeded,
