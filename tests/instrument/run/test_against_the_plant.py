@@ -24,8 +24,8 @@ pytestmark = pytest.mark.usefixtures("warm")
 RATIOS = np.array([0.29, 0.13, 0.18, 0.21, 0.11, 0.07, 0.09, 0.04]) / 100
 
 
-def no_diagnosis(number, last_step, *_):
-    return DiagnosisFound(number, last_step, None, "not diagnosed")
+def no_diagnosis(asked):
+    return DiagnosisFound(asked.number, asked.last_step, None, "not diagnosed")
 
 
 def thinned_case(folder):
