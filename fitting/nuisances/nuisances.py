@@ -18,6 +18,7 @@ from fitting.nuisances.narrow import NarrowResonances
 from fitting.nuisances.nuisance import Nuisance, felt
 from fitting.nuisances.placed import Masses, Placed, PlacedPoints
 from fitting.nuisances.sums import Kept, SideBySide, between
+from fitting.plate.part_counts import PartCounts
 from fitting.plate.parts import coefficients, loaded, names_of
 from fitting.plate.plate_numbers import moved
 from fitting.specimen import PlacedMass, Specimen
@@ -95,7 +96,7 @@ class Nuisances:
         return np.asarray(coefficients(self.reference, self.reference).all)
 
     @cached_property
-    def counts(self) -> tuple[int, int, int]:
+    def counts(self) -> PartCounts:
         """How many parts K_0, K_1 and M have; those of the load follow them."""
         return names_of(self.reference).counts
 
@@ -201,12 +202,7 @@ class Nuisances:
     def change(self, plate: EnrichedReducedPlate, z: Array) -> Change:
         """What they change of a plate that has the parts of `specimen`."""
         c = self.coefficients(z)
-        n_0, n_1, n_M = self.counts
-        K, K_1, M = (
-            np.tensordot(c[a:b], plate.parts[a:b], axes=1)
-            for a, b in ((0, n_0), (n_0, n_0 + n_1), (n_0 + n_1, n_0 + n_1 + n_M))
-        )
-        M, load = M.real, self._load(plate, c) + self._force_change(plate, z)
+        K, K_1, M = self.counts.summed(c, plate.parts)
         moved: Complex | float = 0.0
         if self.narrow:
             s = self._narrow_sides(plate)
@@ -214,8 +210,8 @@ class Nuisances:
         own = Change(
             K=K + moved,
             K_1=K_1.real,
-            M=M,
-            load=load,
+            M=M.real,
+            load=self._load(plate, c) + self._force_change(plate, z),
             observe=self._row_change(plate, z),
             damping=self._damping(len(plate.d), z),
         )
@@ -250,7 +246,7 @@ class Nuisances:
 
     def _load(self, plate: EnrichedReducedPlate, c: Array) -> Array:
         """What the load becomes more. Shape (k,)."""
-        load = c[sum(self.counts) :].real
+        load = c[self.counts.load].real
         return -loaded(float(load[0]) if len(load) == 1 else load, plate.load_part)
 
     def _row_change(self, plate: EnrichedReducedPlate, z: Array) -> Array:
@@ -317,7 +313,7 @@ class Nuisances:
         return found
 
     def _by_load(self, plate: EnrichedReducedPlate, adjoint: Complex, z: Array) -> Complex:
-        by = self.by_coefficients(z)[:, sum(self.counts) :].real
+        by = self.by_coefficients(z)[:, self.counts.load].real
         if plate.load_part.ndim > 1:
             return np.asarray(by @ (plate.load_part @ adjoint.T))
         return np.asarray(by * (adjoint @ plate.load_part))
@@ -332,10 +328,8 @@ class Nuisances:
         self, plate: EnrichedReducedPlate, omega: Array, G: Complex, q: Complex, adjoint: Complex, z: Array
     ) -> Complex:
         each = between(self._kept_parts.of(plate.parts), q, adjoint)
-        n_0, n_1, n_M = self.counts
-        each[n_0 : n_0 + n_1] *= G
-        each[n_0 + n_1 :] *= -(omega**2)
-        by = self.by_coefficients(z)[:, : n_0 + n_1 + n_M]
+        self.counts.weigh(each, G, -(omega**2))
+        by = self.by_coefficients(z)[:, self.counts.matrices]
         found = np.asarray(-(by @ each), dtype=complex)
         for k, row in self.rows_by(plate, z).items():
             found[k] += q @ row

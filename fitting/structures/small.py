@@ -22,6 +22,7 @@ from fitting.errors import OutsideModel
 from fitting.nuisances.nuisance import Nuisance, channels_felt
 from fitting.nuisances.nuisances import STEP, Nuisances, Spot
 from fitting.nuisances.placed import Placed
+from fitting.plate.part_counts import PartCounts
 from fitting.specimen import StatedSpecimen
 
 _STILL = 1e-9
@@ -58,6 +59,11 @@ class Parts:
     def unknowns(self) -> int:
         """How many there are."""
         return len(self.observe)
+
+    @property
+    def counts(self) -> PartCounts:
+        """How many parts each matrix has."""
+        return PartCounts(len(self.K_0), len(self.K_1), len(self.M))
 
 
 class SmallSpecimen(StatedSpecimen, Protocol):
@@ -105,10 +111,10 @@ class SmallNuisances(Nuisances):
         return "pickup" in self.specimen.places
 
     @property
-    def counts(self) -> tuple[int, int, int]:
+    def counts(self) -> PartCounts:
         """How many parts K_0, K_1 and M have."""
         assert self.parts is not None
-        return len(self.parts.K_0), len(self.parts.K_1), len(self.parts.M)
+        return self.parts.counts
 
     @cached_property
     def _of_plate(self) -> list[int]:
@@ -139,12 +145,10 @@ class SmallNuisances(Nuisances):
 
     def _load(self, plate: EnrichedReducedPlate, c: Array) -> Array:
         # Their sign is in the parts.
-        return np.asarray(c[sum(self.counts) :].real @ plate.load_part)
+        return np.asarray(c[self.counts.load].real @ plate.load_part)
 
     def _by_load(self, plate: EnrichedReducedPlate, adjoint: Complex, z: Array) -> Complex:
-        return np.asarray(
-            -self.by_coefficients(z)[:, sum(self.counts) :].real @ (plate.load_part @ adjoint.T)
-        )
+        return np.asarray(-self.by_coefficients(z)[:, self.counts.load].real @ (plate.load_part @ adjoint.T))
 
     def _row_change(self, plate: EnrichedReducedPlate, z: Array) -> Array:
         return super()._row_change(plate, z) if self.reads_at_a_place else np.zeros(len(plate.observe))
@@ -193,7 +197,7 @@ class SmallSystem(EnrichedReducedPlate):
     """As fits and effects take it; it knows how its stated numbers change it."""
 
     stated: SmallSpecimen | None = None
-    counts: tuple[int, int, int] = (0, 0, 0)
+    counts: PartCounts = field(default_factory=PartCounts)
     """How many parts K_0, K_1 and M have."""
 
     def moved(self, by: Mapping[str, float]) -> Change:
@@ -201,12 +205,8 @@ class SmallSystem(EnrichedReducedPlate):
         s = self.stated
         assert s is not None
         c = s.coefficients(by) - s.coefficients({})
-        n_0, n_1, n_M = self.counts
-        K, K_1, M = (
-            np.tensordot(c[a:b], self.parts[a:b], axes=1)
-            for a, b in ((0, n_0), (n_0, n_0 + n_1), (n_0 + n_1, n_0 + n_1 + n_M))
-        )
-        load = c[n_0 + n_1 + n_M :].real @ self.load_part
+        K, K_1, M = self.counts.summed(c, self.parts)
+        load = c[self.counts.load].real @ self.load_part
         return Change(K=_real_where_it_is(K), K_1=K_1.real, M=M.real, load=load)
 
 
@@ -221,17 +221,17 @@ def widened_system_of(
     specimen: SmallSpecimen, parts: Parts, by: Mapping[str, float] | None = None
 ) -> SmallSystem:
     """The same with the unknowns that effects need."""
-    n_0, n_1, n_M = len(parts.K_0), len(parts.K_1), len(parts.M)
+    counts = parts.counts
     c = specimen.coefficients(by or {})
     k = parts.unknowns
     return SmallSystem(
         group=np.full(k, "plate") if parts.group is None else parts.group,
-        M=_sum(c[n_0 + n_1 : n_0 + n_1 + n_M], parts.M, k).real,
-        K_0=_sum(c[:n_0], parts.K_0, k),
-        K_1=_sum(c[n_0 : n_0 + n_1], parts.K_1, k).real,
+        M=_sum(c[counts.M], parts.M, k).real,
+        K_0=_sum(c[counts.K_0], parts.K_0, k),
+        K_1=_sum(c[counts.K_1], parts.K_1, k).real,
         U=np.zeros((k, 0)),
         d=np.zeros(0),
-        load=c[n_0 + n_1 + n_M :].real @ parts.load,
+        load=c[counts.load].real @ parts.load,
         pitch=np.zeros(k) if parts.pitch is None else parts.pitch,
         observe=parts.observe,
         gram=np.eye(k) if parts.gram is None else parts.gram,
@@ -246,7 +246,7 @@ def widened_system_of(
         load_part=parts.load,
         layers=np.zeros((3, 5)),
         stated=specimen,
-        counts=(n_0, n_1, n_M),
+        counts=counts,
     )
 
 
