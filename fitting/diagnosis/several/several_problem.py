@@ -39,7 +39,7 @@ from fitting.identification.validation import rms
 from fitting.laws import CoreLaw
 from fitting.nuisances.nuisances import Nuisances
 from fitting.reduced.reduced_plate import ReducedPlate
-from fitting.specimen import Specimen
+from fitting.specimen import PlacedMass, Specimen
 from fitting.sweep import Sweep
 
 KELVIN = 0.1
@@ -277,6 +277,11 @@ class SharedNuisances(Nuisances):
     first: Nuisances = field(kw_only=True, compare=False)
     places: NDArray[np.intp] = field(kw_only=True, compare=False)
     """Of the first file's among all."""
+
+    @property
+    def masses(self) -> tuple[PlacedMass, ...]:
+        """Those placed on the first file's plate."""
+        return self.first.masses
 
     @cached_property
     def of_bare_plate(self) -> list[int]:
