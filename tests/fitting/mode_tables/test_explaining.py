@@ -8,7 +8,7 @@ from beam_tables import BEAM, FACE, LAW, begun, read
 
 from fitting.diagnosis.inference.refitted import by_chi2
 from fitting.diagnosis.several.of_files import ALIKE, EACH, Place
-rom fitting.mode_tables.standing import standing
+from fitting.mode_tables.standing import standing
 
 STIFF = replace(BEAM, substrate=replace(FACE, young_pa=1.35 * 70e9))
 STIFFER = next(e for e in standing([BEAM]) if e.name == "substrate_stiffness")
