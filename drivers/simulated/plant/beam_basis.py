@@ -84,6 +84,8 @@ def on_basis(
         # modes have, nothing would be left of how it bends.
         held, rigid, forces = held + _SHIFT * M, solid.rigid[free], w.T[free]
         steady = forces - M @ rigid @ np.linalg.solve(rigid.T @ (M @ rigid), rigid.T @ forces)
+    # A force on what a clamp holds moves nothing.
+    steady = steady[:, steady.any(axis=0)]
     parts = []
     for k, G in enumerate(moduli_pa):
         parts.append(motions(held + G * core, M, steady, _MODES, stirred))

@@ -106,11 +106,12 @@ def reduced_beam(
 
 
 def _tip_m(stated: BeamStated) -> float:
-    return 0.0 if stated.ends == "clamped-clamped" else stated.span_m
+    """The free end; of a beam between two clamps its middle."""
+    return stated.span_m / 2 if stated.ends == "clamped-clamped" else stated.span_m
 
 
 def mass_x_m(stated: BeamStated, effects: Effects) -> float:
-    """Where a hidden mass sits, or would sit: at the tip unless it says where."""
+    """Where a hidden mass sits, or would sit: at the tip, or the middle, unless it says where."""
     added = effects.added_mass
     return _tip_m(stated) if added is None or isnan(added.x_m) else added.x_m
 

@@ -95,6 +95,17 @@ def test_a_mass_sits_where_it_is_said_or_at_the_tip_and_a_clamp_may_yield(beam):
         reduced_beam(BEAM, LAW, effects=e.Effects(added_mass=e.AddedMass(1e-3, 0.21)))
 
 
+@pytest.mark.parametrize("ends", ["clamped-free", "clamped-clamped", "centre-driven"])
+@pytest.mark.parametrize("at_m", [None, 0.0])
+def test_a_beam_in_any_mounting_follows_a_slow_base_and_bends_under_a_fast_one(ends, at_m):
+    """Also with a mass where a clamp holds it."""
+    stated = replace(BEAM, ends=ends, spot_x_m=0.07)
+    hidden = e.Effects(added_mass=e.AddedMass(1e-3, at_m)) if at_m is not None else e.Effects()
+    mounted = mounted_beam(stated, reduced_beam(stated, LAW, pieces=6, effects=hidden), LAW, hidden)
+    assert transmissibility(mounted, 1.0) == pytest.approx(1.0, abs=2e-3)
+    assert abs(transmissibility(mounted, 400.0) - 1) > 0.05
+
+
 def test_what_a_structure_cannot_have_is_refused():
     with pytest.raises(ValueError, match="partial_debond: not on a beam"):
         refuse_effects("beam", e.Effects(partial_debond=e.PartialDebond("x", 0.1, 0.2)))
