@@ -1,16 +1,21 @@
 """`viscorig simulate`: the simulated instruments on loopback and pseudo-terminals, for any client."""
 
 import json
+import logging
 import sys
 import time
+from contextlib import ExitStack
 from pathlib import Path
 
 import click
 
 from instrument.cli.stopping import ended_as_by_a_person
+from instrument.errors import BadInput
 from instrument.files.sensor_file import read_rig
 from instrument.progress import bar
 from instrument.simulated_case.simulation import simulated_rig
+
+_log = logging.getLogger(__name__)
 
 _LOOKS_EVERY_S = 0.2
 """Whether it was interrupted."""
@@ -37,12 +42,17 @@ def simulate(rig: Path, virtual_time: bool, log: Path | None, modbus_port: int, 
     """
     document = read_rig(rig)
     ports = modbus_port, frontend_port
-    with (
-        ended_as_by_a_person(),
-        simulated_rig(
-            document, rig, virtual_time=virtual_time, log=log, ports=ports, progress=bar
-        ) as addresses,
-    ):
+    with ended_as_by_a_person(), ExitStack() as stack:
+        try:
+            addresses = stack.enter_context(
+                simulated_rig(document, rig, virtual_time=virtual_time, log=log, ports=ports, progress=bar)
+            )
+        except (ArithmeticError, LookupError, RuntimeError, TypeError, ValueError) as error:
+            _log.debug("%s", rig, exc_info=True)
+            raise BadInput(
+                f"{rig}: [simulation] cannot be built ({type(error).__name__}: {error}): "
+                "are all sizes in its specimen file of the order meant?"
+            ) from None
         click.echo(json.dumps(addresses))
         sys.stdout.flush()
         if virtual_time:

@@ -50,8 +50,8 @@ class AddedMass:
     mass_kg: float
     """0 to 0.02 kg."""
     x_m: float = nan
-    """From the clamp, 0 to 0.3002 m on the published plate. On a beam it may be left out: at its tip, or midway
-    between two clamps."""
+    """From the clamp, 0 to 0.3002 m on the published plate. On a beam it may be left out: at its tip, or
+    midway between two clamps."""
     y_m: float = nan
     """From the long edge y = 0, 0 to 0.1999 m there; of no meaning on a beam."""
 

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -208,3 +209,17 @@ def test_a_missing_experiment_is_one_line_and_exit_2(tmp_path, capsys, cold, com
     assert status == 2
     assert len([line for line in error.splitlines() if line.startswith("viscorig:")]) == 1
     assert "Traceback" not in error
+
+
+def test_a_simulated_rig_that_cannot_be_built_says_so_in_one_line(tmp_path, monkeypatch, capsys):
+    @contextmanager
+    def broken(*_, **__):
+        raise IndexError("index 0 is out of bounds")
+        yield
+
+    write_case(tmp_path, SEGMENTS)
+    monkeypatch.setattr("instrument.cli.simulate.simulated_rig", broken)
+    assert run(["simulate", str(tmp_path / "rig.toml"), "--virtual-time"]) == 2
+    said = capsys.readouterr().err.splitlines()
+    assert len(said) == 1
+    assert "[simulation] cannot be built (IndexError: index 0" in said[0]
