@@ -35,6 +35,8 @@ class Sweep:
     time_s: Array | None = None
     pickup: Integers | None = None
     """Which of several spots each point is of, from 0; None where there is one."""
+    drive_limited: Mask | None = None
+    """Where the drive's limit kept the base from the level asked for: no channel is off there."""
     std_of_dwells: bool = False
     """Whether `std_m_s` was seen within each dwell by whoever measured, not stated in a file."""
 
@@ -56,6 +58,13 @@ class Sweep:
         """Their mean square is one: they choose, they do not change the noise. Shape (points,)."""
         weight = np.ones(len(self)) if self.weight is None else self.weight
         return np.asarray(weight / np.sqrt(np.mean(weight**2)))
+
+    @property
+    def level_m_s2(self) -> Array:
+        """Base acceleration asked for; the measured one where the drive's limit kept it from that."""
+        if self.drive_limited is None or self.base_m_s2 is None:
+            return self.commanded_m_s2
+        return np.where(self.drive_limited, np.abs(self.base_m_s2), self.commanded_m_s2)
 
     @cached_property
     def response_m_s(self) -> NDArray[Any]:

@@ -36,7 +36,12 @@ class LevelOff:
 
 
 def level_error(sweep: Sweep) -> LevelOff | None:
-    """None without a reference channel, or where it is within 1 % or its own scatter of the command."""
+    """None without a reference channel, or where it is within 1 % or its own scatter of the command.
+
+    Points whose level the drive's limit did not let reach tell nothing of the channel.
+    """
+    if sweep.drive_limited is not None:
+        sweep = sweep.take(~sweep.drive_limited)
     if sweep.base_m_s2 is None or len(sweep) < _FEWEST:
         return None
     ratio = np.abs(sweep.base_m_s2) / sweep.commanded_m_s2

@@ -29,7 +29,7 @@ class SessionResult(Result):
     """Of the band in which the law holds."""
     high_hz: MaybeNumber = None
     low_level_m_s2: MaybeNumber = None
-    """Commanded at the base; None where nobody said."""
+    """Commanded at the base; reached, where the drive's limit kept it under that. None where nobody said."""
     high_level_m_s2: MaybeNumber = None
     temperature_range_c: tuple[Number, Number] | None = None
     """Lowest and highest over the points; None where it was not measured."""

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
 
+from fitting.data.level import LEAST_PERCENT
 from fitting.digits import written_out
 from fitting.gravity import STANDARD_GRAVITY_M_S2
 from fitting.identification.quoted import quoted_hz
@@ -29,20 +30,26 @@ class Conditions:
 
     points: int
     level_m_s2: tuple[float, float] | None = None
+    """Asked for; reached, where the drive's limit kept the base from that."""
     temperature_c: tuple[float, float] | None = None
+    short_percent: float = 0.0
+    """Most that the drive's limit kept the base under its level by."""
 
     @classmethod
     def of_points(cls, points: Sequence[PointMeasured]) -> "Conditions":
         """Of a session's steps and sentinels."""
         swept = [p for p in points if p.purpose != "calibration"]
         read = [p.temperature_c for p in swept if p.temperature_c is not None]
-        return cls(len(swept), _range([p.level_m_s2 for p in swept]), _range(read))
+        asked = [p.level_m_s2 for p in swept]
+        reached = [p.level_reached_m_s2 for p in swept]
+        return cls(len(swept), _range(reached), _range(read), _short_percent(asked, reached))
 
     @classmethod
     def of_sweep(cls, sweep: Sweep, temperature_c: float | None = None) -> "Conditions":
         """The conditions that a sweep's file tells of."""
         read = [] if temperature_c is None else [temperature_c]
-        return cls(len(sweep), _range([float(a) for a in sweep.commanded_m_s2]), _range(read))
+        asked, reached = sweep.commanded_m_s2.tolist(), sweep.level_m_s2.tolist()
+        return cls(len(sweep), _range(reached), _range(read), _short_percent(asked, reached))
 
     @classmethod
     def of_diagnosis(cls, found: DiagnosisResult) -> "Conditions":
@@ -180,6 +187,9 @@ def _valid(band: tuple[float, float] | None, conditions: Conditions) -> list[str
     if conditions.level_m_s2 is not None:
         level = _between(conditions.level_m_s2, 1.0, "m/s^2", 4)
         said.append(f"at {level} ({_between(conditions.level_m_s2, 1 / STANDARD_GRAVITY_M_S2, 'g', 3)})")
+    if conditions.short_percent > LEAST_PERCENT:
+        by = written_out(conditions.short_percent, 2)
+        said.append(f"the drive's limit kept the base up to {by} % under its level")
     if conditions.temperature_c is None:
         return [*said, "temperature not known"]
     return [*said, _between(conditions.temperature_c, 1.0, "degC", 3)]
@@ -188,6 +198,11 @@ def _valid(band: tuple[float, float] | None, conditions: Conditions) -> list[str
 def _between(ends: tuple[float, float], scale: float, unit: str, digits: int) -> str:
     low, high = (f"{scale * end:.{digits}g}" for end in ends)
     return f"{low} {unit}" if low == high else f"{low} to {high} {unit}"
+
+
+def _short_percent(asked_m_s2: Sequence[float], reached_m_s2: Sequence[float]) -> float:
+    short = (1 - reached / asked for asked, reached in zip(asked_m_s2, reached_m_s2, strict=True) if asked)
+    return 100 * max(short, default=0.0)
 
 
 def _range(values: Sequence[float]) -> tuple[float, float] | None:

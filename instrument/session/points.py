@@ -81,5 +81,8 @@ def sweep_of(points: Sequence[PointMeasured], times_s: Sequence[float] | None = 
         std_m_s=reading_std_m_s(points),
         time_s=None if times_s is None else np.array(times_s) - min(times_s),
         pickup=np.array([p.pickup for p in points], dtype=np.intp) if any(p.pickup for p in points) else None,
+        drive_limited=np.array([p.drive_limited for p in points])
+        if any(p.drive_limited for p in points)
+        else None,
         std_of_dwells=True,
     )

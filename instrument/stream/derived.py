@@ -14,6 +14,8 @@ from instrument.facts.identification import IdentificationResult
 from instrument.facts.result import Result
 from instrument.stream.event import Derived, Positive
 
+_DRIVE_LIMITED = "drive held at its limit"
+"""How the remark begins that the control of the level makes; `tests/` hold both together."""
 _KEY = "facts_json"
 """Of a result in a line."""
 
@@ -119,6 +121,16 @@ class PointMeasured(Derived):
     """Where it lies; None where there is none."""
     mounting: int = 0
     """How often the plate had been clamped anew."""
+
+    @property
+    def drive_limited(self) -> bool:
+        """Whether the drive's limit kept the base from its level."""
+        return any(r.startswith(_DRIVE_LIMITED) for r in self.remarks)
+
+    @property
+    def level_reached_m_s2(self) -> float:
+        """The level; what the base did, where the drive's limit kept it from that."""
+        return abs(self.base_m_s2) if self.drive_limited else self.level_m_s2
 
     @property
     def base_m_s2(self) -> complex:

@@ -33,6 +33,15 @@ def test_a_reference_off_the_command_is_measured(factor, seed):
     assert found.percent == pytest.approx(100 * (factor - 1), abs=0.3)
 
 
+def test_a_base_that_the_drives_limit_kept_under_its_level_is_no_error_of_its_channel():
+    sweep = sweep_at(np.where(np.arange(90) < 60, 0.86, 1.0))
+    low = np.arange(90) < 60
+    assert level_error(sweep).factor == pytest.approx(0.86, abs=0.01)
+    assert level_error(replace(sweep, drive_limited=low)) is None
+    assert level_error(replace(sweep_at(0.86), drive_limited=low)).factor == pytest.approx(0.86, abs=0.01)
+    assert level_error(replace(sweep, drive_limited=np.ones(90, bool))) is None
+
+
 @given(st.floats(0.992, 1.008), st.integers(0, 1000))
 def test_within_one_percent_it_is_as_commanded(factor, seed):
     assert level_error(sweep_at(factor, seed=seed)) is None

@@ -1,17 +1,20 @@
 """One law and one verdict of a session, whoever says it: the same numbers, as printed."""
 
 import json
+from dataclasses import replace
 
 import pytest
 from diagnosed_session import diagnosed_session
 from diagnosis_cases import diagnosis
 from session_cases import whole_session
+from sessions import point
 
 import viscorig as vr
 from instrument.cli.main import run
 from instrument.results.diagnosis_words import verdict_line
 from instrument.results.session_result import Conditions, recorded_result, result_of
 from instrument.session.contents import contents_of
+from instrument.session.points import sweep_of
 from instrument.session.storage import SessionFile
 from instrument.stream.raw import SessionEnded
 
@@ -172,3 +175,21 @@ def test_a_sweep_that_ended_early_goes_on_as_a_sweep(tmp_path):
     assert "to go on: viscorig run EXPERIMENT.toml" in recorded_result(early).words
     early.damping = None
     assert "to go on: viscorig sweep EXPERIMENT.toml" in recorded_result(early).words
+
+
+def test_the_result_states_the_level_reached_where_the_drives_limit_kept_the_base_under_its_own():
+    remarks = ("drive held at its limit of 5 V", "level -16 % off, limit 1 %")
+    held = [
+        point(k, 20.0 + k, level_m_s2=39.24, base_accel_re_m_s2=base, base_accel_im_m_s2=0.0, remarks=remarks)
+        for k, base in enumerate((33.0, 35.4))
+    ]
+    free = replace(held[0], level_m_s2=33.5, remarks=())
+    found = result_of(None, NOTHING, Conditions.of_points([*held, free]))
+    assert (
+        "at 33 to 35.4 m/s^2 (3.37 to 3.61 g), the drive's limit kept the base up to 16 % under"
+        in found.words
+    )
+    assert (found.low_level_m_s2, found.high_level_m_s2) == (33.0, 35.4)
+    swept = Conditions.of_sweep(sweep_of(held))
+    assert swept == Conditions.of_points(held)
+    assert "limit" not in result_of(None, NOTHING, Conditions.of_points([free])).words

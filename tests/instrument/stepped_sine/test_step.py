@@ -252,6 +252,7 @@ def test_a_drive_at_its_limit_is_marked_not_exceeded():
     events = follow(Station(gain_m_s2_v=1.4), began(drive_v=4.0))
     assert max(e.drive_v for e in of_kind(events, DriveRequested)) <= SETTINGS.limits.drive_v
     assert any("drive held at its limit" in r for r in point_of(events).remarks)
+    assert point_of(events).drive_limited
 
 
 def test_gain_and_delay_of_the_calibration_are_taken_off():
