@@ -1,7 +1,7 @@
 """Between rows of one material and temperature: how far laws lie apart beyond what is not known of each."""
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,14 +9,11 @@ import numpy as np
 from fitting.arrays import Array
 from instrument.batch.columns import Cell
 from instrument.batch.run import BatchRow
-from instrument.batch.taking_part import Group, groups_of, law_of, repeats_among
+from instrument.batch.taking_part import Group, groups_of, repeats_among, taking_part
 from instrument.facts.batch import BatchSpread
 from instrument.material.comparing import RESOLUTION
 from instrument.material.spread import FEWEST, FREQUENCIES, Curves, Spread, spread_of_curves
 from instrument.material.spread_facts import apart_rows, spread_rows
-
-NO_SPREAD = "No three rows of one material, within 1.5 K, have a band in common: no spread is told."
-"""For people."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +75,7 @@ def between_rows(rows: Iterable[BatchRow], repeats: Mapping[int, str] | None = N
     repeats = repeats_among(rows) if repeats is None else repeats
     groups = groups_of(rows)
     bands: dict[Group, list[tuple[float, float]]] = defaultdict(list)
-    for place, _, law in _taking_part(rows, repeats):
+    for place, _, law in taking_part(rows, repeats):
         bands[groups[place]].append((float(law["frequency_hz"][0]), float(law["frequency_hz"][-1])))
     at = {
         group: np.geomspace(low, high, FREQUENCIES)
@@ -86,7 +83,7 @@ def between_rows(rows: Iterable[BatchRow], repeats: Mapping[int, str] | None = N
         if len(some) >= FEWEST and (low := max(b[0] for b in some)) < (high := min(b[1] for b in some))
     }
     found: dict[Group, list[_Curve]] = defaultdict(list)
-    for place, row, law in _taking_part(rows, repeats):
+    for place, row, law in taking_part(rows, repeats):
         if (group := groups[place]) in at:
             found[group].append(_curve(place, row, law, at[group]))
     return [_between(group, at[group], some) for group, some in sorted(found.items(), key=_order)]
@@ -118,15 +115,6 @@ def _between(group: Group, frequency_hz: Array, some: Sequence[_Curve]) -> Betwe
         np.zeros((len(some), 2 * len(frequency_hz))),
     )
     return Between(*group, spread_of_curves(curves), tuple(one.place for one in some))
-
-
-def _taking_part(
-    rows: Iterable[BatchRow], repeats: Mapping[int, str]
-) -> Iterator[tuple[int, BatchRow, dict[str, Array]]]:
-    for place, row in enumerate(rows):
-        law = law_of(row) if place not in repeats else None
-        if law is not None:
-            yield place, row, law
 
 
 def _curve(place: int, row: BatchRow, law: dict[str, Array], frequency_hz: Array) -> _Curve:

@@ -5,7 +5,7 @@ from importlib.metadata import version
 from itertools import islice
 from pathlib import Path, PurePath
 
-from instrument.batch.between import NO_SPREAD, Between
+from instrument.batch.between import Between
 from instrument.batch.columns import Cell, cells
 from instrument.batch.counted import Counted
 from instrument.batch.figure import MOST, laws_figure
@@ -38,8 +38,10 @@ _SHOWN: Sequence[tuple[str, str, float]] = (
 )
 
 
-def write_page(rows: Rows, counted: Counted, between: Sequence[Between], folder: Path) -> Path:
-    """Write the page of a batch; its path."""
+def write_page(
+    rows: Rows, counted: Counted, between: Sequence[Between], without: Sequence[str], folder: Path
+) -> Path:
+    """Write the page of a batch, `without` saying what has no spread; its path."""
     title = f"{counted.rows} rows"
     head = [
         ("done", f"{counted.done} of {counted.rows}"),
@@ -51,7 +53,7 @@ def write_page(rows: Rows, counted: Counted, between: Sequence[Between], folder:
     ]
     sections = [
         ReportSection("Laws", _laws(rows, counted)),
-        ReportSection("Between rows", _between(between)),
+        ReportSection("Between rows", _between(between, without)),
         ReportSection("Verdicts", _verdicts(counted)),
         ReportSection("Failures", _failures(counted)),
         ReportSection("Rows", _rows(rows)),
@@ -70,9 +72,10 @@ def _laws(rows: Rows, counted: Counted) -> tuple[Block, ...]:
     return (FigureBlock(laws_figure(rows, counted.done), said),)
 
 
-def _between(between: Sequence[Between]) -> tuple[Block, ...]:
+def _between(between: Sequence[Between], without: Sequence[str]) -> tuple[Block, ...]:
+    missed = tuple(Sentence(line, "note") for line in without)
     if not between:
-        return (Sentence(NO_SPREAD, "note"),)
+        return missed
     shown = [
         (
             one.material or "",
@@ -102,7 +105,7 @@ def _between(between: Sequence[Between]) -> tuple[Block, ...]:
         "about it, what is not known of each row taken off. A tolerance that all rows share is not in it."
     )
     apart = [Sentence(line, "note") for one in between if one.spread.apart for line in one.lines[1:]]
-    return (Sentence(said), *apart, TableBlock("", heads, tuple(shown)))
+    return (Sentence(said), *apart, *missed, TableBlock("", heads, tuple(shown)))
 
 
 def _percent(spread: SpreadSize) -> str:

@@ -2,7 +2,7 @@
 
 import os
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
 
@@ -60,6 +60,19 @@ def law_of(row: BatchRow) -> dict[str, Array] | None:
     if not law or not all(np.isfinite(v).all() for v in law.values()) or np.any(law["loss_factor"] <= 0):
         return None
     return law
+
+
+def taking_part(
+    rows: Iterable[BatchRow], repeats: Mapping[int, str]
+) -> Iterator[tuple[int, BatchRow, dict[str, Array]]]:
+    """Place, row and law of those that have one to believe and repeat no other.
+
+    Shape (frequencies,) each column of a law.
+    """
+    for place, row in enumerate(rows):
+        law = law_of(row) if place not in repeats else None
+        if law is not None:
+            yield place, row, law
 
 
 _SAVED_AGAIN = 1e-4

@@ -5,8 +5,9 @@ from pathlib import Path
 import click
 
 from instrument.batch.asking import tasks_of
-from instrument.batch.between import NO_SPREAD, between_rows, marks_of
+from instrument.batch.between import between_rows, marks_of
 from instrument.batch.counted import Counted
+from instrument.batch.no_band import without_spread
 from instrument.batch.page import write_page
 from instrument.batch.run import here, run_batch, there
 from instrument.batch.table import CSV, write_tables
@@ -85,7 +86,9 @@ def batch(
         repeats = repeats_among(rows)
         between = between_rows(rows, repeats)
         marks = marks_of(between, repeats)
-        written = [*write_tables(rows, folder, marks), write_page(rows, counted, between, folder)]
+        without = without_spread(rows, repeats, len(between))
+        page = write_page(rows, counted, between, without, folder)
+        written = [*write_tables(rows, folder, marks), page]
         repeated = rows.repeated
     twice = [(tasks[place].data, first) for place, first in repeats.items()]
     _say(out, counted, repeated)
@@ -98,8 +101,8 @@ def batch(
     for one in between:
         for line in one.lines:
             out.say(line)
-    if not between and counted.done >= FEWEST:
-        out.say(NO_SPREAD)
+    for line in without if counted.done >= FEWEST else ():
+        out.say(line)
     for path in written:
         out.say(f"wrote {path}")
     out.result(counted.result(repeated, written, between, twice))

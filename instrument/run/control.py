@@ -14,6 +14,8 @@ class RunControl:
         self._interrupted = False
         self._declines = threading.Event()
         self._words: deque[tuple[Literal["add", "end"], float | None]] = deque()
+        self.chooses_steps = False
+        """Whether the sweep chooses its own: only such a one heeds words to its plan."""
 
     def hold(self) -> None:
         """Silence the shaker and wait; the step begun is measured again on resuming."""

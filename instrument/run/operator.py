@@ -1,5 +1,6 @@
 """The operator: what only a person can do, asked for in words; or a stand-in where the rig is simulated."""
 
+import os
 import select
 import sys
 from typing import Literal, Protocol
@@ -68,19 +69,22 @@ def decision(line: str) -> OperatorDid | None:
     return OperatorDid(meanings[words[0]], "", int(words[1]) if len(words) == 2 else 0)
 
 
-def overruling(line: str, control: RunControl) -> bool:
-    """Do what a typed line asks of a sweep; False where it means nothing."""
+def overruling(line: str, control: RunControl) -> str:
+    """Do what a typed line asks of a sweep; what there is to say to it, empty where it was done."""
     words = line.split()
     match words:
         case ["s"]:
             control.decline()
+        case ["e" | "+", *_] if not control.chooses_steps:
+            return f"{words[0]} is for a sweep that chooses its own steps; this one leaves a step out by s"
         case ["e"]:
             control.overrule("end")
         case ["+", said] if _frequency(said) is not None:
             control.overrule("add", _frequency(said))
         case _:
-            return False
-    return True
+            more = ", + 45.2 (add a step) or e (end)" if control.chooses_steps else ""
+            return f"expected s (leave this step out){more}"
+    return ""
 
 
 def _frequency(said: str) -> float | None:
@@ -100,6 +104,24 @@ def follow_up_words(offer: FollowUp) -> str:
 
 def _at_a_terminal() -> bool:
     return sys.stdin is not None and not sys.stdin.closed and sys.stdin.isatty()
+
+
+def _heed_typed(control: RunControl) -> None:
+    """Do what lines typed meanwhile ask of a sweep."""
+    while _at_a_terminal() and _in_front() and select.select([sys.stdin], [], [], 0)[0]:
+        line = sys.stdin.readline()
+        if not line:
+            return
+        if line.strip() and (said := overruling(line, control)):
+            click.echo(said, err=True)
+
+
+def _in_front() -> bool:
+    """Whether what is typed is for this job: one in the background would be stopped for reading it."""
+    try:
+        return os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp()
+    except OSError:
+        return False
 
 
 _TYPED = "r rejects the last hit, a accepts, u undoes; r 2 the second; then Enter"
@@ -167,12 +189,7 @@ class Person:
 
     def overrule(self, control: RunControl) -> None:
         """Lines typed meanwhile: s leaves the step out, + 45.2 adds one, e ends the sweep."""
-        while _at_a_terminal() and select.select([sys.stdin], [], [], 0)[0]:
-            line = sys.stdin.readline()
-            if not line:
-                return
-            if line.strip() and not overruling(line, control):
-                click.echo("expected s (leave this step out), + 45.2 (add a step) or e (end)", err=True)
+        _heed_typed(control)
 
     def _ask(self, text: str) -> None:
         click.echo(f"{text} ... ", err=True, nl=False)
@@ -232,7 +249,8 @@ class SimulatedOperator:
         return OperatorDid("changed", offer.todo)
 
     def overrule(self, control: RunControl) -> None:
-        """Never: what is chosen is measured."""
+        """Of itself never; who sits at the terminal may, as on a real rig."""
+        _heed_typed(control)
 
     def _strike(
         self, struck_mm: tuple[float, float], spot_mm: tuple[float, float] | None, *, free: bool

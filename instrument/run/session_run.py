@@ -124,6 +124,7 @@ class SessionRun:
 
     def _prepare(self) -> None:
         if self._sweep is not None and self._sweep.table.plan == "adaptive":
+            self._request.control.chooses_steps = True
             with self._request.progress("models of the adaptive sweep"):
                 self._sweep.prepare()
 

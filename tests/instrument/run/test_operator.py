@@ -1,5 +1,7 @@
 """What is typed during a hammer test, and what the simulated rig's person does."""
 
+import os
+import pty
 import threading
 from http.server import BaseHTTPRequestHandler, HTTPServer
 
@@ -38,7 +40,8 @@ def test_nobody_at_the_terminal_ends_the_run_with_what_was_asked(monkeypatch):
 
 def test_typed_words_overrule_a_sweep():
     control = RunControl()
-    assert all(overruling(typed, control) for typed in ("s\n", "+ 45.2\n", "e\n"))
+    control.chooses_steps = True
+    assert not any(overruling(typed, control) for typed in ("s\n", "+ 45.2\n", "e\n"))
     assert control.declined()
     assert not control.declined()
     assert [control.word(), control.word(), control.word()] == [("add", 45.2), ("end", None), None]
@@ -47,8 +50,38 @@ def test_typed_words_overrule_a_sweep():
 @pytest.mark.parametrize("typed", ["", "x", "+", "+ -3", "+ nan", "+ 1 2", "s 3"])
 def test_other_words_overrule_nothing(typed):
     control = RunControl()
-    assert not overruling(typed, control)
+    control.chooses_steps = True
+    assert overruling(typed, control) == "expected s (leave this step out), + 45.2 (add a step) or e (end)"
     assert control.word() is None
+
+
+@pytest.mark.parametrize(("typed", "said"), [("e", "e is for"), ("+ 45", "+ is for"), ("x", "expected s (")])
+def test_a_sweep_of_fixed_steps_hints_at_nothing_that_it_does_not_do(typed, said):
+    control = RunControl()
+    answer = overruling(typed, control)
+    assert answer.startswith(said)
+    assert "(end)" not in answer
+    assert control.word() is None
+    assert not overruling("s", control)
+    assert control.declined()
+
+
+@pytest.mark.parametrize("operator", [Person(), SimulatedOperator("", (0.0, 0.0), (0.0, 0.0))])
+def test_a_step_is_left_out_from_the_terminal_whoever_operates(operator, monkeypatch):
+    master, terminal = pty.openpty()
+    control = RunControl()
+    with os.fdopen(terminal) as stdin:
+        monkeypatch.setattr("sys.stdin", stdin)
+        monkeypatch.setattr("os.tcgetpgrp", lambda _: os.getpgrp())
+        os.write(master, b"s\n")
+        operator.overrule(control)
+        assert control.declined()
+        # What is typed while the job is in the background is for another.
+        monkeypatch.setattr("os.tcgetpgrp", lambda _: os.getpgrp() + 1)
+        os.write(master, b"s\n")
+        operator.overrule(control)
+        assert not control.declined()
+    os.close(master)
 
 
 def test_the_simulated_rig_is_reached_past_a_proxy_of_the_environment(monkeypatch):
