@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from drivers.simulated.climate import HIGHEST_C, LOWEST_C
 from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Specimen
@@ -112,6 +113,8 @@ def _temperature(experiment: Experiment) -> Iterator[str]:
         yield f"{place}: {experiment.rig_path} has no [chamber], expected one with a set point"
     elif not chamber.has_set_point:
         yield f"{place}: [chamber] of {experiment.rig_path} is a thermometer, expected one with a set point"
+    elif experiment.rig.is_simulated and not LOWEST_C <= asked.set_point_c <= HIGHEST_C:
+        yield f"{place}: the simulated chamber goes from {LOWEST_C:g} to {HIGHEST_C:g} degC, expected within"
 
 
 def _hammer(experiment: Experiment) -> Iterator[str]:

@@ -24,6 +24,7 @@ from instrument.run.live_fit import Fitter
 from instrument.run.part import Part
 from instrument.run.rig import Rig, open_rig
 from instrument.run.runner import Runner
+from instrument.run.soaking import ask_set_point
 from instrument.run.striking import Striking
 from instrument.run.sweep_part import SweepPart
 from instrument.session.configuration import Experiment
@@ -139,6 +140,8 @@ class SessionRun:
             )
         )
         _clear_heartbeat_alarm(rig)
+        if self._sweep is not None:
+            ask_set_point(rig, self._experiment.document.temperature)
         choice = self._sweep.choice if self._sweep else None
         runner = Runner(rig, self.analysis, self._emit, self._request.control, self._setup.sweep, choice)
         if "hammer" in self._request.parts and self.analysis.damping is None:

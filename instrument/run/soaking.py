@@ -6,7 +6,7 @@ Time is that of the samples, which are read and let go of: nothing of a soak is 
 from collections.abc import Callable
 from contextlib import suppress
 
-from drivers.errors import DriverError
+from drivers.errors import DriverError, Refused
 from drivers.front_end import InputChannel
 from instrument.errors import RigStopped
 from instrument.files.experiment_file import TemperatureTable
@@ -91,6 +91,28 @@ class Soaking:
             block = front_end.read(max(1, round(wanted_s * front_end.sample_rate_hz)))
             passed_s += block.samples / front_end.sample_rate_hz
         return passed_s
+
+
+def ask_set_point(rig: Rig, wanted: TemperatureTable | None) -> None:
+    """Whether the chamber takes the set point, asked before anything moves; it goes back to the one it had.
+
+    Raises `RigStopped` where it does not, `DriverError`.
+    """
+    chamber = rig.chamber
+    if wanted is None or chamber is None:
+        return
+    before = chamber.set_point_c()
+    try:
+        chamber.go_to(wanted.set_point_c)
+    except Refused as error:
+        raise RigStopped(
+            f"{error}: is temperature.set_point_c = {wanted.set_point_c:g} within the chamber's range? set "
+            "it there, or the chamber's own limits, and begin a new run"
+        ) from None
+    finally:
+        if before is not None:
+            with suppress(DriverError):
+                chamber.go_to(before)
 
 
 def read_temperature(rig: Rig, soak_s: float | None = None) -> TemperatureRead | None:

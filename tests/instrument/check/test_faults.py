@@ -205,3 +205,18 @@ def test_so_is_a_rig_which_hears_what_asks_its_instruments():
     (said,) = all_faults(path)
     assert said.startswith(f"{path}: a rig, expected an experiment")
     assert "'viscorig doctor'" in said
+
+
+def test_a_set_point_that_the_simulated_chamber_does_not_reach_is_refused(tmp_path):
+    chamber = CHAMBER + "set_point_register = 300\n\n"
+    for asked, said in (("30.0", False), ("60.0", True)):
+        (tmp_path / asked).mkdir()
+        soak = SOAK.replace("30.0", asked)
+        found = objections(
+            tmp_path / asked,
+            experiment={"[sweep]\n": f"{soak}\n[sweep]\n"},
+            rig={"[operator]\n": f"{chamber}[operator]\n"},
+        )
+        assert (
+            any("set_point_c = 60: the simulated chamber goes from 0 to 50" in one for one in found) == said
+        )

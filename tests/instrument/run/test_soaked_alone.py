@@ -4,11 +4,11 @@ from types import SimpleNamespace
 
 import pytest
 
-from drivers.errors import DriverError
+from drivers.errors import DriverError, Refused
 from instrument.errors import RigStopped
 from instrument.files.experiment_file import TemperatureTable
 from instrument.run.control import RunControl
-from instrument.run.soaking import Soaking, read_temperature
+from instrument.run.soaking import Soaking, ask_set_point, read_temperature
 from instrument.stream.raw import Held, SoakBegan, SoakEnded, TemperatureRead
 
 RATE = 1000.0
@@ -146,3 +146,31 @@ def test_a_rig_without_a_chamber_cannot_be_brought_anywhere_and_reads_nothing():
     assert read_temperature(world.rig) is None
     world = World(21.5)
     assert read_temperature(world.rig) == TemperatureRead(21.5, 20.0, None)
+
+
+def test_a_set_point_is_asked_for_and_taken_back():
+    asked = []
+
+    class Asked(Chamber):
+        def go_to(self, set_point_c):
+            asked.append(set_point_c)
+            return super().go_to(set_point_c)
+
+    ask_set_point(SimpleNamespace(chamber=Asked(22.0)), WANTED)
+    assert asked == [30.0, 20.0]
+    ask_set_point(SimpleNamespace(chamber=Asked(22.0)), None)
+    ask_set_point(SimpleNamespace(chamber=None), WANTED)
+    assert asked == [30.0, 20.0]
+
+
+def test_one_that_is_refused_names_the_key_and_leaves_the_old_one():
+    class Small(Chamber):
+        def go_to(self, set_point_c):
+            if set_point_c > 25.0:
+                raise Refused("chamber at X: refused")
+            return super().go_to(set_point_c)
+
+    chamber = Small(22.0)
+    with pytest.raises(RigStopped, match=r"^chamber at X: refused: is temperature\.set_point_c = 30 within"):
+        ask_set_point(SimpleNamespace(chamber=chamber), WANTED)
+    assert chamber.set_point == 20.0

@@ -214,13 +214,27 @@ def test_a_chamber_that_does_not_get_there_stops_the_run_with_its_cure(tmp_path)
     )
 
 
-def test_a_chamber_that_refuses_the_set_point_stops_the_run(tmp_path):
+def test_a_chamber_that_refuses_the_set_point_stops_the_run_before_anything_is_measured(tmp_path):
     wanted = WANTED.replace("35.0", "80.0")
+    begun = Begun()
     with (
         formula_rig(tmp_path, sweep=SWEEP, temperature=wanted, chamber=chamber()) as (_, experiment),
-        pytest.raises(RigStopped, match=r"^chamber at .*writing set point 80 °C: refused[^\n]*$"),
+        pytest.raises(RigStopped, match=r"^chamber at .*writing set point 80 °C: refused[^\n]*$") as stop,
     ):
-        run(experiment, tmp_path)
+        run(experiment, tmp_path, companion=begun)
+    assert begun.steps == 0
+    assert "is temperature.set_point_c = 80 within the chamber's range?" in str(stop.value)
+    assert "begin a new run; nothing was measured" in str(stop.value)
+    assert "--resume" not in str(stop.value)
+
+
+class Begun(Companion):
+    """Counts the steps that are begun."""
+
+    steps = 0
+
+    def happened(self, event):
+        self.steps += isinstance(event, StepBegan)
 
 
 def test_a_chamber_unplugged_in_the_sweep_stops_the_run_and_keeps_what_there_is(tmp_path):
