@@ -8,15 +8,15 @@ from dataclasses import replace
 from fitting.errors import TooFewPoints
 from instrument.hammer_test.analysis import HammerAnalysis
 from instrument.hammer_test.struck import StruckAnalysis
+from instrument.run.refused_calibration import refused
 from instrument.session.setup import Setup
-from instrument.stepped_sine.calibration import Calibration, calibrate, phase_left
+from instrument.stepped_sine.calibration import Calibration, calibrate
 from instrument.stepped_sine.step import StepAnalysis
 from instrument.stepped_sine.step_context import StepContext
 from instrument.stream.clock import SessionClock
 from instrument.stream.derived import (
     CalibrationFound,
     DampingFound,
-    LimitExceeded,
     PointMeasured,
     SentinelCompared,
     StruckFound,
@@ -42,12 +42,6 @@ from instrument.stream.raw import (
     TemperatureRead,
 )
 from instrument.stream.scaling import Scaling
-
-_MOST_GAIN, _MOST_GAIN_STD = 0.3, 0.05
-"""Off one, and uncertain, relative: beyond these a calibration is none."""
-_MOST_PHASE_RAD = 0.2
-"""Root mean square that a delay may leave of a calibration's phases: a sensor turned round leaves one or
-more, a base that rocks some hundredths. A choice."""
 
 
 class Analysis:
@@ -179,7 +173,7 @@ class Analysis:
                 self._calibration_points = [
                     p for p in self._calibration_points if p.range_name != event.range_name
                 ]
-                return _refused(event, own)
+                return refused(event, own)
             case DampingFound():
                 self.damping = event
             case StruckFound():
@@ -287,22 +281,6 @@ class Analysis:
     def _scaling(self) -> Scaling:
         assert self._acquisition is not None
         return Scaling.of(self._acquisition.channels, self._setup.sensors.named())
-
-
-def _refused(found: CalibrationFound, points: list[PointMeasured]) -> list[Derived]:
-    """What no laser on the base gives."""
-    remedy = "is the laser on the base beside the accelerometer? are both sensitivities right?"
-    off = max(abs(found.gain - 1) / _MOST_GAIN, found.gain_std / found.gain / _MOST_GAIN_STD)
-    if off > 1:
-        gain = f"gain {found.gain:.3g} +- {found.gain_std:.2g}, times the likely"
-        return [LimitExceeded(0, f"calibration in {found.range_name}: {gain}", off, 1.0, "", remedy)]
-    left, turned = phase_left(points, found.delay_s) if points else (0.0, False)
-    if left <= _MOST_PHASE_RAD:
-        return []
-    if turned:
-        remedy = "one of the two faces the other way: invert = true of the accelerometer's or laser's channel"
-    what = f"calibration in {found.range_name}: phase that no delay explains"
-    return [LimitExceeded(0, what, left, _MOST_PHASE_RAD, "rad", remedy)]
 
 
 def sentinel_compared(first: PointMeasured, again: PointMeasured) -> SentinelCompared:

@@ -10,10 +10,14 @@ _SHOWN = 80
 """Letters of a value."""
 _SAID_SINCE = ("next_measurements", "unseen")
 """Of a diagnosis: what a recording of an older version does not have is not compared."""
+_ONCE_SAID = ("times the likely", "base acceleration under its level")
+"""How a version before this one said why it stopped: the same stop in other words and numbers."""
 
 
 def as_known_then(computed: Event, recorded: Event) -> Event:
     """What was computed, without what limits and diagnoses say only since the recording's version."""
+    if isinstance(recorded, LimitExceeded) and any(said in recorded.what for said in _ONCE_SAID):
+        return recorded if isinstance(computed, LimitExceeded) else computed
     if isinstance(computed, LimitWarned | LimitExceeded) and getattr(recorded, "frequency_hz", None) == 0:
         return replace(computed, frequency_hz=0.0)
     if not isinstance(computed, DiagnosisFound) or not isinstance(recorded, DiagnosisFound):

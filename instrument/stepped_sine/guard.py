@@ -66,6 +66,19 @@ class Guard:
         remedy = "the drive does not follow its model; check the loop, or widen control.abort_percent"
         return [self.stop("base acceleration over its level", base_m_s2, highest, "m/s^2", remedy)]
 
+    def under_level(self, base_m_s2: float, level_m_s2: float) -> LimitExceeded:
+        """A level that is not reached, whatever the drive may do."""
+        key = "[sweep.calibration] level_g" if self._began.purpose == "calibration" else "[sweep] level_g"
+        return self.stop(
+            f"{_BASE} under the {level_m_s2:.4g} m/s^2 of {key}, short by",
+            level_m_s2 - base_m_s2,
+            self._settings.control.abort * level_m_s2,
+            "m/s^2",
+            "is the accelerometer on the base, its sensitivity_mv_per_unit right? where that is too high, "
+            "the base moves more than it says; only if both are, lower that level_g, or raise limits.drive_v "
+            "as far as the shaker allows",
+        )
+
     def _near(self, what: str, value: float, limit: float, unit: str) -> list[Derived]:
         if value <= self._settings.limits.warn * limit or what in self._warned:
             return []

@@ -183,9 +183,7 @@ class StepAnalysis:
                 base = float(abs(fit.phasor[0]))
                 return self._control.correct_in_dwell(base, error, self._command_drive())
             if abs(error) > self._settings.control.abort:
-                level, base = self._control.level_m_s2, abs(fit.phasor[0])
-                what, remedy = "base acceleration under its level", "lower the level or raise the drive limit"
-                return [self._guard.stop(what, float(base), level, "m/s^2", remedy)]
+                return [self._guard.under_level(float(abs(fit.phasor[0])), self._control.level_m_s2)]
             self._remarks.append(f"level {100 * error:+.2g} % off, limit {self._tolerance_percent:.2g} %")
         if unsound := self._unsound(first, x, fit):
             return unsound

@@ -34,3 +34,11 @@ def test_a_limit_recorded_before_it_named_its_frequency_is_as_it_was():
     assert as_known_then(computed, computed) == computed
     assert recorded.message == "step 7: velocity 1.2 m/s, limit 1 m/s: lower the level"
     assert computed.message.startswith("at 160 Hz: velocity 1.2 m/s")
+
+
+def test_a_stop_that_an_older_version_said_in_other_words_is_the_same():
+    older = LimitExceeded(0, "calibration in A: gain 0.1 +- 0.001, times the likely", 3.0, 1.0, "", "why?")
+    computed = LimitExceeded(0, "calibration in A: the laser's velocity is", 0.1, 0.7, "", "a factor of 10")
+    assert as_known_then(computed, older) == older
+    assert as_known_then(computed, replace(computed, value=0.2)) == computed
+    assert as_known_then(found(1.0), older) == found(1.0)

@@ -397,3 +397,13 @@ def test_a_receipt_that_counts_other_samples_is_taken_for_one_without(sample):
     analysis.commanded(replace(command, sample=sample))
     ramped_s = SETTINGS.latency_s + SETTINGS.control.ramp_s
     assert analysis.wanted() == pytest.approx((ramped_s + SETTINGS.block_s(20.0)) * RATE, abs=2)
+
+
+@pytest.mark.parametrize(("purpose", "key"), [("calibration", "[sweep.calibration]"), ("step", "[sweep]")])
+def test_a_level_far_out_of_reach_names_its_key_and_asks_for_the_sensitivity_first(purpose, key):
+    events = follow(Station(gain_m_s2_v=0.6), began(drive_v=5.0, purpose=purpose))
+    (stop,) = of_kind(events, LimitExceeded)
+    said = stop.message
+    assert f"under the 9.81 m/s^2 of {key} level_g, short by 6.81" in said
+    assert "limit 4.905 m/s^2: is the accelerometer" in said
+    assert said.index("sensitivity_mv_per_unit") < said.index("limits.drive_v")
