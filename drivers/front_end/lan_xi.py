@@ -14,7 +14,6 @@ import time
 from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any, NoReturn
-from urllib.parse import urlsplit
 
 import httpx
 import numpy as np
@@ -22,6 +21,7 @@ import numpy as np
 from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
 from drivers.front_end import lan_xi_documents as documents
 from drivers.front_end.interface import Block, InputChannel, Transducer
+from drivers.front_end.lan_xi_address import host_of
 from drivers.front_end.lan_xi_documents import ChannelSetup
 from drivers.front_end.lan_xi_frames import Decoder
 from drivers.front_end.lan_xi_stream import StreamReader
@@ -68,10 +68,10 @@ class LanXiFrontEnd:
         take_over: bool = True,
     ) -> None:
         self._url, self._timeout_s, self._paced = url.rstrip("/"), timeout_s, paced_by_reader
-        parts = urlsplit(self._url)
-        if parts.scheme != "http" or not parts.hostname:
-            raise Refused(f"{self._me}: expected http://<address>")
-        self._host = parts.hostname
+        try:
+            self._host = host_of(self._url)
+        except ValueError as error:
+            raise Refused(f"LAN-XI: {error}") from None
         # Instruments sit on the local network: a proxy from the environment leads away from them. They
         # know no HTTPS, so there are no certificates to read.
         self._http = httpx.Client(

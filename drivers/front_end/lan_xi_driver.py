@@ -1,9 +1,12 @@
 """Front-ends of the kind `lan-xi`."""
 
-from typing import Literal
+from typing import Literal, Self
+
+from pydantic import model_validator
 
 from drivers.front_end.driver import FrontEndDriver, FrontEndOptions
 from drivers.front_end.interface import FrontEnd
+from drivers.front_end.lan_xi_address import host_of
 
 
 class LanXiOptions(FrontEndOptions):
@@ -12,6 +15,12 @@ class LanXiOptions(FrontEndOptions):
     kind: Literal["lan-xi"] = "lan-xi"
     address: str
     """The module's URL."""
+
+    @model_validator(mode="after")
+    def _reachable(self) -> Self:
+        if self.is_addressed:
+            host_of(self.address)
+        return self
 
 
 class LanXiDriver(FrontEndDriver[LanXiOptions]):

@@ -287,7 +287,7 @@ def test_nobody_there_is_unreachable(source):
 
 
 def test_an_address_that_is_none_is_refused():
-    with pytest.raises(Refused, match="expected http://<address>"):
+    with pytest.raises(Refused, match="expected http://<host>"):
         LanXiFrontEnd("192.168.1.5")
 
 
