@@ -174,6 +174,16 @@ class DiagnosisProblem:
         return 1.0
 
     @property
+    def misfit(self) -> float:
+        """Of the reading, relative: what a fit has left that nothing explains."""
+        return 0.0
+
+    @property
+    def errs_in_level(self) -> bool:
+        """Whether files differ by levels, of gain, phase and the core's modulus, where noise leaves more."""
+        return False
+
+    @property
     def errs_as_found(self) -> bool:
         """Whether what the model gets wrong is asked where the stated numbers are found (`as_found`).
 

@@ -139,6 +139,11 @@ class SmallProblem(DiagnosisProblem):
         return Noise(np.hypot(noise.std_m_s, more) if noise.is_known else more, "misfit")
 
     @property
+    def errs_in_level(self) -> bool:
+        """Those of small structures do."""
+        return True
+
+    @property
     def errs_as_found(self) -> bool:
         """A beam's: a resonance is narrower than its stated numbers may be off."""
         return self.specimen.kind == "beam" and len(self.nuisances) > 0

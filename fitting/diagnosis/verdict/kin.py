@@ -29,7 +29,7 @@ from fitting.diagnosis.problem.narrow_resonances import BESIDE, loss_of, with_si
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
 from fitting.diagnosis.several.responses import response_of
-from fitting.diagnosis.several.several_problem import SeveralResponse
+from fitting.diagnosis.several.several_response import SeveralResponse
 from fitting.diagnosis.thresholds import KIN, VERDICT
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
