@@ -294,7 +294,7 @@ def points_of(sweep: Sweep, specimen: StatedSpecimen) -> Points:
         if specimen.drive == "force" and sweep.base_m_s2 is not None
         else None,
         segment=sweep.segment,
-        mass_kg=getattr(specimen, "mass_kg", None),
+        mass_kg=specimen.carried_kg,
     )
 
 

@@ -100,7 +100,8 @@ class Search:
             [e for e in some if e.objection(problem.points, problem.plate) is None]
             for some in (effects, unnamed)
         )
-        self._objected = {e.name for e in effects} - {e.name for e in self.effects}
+        self.objected = tuple(e for e in effects if e not in self.effects)
+        """Effects that were asked for, and that these data cannot carry."""
         self.passing_for_a_law = tuple(e.name for e in effects if e.passes_for_a_law(problem.points))
         """Effects that these data would show as another law."""
         fitted = [e for e in (*self.effects, *self.unnamed) if not e.laws(stated, problem.points)]
@@ -114,16 +115,12 @@ class Search:
         """Least chi-square of each effect by itself."""
         self.none = self.judged(none)
 
-    def objects_to(self, name: str) -> bool:
-        """Whether an effect was asked for, and these data cannot carry it."""
-        return name in self._objected
-
     def with_evidence(self, evidence: Evidence) -> "Search":
         """The same search of data that are worth something else."""
         none = self.none.fitted
         again = refit(response_of(self.problem, ()), evidence, none.law, none.u)
         search = Search(self.problem, evidence, again, self.effects, self.executor, self.unnamed)
-        search._objected = self._objected
+        search.objected = self.objected
         return search
 
     def judged(self, fitted: Refitted) -> ScoredFit:
