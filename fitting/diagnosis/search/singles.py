@@ -7,7 +7,7 @@ import numpy as np
 from fitting.diagnosis.inference.refitted import Refitted, by_chi2
 from fitting.diagnosis.search.asked import BesideBest, Form, FormFit, FormStart, OfEffect, OfForm, ToFollow
 from fitting.diagnosis.search.candidate_fits import FirstLook
-from fitting.diagnosis.search.candidates import Known, is_over_decades
+from fitting.diagnosis.search.candidates import CandidateState, is_over_decades
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search, by_cost
 from fitting.diagnosis.search.looks import has_place
 from fitting.diagnosis.thresholds import SEARCH, STARTS, STOPPING, VERDICT
@@ -73,7 +73,7 @@ class Singles:
         for (form, *_), fitted in zip(asked, self._followed(asked), strict=True):
             found.setdefault(form, []).append(fitted)
         for (name, number), fits in found.items():
-            work.candidates[name][number].learn(Known(elsewhere=sorted(fits, key=by_chi2)))
+            work.candidates[name][number].learn(CandidateState(elsewhere=sorted(fits, key=by_chi2)))
         if astray:
             self._look_far(names)
 
