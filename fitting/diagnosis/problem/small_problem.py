@@ -30,7 +30,8 @@ from fitting.sweep import Sweep
 _PLACES, _FEWEST = 24, 8
 """Frequencies that a beam's first sum is made to hold at, four to each resonance; the least of a band."""
 _SIZES, _ANGLES = (0.01, 0.1, 0.5, 2.0, 10.0, 100.0), (0.1, 0.8, 1.4)
-"""And moduli, over a size and by argument: a decade or less apart, from hardly any loss to mostly loss."""
+"""Moduli that it is made to hold at: sizes, over the law's, times arguments in rad. A decade or less apart,
+from hardly any loss to mostly loss."""
 _LEFT_OUT = 5e-7
 """Of its largest singular value: off by 1e-7, by 1e-4 in the depth of an anti-resonance without losses."""
 _CONDENSED = 1e-6

@@ -116,7 +116,7 @@ class Search:
         self.none = self.judged(none)
 
     def with_evidence(self, evidence: Evidence) -> "Search":
-        """The same search of data that are worth something else."""
+        """The same search with other evidence: of the same readings with another noise."""
         none = self.none.fitted
         again = refit(response_of(self.problem, ()), evidence, none.law, none.u)
         search = Search(self.problem, evidence, again, self.effects, self.executor, self.unnamed)
@@ -208,9 +208,9 @@ class Search:
     def converged_group(
         self, scored_fits: Sequence[ScoredFit], best: ScoredFit, validated: Sequence[ScoredFit] = ()
     ) -> list[ScoredFit]:
-        """What may be in one group with `best`, and none, followed to its very end, the others as they are.
+        """Explanations that may be in one group with `best`, and none, converged; the others as they are.
 
-        Meanwhile some are `validated`: neither needs to know of the other.
+        Fits that are to be `validated` are so in the same batch of work.
         """
         moving, new = self.moving([self.none, *scored_fits], best), self._not_validated(validated)
         calls: list[Call] = [(self.work.follow_to_convergence, fitted) for fitted in moving]
@@ -254,7 +254,7 @@ class Search:
 
     def _at_its_end(self, scored: ScoredFit) -> ScoredFit:
         end = self._ends.get(scored.fitted, scored.fitted)
-        # A cost is one at a least chi-square only: what is reached counts, though it were dearer.
+        # Laplace's cost holds only at a minimum: keep the lower chi-square, even at a higher cost.
         return self.judged(end) if end.chi2 < scored.fitted.chi2 else scored
 
     def freer(self, scored_fits: Sequence[ScoredFit], best: ScoredFit) -> list[ScoredFit]:

@@ -232,13 +232,13 @@ class Singles:
             order.sort(key=lambda t: t.fitted.chi2)
             near = [t for t in order if t.fitted.chi2 < STOPPING.rough_chi2_factor * order[0].fitted.chi2]
         else:
-            # What was still on its way may have far to go.
+            # Fits that have not converged may still improve much.
             near = [t for t in order if t.cost < order[0].cost + _near_best(t)]
         names = {t.names[0] for t in near[: 2 * SEARCH.leaders]}
         return [name for name in self._effects if name in names]
 
     def _dismissed_on_the_way(self) -> list[FormFit]:
-        """Rough fits that had not come to their end, where an effect explains much: none loses unheard."""
+        """Rough fits that have not converged, where an effect explains much: none is discarded too early."""
         if not self._gains(self._order()):
             return []
         return [one for name in self._effects for one in self._work.on_the_way(name)]
