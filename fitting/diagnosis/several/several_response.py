@@ -11,7 +11,7 @@ from fitting.diagnosis.problem.base import spans_of
 from fitting.diagnosis.problem.plate_answer import motions
 from fitting.diagnosis.response.strains import Reference
 from fitting.diagnosis.response.sweep_response import SweepResponse
-from fitting.diagnosis.response.unknowns import STATED_NUMBER
+from fitting.diagnosis.response.unknowns import Unknowns
 from fitting.diagnosis.several.member_laws import by_all, law_at
 from fitting.diagnosis.several.of_files import inner_of, own_unknowns
 from fitting.diagnosis.several.several_problem import SeveralProblem
@@ -27,19 +27,18 @@ class SeveralResponse:
     def __init__(self, problem: SeveralProblem, effects: Sequence[Effect], *, coarse: bool = False) -> None:
         self.problem = problem
         self.effects, self.nuisances, self.plate = tuple(effects), problem.nuisances, problem.plate
-        count = len(self.nuisances)
-        self.parameters = (*(STATED_NUMBER,) * count, *(q for e in effects for q in e.parameters))
+        unknowns = Unknowns(len(self.nuisances), effects)
+        self.parameters = unknowns.parameters
         self._of_member: list[tuple[SweepResponse, NDArray[np.intp]]] = []
         # One core, whatever is made of it: what softens it at a strain does so in every file.
         reference = Reference()
         for k, m in enumerate(problem.members):
-            places, inner, start = [problem.places[k]], [], count
-            for e in effects:
+            places, inner = [problem.places[k]], []
+            for e, part in zip(unknowns.effects, unknowns.slices, strict=True):
                 own = own_unknowns(e, problem.belongs[k])
                 if own is not None:
                     inner.append(inner_of(e))
-                    places.append(start + own)
-                start += len(e.parameters)
+                    places.append(part.start + own)
             number = problem.plates[k]
             plate = None
             if problem.plates.count(number) > 1:
