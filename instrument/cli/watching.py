@@ -55,14 +55,14 @@ class Watcher:
         self._soak: Soak | None = None
 
     def __enter__(self) -> Callable[[list[Event]], None]:
-        self._bars.start()
         return self.watch
 
     def __exit__(self, *_: object) -> None:
         self._bars.stop()
 
     def watch(self, events: list[Event]) -> None:
-        """Show what is worth showing."""
+        """Show what is worth showing. Until there is something, other bars have the line."""
+        self._bars.start()
         for event in events:
             if isinstance(event, SegmentBegan):
                 name = f"sweep {event.sweep} " if event.sweep > 1 else ""

@@ -1,6 +1,7 @@
 """One run of a session: what needs the rig, recorded and analysed as it happens, then the diagnosis."""
 
 import threading
+from contextlib import ExitStack
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Literal
@@ -14,7 +15,7 @@ from instrument.check.forecast import Forecast, distinct
 from instrument.errors import RigStopped
 from instrument.files.hammer_file import accepted_modes
 from instrument.hammer_test.struck import FEWEST_HITS
-from instrument.progress import Progress
+from instrument.progress import Progress, quiet
 from instrument.run.analysis import Analysis
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl
@@ -104,11 +105,14 @@ class SessionRun:
         try:
             self._prepare()
             document = self._experiment.document
-            with (
-                open_rig(self._experiment.rig, self._experiment.rig_path, document.hammer) as bare,
-                self._request.companion.with_rig(bare) as rig,
-            ):
-                self._go(rig)
+            with ExitStack() as stack:
+                # What a simulated rig builds first it shows itself.
+                shown = quiet if self._experiment.rig.is_simulated else self._request.progress
+                with shown("connecting to the instruments"):
+                    bare = stack.enter_context(
+                        open_rig(self._experiment.rig, self._experiment.rig_path, document.hammer)
+                    )
+                self._go(stack.enter_context(self._request.companion.with_rig(bare)))
             if not self._follows:
                 # The rig is let go of first: nothing of it is needed any more.
                 self.diagnosis = self._diagnose()
