@@ -18,13 +18,21 @@ from fitting.digits import all_digits, seldom, two_digits, written_out
 from fitting.effects.base import Effect
 from fitting.identification.quoted import quoted_hz
 
+_ROUGHLY = 0.5
+"""Standard error over a size from which the size alone says more than is known."""
 _WORTH_SAYING = 0.01
 """Of the largest change of a response: less is left out of the sentence."""
 
 
 def story(effect: Effect, found: FoundEffect) -> str:
-    """Half a sentence on an effect as it was found."""
-    return effect.story({key: p.value for key, p in found.parameters.items()})
+    """Half a sentence on an effect as it was found; with the errors of sizes that they make worth little."""
+    said = effect.story({key: p.value for key, p in found.parameters.items()})
+    roughly = [
+        f"{key} {two_digits(p.value)} +- {two_digits(p.standard_error)} {p.unit}".removesuffix(" 1")
+        for key, p in found.parameters.items()
+        if p.standard_error > _ROUGHLY * abs(p.value)
+    ]
+    return f"{said} (known roughly: {', '.join(roughly)})" if roughly else said
 
 
 def explain(

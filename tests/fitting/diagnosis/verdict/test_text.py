@@ -11,13 +11,16 @@ from fitting.diagnosis.several.of_files import Place
 from fitting.diagnosis.several.several_problem import SeveralProblem
 from fitting.diagnosis.verdict.judgement import Judgement
 from fitting.diagnosis.verdict.kin import UNLISTED
+from fitting.diagnosis.verdict.result import FoundEffect, ParameterEstimate
 from fitting.diagnosis.verdict.text import (
     beside_kin,
     how_likely,
     moved_words,
     next_measurement,
+    story,
     where_nothing_explains,
 )
+from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
 
 
@@ -90,3 +93,20 @@ def test_the_frequency_that_is_said_is_where_the_response_changes_most():
     factor[13] = 1.5
     said = moved_words(member, plain, factor * plain)
     assert f"50 % near {member.sweep.frequency_hz[13]:.0f} Hz" in said
+
+
+def warmed(kelvin_error, time_error_s):
+    sizes = {
+        "warming": ParameterEstimate(9.5, kelvin_error, "K"),
+        "time_constant": ParameterEstimate(1020.0, time_error_s, "s"),
+    }
+    return story(CATALOGUE["temperature_drift"], FoundEffect("temperature_drift", sizes))
+
+
+def test_sizes_that_are_hardly_known_are_said_with_their_errors():
+    plain = "the core warms by 9.5 K in the end, within 17 min"
+    assert warmed(0.4, 90.0) == plain
+    assert warmed(np.nan, np.nan) == plain
+    assert warmed(28.0, 3060.0) == (
+        f"{plain} (known roughly: warming 9.5 +- 28 K, time_constant 1000 +- 3100 s)"
+    )
