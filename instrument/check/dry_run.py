@@ -14,6 +14,7 @@ from fitting.structures import AnySpecimen
 from instrument.check.bare_test import bare_test_remarks
 from instrument.check.coarse_steps import coarse_remarks
 from instrument.check.faults import experiment_objections
+from instrument.check.follow_up_remark import follow_up_remarks
 from instrument.check.forecast import (
     Forecast,
     calibration_segments,
@@ -104,7 +105,7 @@ def dry_run(path: Path) -> DryRun:
         segments, seconds, warnings = _sweep(experiment, forecast, settings)
     except FittingError as error:
         raise BadInput(f"{path}: {error}") from None
-    warnings += sensor_remarks(experiment.rig, date.today())
+    warnings += [*sensor_remarks(experiment.rig, date.today()), *follow_up_remarks(experiment)]
     band = np.array([f for s in segments for f in (s.low_hz, s.high_hz)])
     if len(band) and specimen.core is not None:
         outside = specimen.core.law.outside(band)

@@ -10,6 +10,7 @@ from threadpoolctl import threadpool_limits
 
 from drivers.errors import DriverError
 from instrument.check.faults import experiment_objections
+from instrument.check.follow_up_remark import follow_up_remarks
 from instrument.check.forecast import Forecast
 from instrument.check.sensors import sensor_remarks
 from instrument.check.work import planned_regions, planned_work
@@ -88,7 +89,8 @@ def _run(request: RunRequest, out: Path, resume: Path | None, watch: Watch | Non
     earlier = [event for e in entries for event in part_events(journal.folder / e.file)]
     path = journal.folder.parent / f"{name}.h5"
     companion.recording(journal.folder, path)
-    for remark in sensor_remarks(experiment.rig, datetime.now(UTC).date()):
+    unfollowed = follow_up_remarks(experiment) if "sweep" in parts else []
+    for remark in (*sensor_remarks(experiment.rig, datetime.now(UTC).date()), *unfollowed):
         log.warning("%s", remark)
     swept = planned_regions(experiment, forecast) if "sweep" in parts else ()
     companion.planned(planned_work(experiment, forecast, parts), swept)
