@@ -121,4 +121,6 @@ def test_every_effect_a_demonstration_may_hide_is_well_written(tmp_path, effect)
 def test_a_drive_limit_that_cannot_reach_the_level_ends_the_run_with_its_remedy(tmp_path, capsys):
     path = edited(tmp_path, texts={"[sweep]": "[sweep]\ncalibration = false\nlimits = { drive_v = 0.05 }"})
     assert run(["sweep", str(path), "--out", str(tmp_path)]) == 3
-    assert "raise the drive limit" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "of [sweep] level_g, short by" in said
+    assert "raise limits.drive_v as far as the shaker allows" in said
