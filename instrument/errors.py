@@ -22,9 +22,14 @@ class RigStopped(Exception):
     """A run ended itself, the shaker silent. The message is one line."""
 
 
+def is_full(error: Exception) -> bool:
+    """Whether the disk, or somebody's share of it, is."""
+    return isinstance(error, OSError) and error.errno in _FULL
+
+
 def system_words(error: OSError) -> str:
     """What the system says of a file that it did not take or give, without the number of its error."""
-    if error.errno not in _FULL:
+    if not is_full(error):
         return error.strerror or str(error)
     said = error.strerror or ""
     # The library under a session's file says more of itself than of the disk.

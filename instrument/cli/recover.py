@@ -6,7 +6,7 @@ import click
 
 from instrument.cli.options import json_option
 from instrument.cli.output import Output
-from instrument.errors import BadInput, system_words
+from instrument.errors import BadInput, is_full, system_words
 from instrument.facts.written import RecoverResult
 from instrument.session.journal import CONFIGURATION, SessionJournal
 from instrument.session.storage import SessionFile, part_events, write_session
@@ -41,7 +41,8 @@ def recover(folder: Path, json_path: str | None) -> None:
     try:
         write_session(path, configuration, [folder / e.file for e in entries])
     except OSError as error:
-        raise BadInput(f"{path}: {system_words(error)}") from None
+        more = f": make room, or copy {folder} to another disk and recover it there" if is_full(error) else ""
+        raise BadInput(f"{path}: {system_words(error)}{more}") from None
     steps = [step for e in entries for step in e.steps]
     hits = sum(isinstance(e, HitJudged) for entry in entries for e in part_events(folder / entry.file))
     out.say(f"{hits} hits and {len(steps)} completed steps in {len(entries)} parts, all whole: {path}")

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
-from instrument.errors import BadInput
+from instrument.errors import BadInput, is_full
 from instrument.session.configuration import Configuration, Experiment
 from instrument.session.journal import SessionJournal
 from instrument.session.storage import part_events, write_session
@@ -76,8 +76,9 @@ def kept(journal: SessionJournal, path: Path, begun: Sequence[str] = ("run", "EX
         done = " and ".join(f"{n} {what}" for n, what in ((hits, "hits"), (steps, "steps")) if n)
         again = shlex.join(["viscorig", *begun, "--resume", str(journal.folder)])
         return f"{done} kept in {path}; to go on: {again}"
-    except (OSError, ValueError, RuntimeError):
-        return f"what is complete is in {journal.folder}: viscorig recover {journal.folder}"
+    except (OSError, ValueError, RuntimeError) as error:
+        first = "make room, or copy that folder to another disk; then " if is_full(error) else ""
+        return f"what is complete is in {journal.folder}: {first}viscorig recover {journal.folder}"
 
 
 def _refuse_another(before: Configuration, now: Configuration) -> None:

@@ -133,7 +133,8 @@ class SessionJournal:
         try:
             return Configuration.model_validate_json(path.read_text(encoding="utf-8"))
         except OSError:
-            what = "no such folder" if not self.folder.is_dir() else f"no {CONFIGURATION}"
+            what = f"no {CONFIGURATION}" if self.folder.is_dir() else "no such folder"
+            what = "a file" if self.folder.is_file() else what
             raise BadInput(f"{self.folder}: {what}, expected the folder of a run that broke off") from None
         except ValueError as error:
             raise BadInput(f"{path}: {str(error).splitlines()[0]}") from None

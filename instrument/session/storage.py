@@ -73,9 +73,21 @@ def write_session(path: Path, configuration: Configuration, parts: list[Path]) -
         # What is cut is no session: the parts are all that there is.
         with suppress(OSError):
             temporary.unlink(missing_ok=True)
-        if isinstance(error, OSError):
-            raise
-        raise OSError(errno.EIO, f"{' '.join(str(error).split())[:80]}: is the disk full?") from error
+        raise _by_the_system(error, path) from error
+
+
+_ERRNO = re.compile(r"errno = (\d+)")
+"""As the library says which error the system gave it."""
+
+
+def _by_the_system(error: OSError | RuntimeError, path: Path) -> OSError:
+    """The system's error under one of the library, whose words are of its inside."""
+    number = error.errno if isinstance(error, OSError) else None
+    if number is None and (said := _ERRNO.search(str(error))):
+        number = int(said[1])
+    if number is None:
+        return OSError(errno.EIO, "it cannot be written: is the disk full?", str(path))
+    return OSError(number, os.strerror(number), str(path))
 
 
 def _put_together(temporary: Path, configuration: Configuration, parts: list[Path]) -> None:
@@ -107,7 +119,10 @@ _CUT = re.compile(r"truncated file: eof = (\d+),.* stored_eof = (\d+)")
 def _why_not(path: Path, said: str) -> str:
     """The library's own words for people: why a file that is there cannot be opened."""
     if path.is_dir():
-        return "a folder"
+        of_a_run = path.name.endswith(".running")
+        return (
+            f"a run's folder: viscorig recover {path} puts its session together" if of_a_run else "a folder"
+        )
     if cut := _CUT.search(said):
         return f"it ends after {int(cut[1]):,} of {int(cut[2]):,} bytes, expected all of it: copy it again"
     if "signature not found" in said:

@@ -1,4 +1,5 @@
 import json
+from types import SimpleNamespace
 
 import pytest
 from sessions import block, configuration, point
@@ -108,3 +109,24 @@ def test_a_session_that_holds_more_than_the_folder_is_not_written_over(tmp_path,
     assert run(["recover", str(folder)]) == 2
     assert "one.h5: holds 3 parts, the folder only 1: move it away first" in capsys.readouterr().err
     assert (tmp_path / "one.h5").read_bytes() == before
+
+
+def test_a_file_is_not_said_to_be_missing(tmp_path, capsys):
+    (tmp_path / "one.h5").touch()
+    assert run(["recover", str(tmp_path / "one.h5")]) == 2
+    assert "one.h5: a file, expected the folder of a run" in capsys.readouterr().err
+
+
+def test_a_runs_folder_in_the_place_of_its_session_leads_to_recover(tmp_path, capsys):
+    folder = recorded(tmp_path / "one.running", 1)
+    assert run(["replay", str(folder)]) == 2
+    assert f"viscorig recover {folder} puts its session together" in capsys.readouterr().err
+
+
+def test_on_a_full_disk_it_says_what_to_do(tmp_path, capsys, monkeypatch):
+    folder = recorded(tmp_path / "one.running", 1)
+    monkeypatch.setattr("shutil.disk_usage", lambda _: SimpleNamespace(free=1e3))
+    assert run(["recover", str(folder)]) == 2
+    said = capsys.readouterr().err
+    assert "disk full: 0 MB free" in said
+    assert f"make room, or copy {folder} to another disk and recover it there" in said

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import SimpleNamespace
 from typing import get_args
 
 import pytest
@@ -176,3 +177,11 @@ def test_every_part_of_a_run_is_a_table_of_its_experiment_and_an_order_is_for_al
     parts = get_args(Part)
     assert set(parts) <= set(ExperimentDocument.model_fields)
     assert Order(Path("a.toml"), Path("out")).parts == parts
+
+
+def test_where_the_disk_is_full_the_folder_goes_elsewhere_first(begin, tmp_path, monkeypatch):
+    journal, _ = begin()
+    add(journal, point(1, 20.0))
+    monkeypatch.setattr("shutil.disk_usage", lambda _: SimpleNamespace(free=0))
+    said = kept(journal, tmp_path / "a.h5")
+    assert "make room, or copy that folder to another disk; then viscorig recover" in said

@@ -1,6 +1,9 @@
 """Sealed parts, the journal, and the session put together from them."""
 
+import errno
 import json
+import os
+import re
 import threading
 
 import h5py
@@ -10,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sessions import RIG, block, configuration, point
 
-from instrument.errors import BadInput, RigStopped
+from instrument.errors import BadInput, RigStopped, system_words
 from instrument.files.rig_file import RigDocument
 from instrument.session.journal import JOURNAL, Damage, SessionJournal
 from instrument.session.recorder import Recorder
@@ -199,3 +202,29 @@ def test_the_simulated_rigs_secrets_are_not_kept():
         {**simulated, "simulation": {"effects": {"added_mass": {"mass_kg": 0.01}}}}
     )
     assert "added_mass" not in rig.without_simulation().model_dump_json()
+
+
+@pytest.mark.parametrize(
+    ("said", "number", "words"),
+    [
+        (
+            "Set slist enabled failed (file write failed: time = Mon, errno = 28, error",
+            errno.ENOSPC,
+            "disk full",
+        ),
+        ("Set slist enabled failed (file write failed: errno = 27, error", errno.EFBIG, "File too large"),
+        ("something else", errno.EIO, "it cannot be written: is the disk full?"),
+    ],
+)
+def test_what_the_library_says_of_its_inside_is_said_as_the_system_does(
+    tmp_path, monkeypatch, said, number, words
+):
+    def fail(*_):
+        raise RuntimeError(said)
+
+    monkeypatch.setattr("instrument.session.storage._put_together", fail)
+    by_the_system = words if number == errno.EIO else os.strerror(number)
+    with pytest.raises(OSError, match=re.escape(by_the_system)) as raised:
+        write_session(tmp_path / "a.h5", configuration(), [])
+    assert raised.value.errno == number
+    assert system_words(raised.value) == words
