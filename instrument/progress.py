@@ -1,10 +1,12 @@
 """Progress of long work: a bar on a terminal, nothing in a pipe, lines of JSON for a program that asks."""
 
+import errno
 import json
 import os
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, contextmanager, suppress
+from typing import Any
 
 from rich.console import Console
 from rich.progress import BarColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
@@ -21,6 +23,29 @@ _PACE_S = 300.0
 """Over which the pace is taken that says how long it will go on."""
 
 
+class Screen(Console):
+    """Falls silent where its reader has gone, a program or a terminal; the command goes on.
+
+    Its files are still wanted.
+    """
+
+    def __exit__(self, *raised: Any) -> None:
+        try:
+            super().__exit__(*raised)
+        except OSError as error:
+            # What a terminal says that is no more; a closed pipe rich hears of itself.
+            if error.errno != errno.EIO:
+                raise
+            self.on_broken_pipe()
+
+    def on_broken_pipe(self) -> None:
+        """Instead of rich's, which ends the program."""
+        self.quiet = True
+        with suppress(OSError, ValueError), open(os.devnull, "wb") as nowhere:
+            # What is left in the buffer goes there, or Python complains at exit.
+            os.dup2(nowhere.fileno(), (sys.stderr if self.stderr else sys.stdout).fileno())
+
+
 @contextmanager
 def quiet(name: str) -> Iterator[Report]:
     """No progress shown."""
@@ -33,7 +58,7 @@ def bar(name: str) -> Iterator[Report]:
     if os.environ.get(LINES) == "lines":
         yield _Lines(name)
         return
-    console = Console(stderr=True)
+    console = Screen(stderr=True)
     with Bars(
         TextColumn("{task.description}"),
         BarColumn(),

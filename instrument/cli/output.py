@@ -1,13 +1,9 @@
 """What a command prints: a table for people, the same facts as JSON."""
 
 import math
-import os
-import sys
-from contextlib import suppress
 from pathlib import Path
 
 import click
-from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
@@ -15,18 +11,7 @@ from instrument.cli.printable import printable
 from instrument.errors import BadInput
 from instrument.facts.result import Result
 from instrument.files.result_file import result_text, write_result
-
-
-class _Screen(Console):
-    """Falls silent where its reader has gone; the command goes on, for its files are still wanted."""
-
-    def on_broken_pipe(self) -> None:
-        """Instead of rich's, which ends the program."""
-        self.quiet = True
-        with suppress(OSError, ValueError), open(os.devnull, "wb") as nowhere:
-            # What is left in the buffer goes there, or Python complains at exit.
-            os.dup2(nowhere.fileno(), sys.stdout.fileno())
-
+from instrument.progress import Screen
 
 _WRITTEN = ("json_path", "out", "pdf")
 """Parameters of commands that name files to be written."""
@@ -55,7 +40,7 @@ class Output:
         if json_path is not None and Path(json_path).is_dir():
             raise BadInput(f"{json_path}: is a folder, expected a file to write to")
         _keep_what_is_read()
-        self._console = _Screen(highlight=False, quiet=json_path == "-", soft_wrap=True)
+        self._console = Screen(highlight=False, quiet=json_path == "-", soft_wrap=True)
 
     def say(self, text: str = "") -> None:
         """A line for people."""
@@ -71,7 +56,7 @@ class Output:
             table.add_column(column, justify="left" if k == 0 and not _numeric(rows, k) else "right")
         for row in rows:
             table.add_row(*(escape(printable(cell)) for cell in row))
-        _Screen(highlight=False, quiet=self._console.quiet, width=max(self._console.width, 120)).print(table)
+        Screen(highlight=False, quiet=self._console.quiet, width=max(self._console.width, 120)).print(table)
 
     def result(self, found: Result) -> None:
         """The facts as JSON, where they were asked for.

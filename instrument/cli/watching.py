@@ -2,12 +2,12 @@
 
 from collections.abc import Callable
 
-from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from fitting.identification.result import doubts_itself
 from instrument.facts.identification import IdentificationResult
 from instrument.files.acceleration import shown_quantity
+from instrument.progress import Screen
 from instrument.results.diagnosis_words import DOUBTED, verdict_line
 from instrument.results.next_words import apart_words
 from instrument.results.numbers import with_error
@@ -41,7 +41,7 @@ class Watcher:
     """Consumes events once they are on the disk. Use as a context."""
 
     def __init__(self) -> None:
-        self._console = Console(stderr=True, highlight=False)
+        self._console = Screen(stderr=True, highlight=False)
         self._bars = Progress(
             TextColumn("{task.description}"),
             BarColumn(),

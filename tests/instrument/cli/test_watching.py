@@ -15,7 +15,7 @@ def test_nothing_is_written_over_other_bars_before_something_happens(monkeypatch
     def console(**_):
         return Console(file=written, force_terminal=True)
 
-    monkeypatch.setattr(watching, "Console", console)
+    monkeypatch.setattr(watching, "Screen", console)
     with Watcher() as watch:
         assert written.getvalue() == ""
         watch([point(1, 20.0, remarks=("weak light",))])
@@ -24,7 +24,7 @@ def test_nothing_is_written_over_other_bars_before_something_happens(monkeypatch
 
 def test_a_run_of_which_nothing_was_seen_ends_quietly(monkeypatch):
     written = io.StringIO()
-    monkeypatch.setattr(watching, "Console", lambda **_: Console(file=written, force_terminal=True))
+    monkeypatch.setattr(watching, "Screen", lambda **_: Console(file=written, force_terminal=True))
     with Watcher():
         pass
     assert written.getvalue() == ""
