@@ -33,7 +33,7 @@ def silent_rig():
         {
             "shaker": there,
             "vibrometer": there,
-            "front_end": there,
+            "front_end": {"address": "http://10.0.0.2"},
             "channels": {"base": {"input": 1}, "velocity": {"input": 2}},
         }
     )
