@@ -128,7 +128,7 @@ class _Other:
         owner: object = do.__self__  # type: ignore[attr-defined]
         if owner is not self._known:
             self._known, self._number = owner, self._number + 1
-            self.pool.submit(_learn, self._number, owner)
+            self.pool.submit(learn, self._number, owner)
         found = self.pool.submit(_do, self._number, do.__name__, one).result()
         if isinstance(found, _Forgotten):
             # loky replaces a process whose memory has grown; the new one knows nothing.
@@ -170,7 +170,8 @@ class _Forgotten:
     """Answer of a process that does not have the object it is asked of."""
 
 
-def _learn(number: int, owner: object) -> None:
+def learn(number: int, owner: object) -> None:
+    """Keep what this process is asked of from now on, and which of the objects sent over it is."""
     global _owner, _number
     _owner, _number = owner, number
 
