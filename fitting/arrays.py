@@ -15,6 +15,6 @@ Places = Indices | slice
 
 
 def as_slice(places: Indices) -> Places:
-    """The same places; as a slice, which copies nothing, where they follow one another. Shape (any,)."""
+    """Indices as a slice, which copies nothing, where they follow one another. Shape (any,)."""
     together = len(places) and np.all(np.diff(places) == 1)
     return slice(int(places[0]), int(places[-1]) + 1) if together else places

@@ -174,7 +174,7 @@ class Specimen(Driven):
         return () if self.pickup_m is None else (self.pickup_m, *self.further_pickups_m)
 
     def at_pickup(self, number: int) -> "Specimen":
-        """The same plate read at one of its spots."""
+        """The plate read at one of its spots."""
         if not self.further_pickups_m:
             return self
         return replace(self, pickup_m=self.pickups_m[number], further_pickups_m=())
@@ -290,12 +290,12 @@ class Specimen(Driven):
 
     @property
     def bare(self) -> "Specimen":
-        """The same plate before its damping treatment."""
+        """The plate before its damping treatment."""
         without = replace(self, constraining=None, core=None, patches=(), both_sides=False, masses=())
         return replace(without, faces_shear=False)
 
     def with_law(self, law: CoreLaw) -> "Specimen":
-        """The same plate with another core law. Raises `ValueError` for a bare one."""
+        """The plate with another core law. Raises `ValueError` for a bare one."""
         if self.core is None:
             raise ValueError("a bare plate has no core to give a law to")
         return replace(self, core=replace(self.core, law=law))

@@ -174,7 +174,7 @@ class CoreLaw:
         return replace(self, **changed)
 
     def lifted(self) -> Self:
-        """The same law with zeros raised to where a search begins: a fit in logarithms cannot leave zero."""
+        """Parameters of zero raised to where a search begins: a fit in logarithms cannot leave zero."""
         return self.with_values(
             np.array(
                 [v if v >= q.lower else q.search[0] for v, q in zip(self.values, self.limits, strict=True)]

@@ -90,7 +90,7 @@ class OneLaw(MemberLaws):
         return np.asarray((high - low) / np.sqrt(12.0))
 
     def with_values(self, values: Array) -> Self:
-        """The same with other parameters. Shape (names,)."""
+        """Law, shift and temperatures with other parameters, in the order of `names`. Shape (names,)."""
         n, m, v, bend = self._own, len(self.theta), len(self.b), self.law.bend_count
         own, theta, b, bent, warmer = np.split(values, np.cumsum([n, m, v, bend]))
         law = self.law.with_values(np.concatenate([own, bent]))
@@ -218,7 +218,7 @@ class OwnLaws(MemberLaws):
         return np.concatenate([law.search_widths for law in self.laws])
 
     def with_values(self, values: Array) -> Self:
-        """The same with other parameters. Shape (names,)."""
+        """Every law with other parameters, in the order of `names`. Shape (names,)."""
         laws = [
             law.with_values(np.concatenate([values[own], values[bend]]))
             for (own, bend), law in zip(self._places(), self.laws, strict=True)
