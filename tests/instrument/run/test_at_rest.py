@@ -6,7 +6,7 @@ import threading
 
 import pytest
 from formula_rig import formula_rig
-from quick_run import no_fit
+from quick_run import run
 from run_at_point import RunAtPoint
 
 from drivers.errors import Refused, TimedOut, Unreachable
@@ -14,7 +14,6 @@ from drivers.shaker import Alarm, ShakerStatus
 from instrument.errors import RigStopped
 from instrument.run.at_rest import bring_to_rest, came_to_rest, silenced
 from instrument.run.control import RunControl
-from instrument.run.experiment import run_experiment
 
 
 class Deaf:
@@ -103,10 +102,6 @@ def deafen(rig):
     device = rig.device
     device.stop = lambda *_: None
     device.check_heartbeat = lambda *_: None
-
-
-def run(experiment, folder, **options):
-    return run_experiment(experiment, folder, ("sweep",), fit=no_fit, **options)
 
 
 @pytest.fixture
