@@ -68,19 +68,7 @@ class ManyResiduals:
     def _channel(self, z: Array) -> Complex:
         """What the velocity channel makes of a velocity. Shapes (any, stated) to (any, points)."""
         problem = self.task.begun.problem
-        omega = problem.sweep.omega
-        one = np.ones(len(omega), complex)
-        if not problem.nuisances.each:
-            return np.ones((len(z), 1), complex)
-        places = {n.name: (k, n.sigma) for k, n in enumerate(problem.nuisances.each)}
-        if not {"gain", "delay", "phase"} & set(places):
-            return np.array([one] * len(z))
-
-        def by(name: str) -> Array:
-            k, sigma = places.get(name, (0, 0.0))
-            return sigma * z[:, k, None]
-
-        return np.asarray((1 + by("gain")) * np.exp(1j * (by("phase") - omega * by("delay"))))
+        return problem.nuisances.channel.factor(problem.sweep.omega, z)
 
     def velocity(self, X: Array) -> Complex:
         """Velocities as the sweep reads them, of many sets of unknowns.
@@ -134,13 +122,8 @@ class ManyResiduals:
             near[:, k] += step
             dv[:, k] = drive * slope * (none.law.moduli(near, omega) - G) / step[:, None]
         dv[:, n : n + none.stated] = drive[:, None] * (slope[:, None] * instead + rest)
-        for j, number in enumerate(problem.nuisances.each):
-            if number.name == "gain":
-                dv[:, n + j] = v * (number.sigma / (1 + number.sigma * z[:, j, None]))
-            elif number.name == "delay":
-                dv[:, n + j] = v * (-1j * omega * number.sigma)
-            elif number.name == "phase":
-                dv[:, n + j] = v * (1j * number.sigma)
+        for j, by in problem.nuisances.by_reading(v, omega, z).items():
+            dv[:, n + j] = by
         return v, dv
 
     def __call__(self, X: Array) -> Array:

@@ -164,12 +164,12 @@ def _project(
     stated = coefficients(s, s)
     # The inertia of held nodes loads their neighbours.
     of_load = on_motions(moving_part(s)[..., loose.free], V)
-    K_0, K_1, M = np.split(both, np.cumsum(names_of(s).counts[:2]))
+    at = names_of(s).counts
     return EnrichedReducedPlate(
         group=np.array([name for half in halves for name in half.names]),
-        M=np.tensordot(stated.M, M, axes=1),
-        K_0=np.tensordot(stated.K_0, K_0, axes=1) - _edges(full, V),
-        K_1=np.tensordot(stated.K_1, K_1, axes=1),
+        M=np.tensordot(stated.M, both[at.M], axes=1),
+        K_0=np.tensordot(stated.K_0, both[at.K_0], axes=1) - _edges(full, V),
+        K_1=np.tensordot(stated.K_1, both[at.K_1], axes=1),
         U=V.T @ (loose.M @ _over_mass(full)),
         d=full.damping.d,
         load=-loaded(stated.load, of_load) if s.drive == "base" else V.T @ full.drive,

@@ -54,11 +54,11 @@ def forces(full: FullPlate, at: Snapshot, others: Iterable[Specimen]) -> Complex
 def changed_to(plate: EnrichedReducedPlate, other: Specimen) -> Change:
     """What another plate on the same mesh changes; `other` is `plate.specimen` with something else."""
     c, stated = coefficients(other, plate.specimen), plate.coefficients
-    n_0, n_1, _ = np.cumsum(names_of(plate.specimen).counts)
+    at = names_of(plate.specimen).counts
     return Change(
-        K=mixed(c.K_0 - stated.K_0, plate.parts[:n_0]),
-        K_1=mixed(c.K_1 - stated.K_1, plate.parts[n_0:n_1]),
-        M=mixed(c.M - stated.M, plate.parts[n_1:]),
+        K=mixed(c.K_0 - stated.K_0, plate.parts[at.K_0]),
+        K_1=mixed(c.K_1 - stated.K_1, plate.parts[at.K_1]),
+        M=mixed(c.M - stated.M, plate.parts[at.M]),
         load=-loaded(c.load - stated.load, plate.load_part),
     )
 

@@ -117,8 +117,8 @@ def match_modes(
     which, index = (np.array(side) for side in zip(*pairs, strict=True))
     shapes = modes.shapes[:, index]
     parts = np.einsum("pmm->mp", projected_parts(plate, shapes))
-    n_0, _, n_M = names_of(plate.specimen).counts
-    of_K, of_M = parts[:, :n_0], parts[:, -n_M:]
+    counts = names_of(plate.specimen).counts
+    of_K, of_M = parts[:, counts.K_0], parts[:, counts.M]
     row = plate.observe(sensor.x_m, sensor.y_m) if sensor is not None else np.zeros(plate.size)
     return MatchedModes(
         stiffness=of_K.astype(complex),

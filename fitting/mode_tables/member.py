@@ -176,11 +176,10 @@ class Member:
         self, system: EnrichedReducedPlate, z: Array, Y: Complex, value: Complex, G: Complex
     ) -> list[Complex]:
         """D lambda at a fixed omega_r. Shape (modes,) each."""
-        n_0, n_1, n_M = self.stated.counts
+        counts = self.stated.of_parts.counts
         energy = np.array([_energy(P, Y) for P in system.parts])
-        energy[n_0 : n_0 + n_1] *= G
-        energy[n_0 + n_1 :] *= -value
-        found = list(self.stated.by_coefficients_there(z)[:, : n_0 + n_1 + n_M] @ energy)
+        counts.weigh(energy, G, -value)
+        found = list(self.stated.of_parts.by_there(z)[:, counts.matrices] @ energy)
         omega = np.sqrt(value.real)
         for k, (mode, by) in self.stated.by_damping(len(system.d), z).items():
             found[k] = found[k] + 1j * omega * by * system.d[mode] * (Y @ system.U[:, mode]) ** 2

@@ -5,34 +5,30 @@ the row that reads the pickup, by the modal ratios and by the velocity channel. 
 derivatives of the response follow from theirs by the chain rule.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.nuisances.bare_numbers import BareNumbers
+from fitting.nuisances.channel import StatedChannel
 from fitting.nuisances.narrow import NarrowResonances
 from fitting.nuisances.nuisance import Nuisance, felt
 from fitting.nuisances.placed import Masses, Placed, PlacedPoints
-from fitting.nuisances.sums import Kept, SideBySide, between
-from fitting.plate.parts import coefficients, loaded, names_of
-from fitting.plate.plate_numbers import moved
+from fitting.nuisances.stated_coefficients import PlateCoefficients, StatedCoefficients
+from fitting.nuisances.sums import SideBySide, between
+from fitting.plate.parts import loaded
 from fitting.specimen import PlacedMass, Specimen
-from fitting.stated.patches import OF_PATCHES
-from fitting.stated.tolerances import PLATE
 
-STEP = 1e-2
-"""Step of differences, in standard deviations."""
-_MOST_BARE = 512
-"""Sets of a bare plate's few coefficients kept: derivatives about some twenty places of its numbers."""
-_FELT = 0.3
-"""Standard deviations from which a plate's derivatives to stated numbers are taken to vary."""
-_TREATMENT = ("constraining", "core", "glue", *OF_PATCHES)
-_OF_A_MOUNTING = ("length", "axial")
 Spot = Literal["pickup", "force"]
+SPOTS: tuple[Spot, ...] = get_args(Spot)
+Place = tuple[float, float]
+"""X and y, in m."""
 
 
 def nuisances_of(
@@ -69,12 +65,12 @@ class Nuisances:
 
     @property
     def masses(self) -> tuple[PlacedMass, ...]:
-        """Known masses placed on the plate; empty for beams and shear pairs, whose matrices hold them."""
-        return self.specimen.masses if isinstance(self.specimen, Specimen) else ()
+        """Known masses that are placed on the plate."""
+        return self.specimen.masses
 
     @property
     def reference(self) -> Specimen:
-        """Whose parts and row the plate has."""
+        """Specimen whose mesh, parts and row the reduced plate uses."""
         return self.like or self.specimen
 
     @cached_property
@@ -82,22 +78,36 @@ class Nuisances:
         return np.array([n.sigma for n in self.each], dtype=float)
 
     @cached_property
-    def _of_plate(self) -> list[int]:
-        return [k for k, n in enumerate(self.each) if n.kind in PLATE]
+    def of_parts(self) -> StatedCoefficients:
+        """What they make of the coefficients of the plate's parts."""
+        return PlateCoefficients(self.each, self.specimen, self.reference)
+
+    @cached_property
+    def _bare(self) -> BareNumbers:
+        return BareNumbers(self._plate_coefficients)
+
+    @property
+    def _plate_coefficients(self) -> PlateCoefficients:
+        assert isinstance(self.of_parts, PlateCoefficients)
+        return self.of_parts
 
     @cached_property
     def of_bare_plate(self) -> list[int]:
         """Those that a hammer test of the bare plate feels."""
-        return [k for k in self._of_plate if not self.each[k].kind.startswith((*_TREATMENT, *_OF_A_MOUNTING))]
+        return self._bare.places
+
+    def bare_coefficients(self, z: Array) -> tuple[Array | Complex, Array]:
+        """Of the bare plate's stiffness and mass, its length as stated. Shapes of `STIFFNESS` and `MASS`."""
+        return self._bare.coefficients(z)
+
+    def moved_specimen(self, z: Array) -> Specimen:
+        """The specimen, the numbers of its plate moved by `z` standard deviations. Shape (nuisances,)."""
+        return self._plate_coefficients.moved_specimen(z)
 
     @cached_property
-    def _stated(self) -> Array:
-        return np.asarray(coefficients(self.reference, self.reference).all)
-
-    @cached_property
-    def counts(self) -> tuple[int, int, int]:
-        """How many parts K_0, K_1 and M have; those of the load follow them."""
-        return names_of(self.reference).counts
+    def channel(self) -> StatedChannel:
+        """What they make of the velocity channel."""
+        return StatedChannel(self.each)
 
     @cached_property
     def _places(self) -> dict[str, int]:
@@ -108,105 +118,14 @@ class Nuisances:
         """Nuisance and mode."""
         return [(k, int(n.name.split("_")[1]) - 1) for k, n in enumerate(self.each) if n.kind == "damping"]
 
-    def moved_specimen(self, z: Array) -> Specimen:
-        """The specimen, the numbers of its plate moved by `z` standard deviations. Shape (nuisances,)."""
-        names = [self.each[k].name for k in self._of_plate]
-        return moved(self.specimen, names, (self._sigma * z)[self._of_plate].tolist())
-
-    def _coefficients(self, z: Array) -> Array:
-        """Of all parts, and of the load. Complex where a face has a loss factor. Shape (parts + 1,)."""
-        return np.asarray(coefficients(self.moved_specimen(z), self.reference).all)
-
-    def bare_coefficients(self, z: Array) -> tuple[Array | Complex, Array]:
-        """Of the bare plate's stiffness and mass, its length as stated. Shapes of `STIFFNESS` and `MASS`."""
-        # A hammer test is a mounting of its own.
-        at = np.zeros(len(self))
-        at[self.of_bare_plate] = z[self.of_bare_plate]
-        c = self._kept_of_bare.get("c", at, lambda: self._bare_coefficients(at))
-        stiff = self._bare_stiff
-        return c[:stiff], c[stiff:].real
-
-    def _bare_coefficients(self, z: Array) -> Array:
-        c = coefficients(self.moved_specimen(z).bare, self.specimen.bare)
-        return np.concatenate([c.K_0, c.M])
-
-    @cached_property
-    def _bare_stiff(self) -> int:
-        """How many parts the bare plate's K_0 has."""
-        return len(coefficients(self.specimen.bare, self.specimen.bare).K_0)
-
-    @cached_property
-    def _kept_of_bare(self) -> "Kept":
-        return Kept(_MOST_BARE)
-
-    @cached_property
-    def _kept(self) -> "Kept":
-        return Kept()
-
     @cached_property
     def _kept_parts(self) -> "SideBySide":
         return SideBySide()
 
-    @cached_property
-    def _kept_differences(self) -> "Kept":
-        # They are few, and dear.
-        return Kept()
-
-    def coefficients(self, z: Array) -> Array:
-        """Of all parts and the load above the reference's. Shape (parts + 1,)."""
-        return self._kept.get("c", z, lambda: self._coefficients(z) - self._stated)
-
-    def by_coefficients(self, z: Array) -> Array:
-        """Their derivatives to z, as far as these vary linearly with each. Shape (count, parts + 1).
-
-        Good to 2 % of a plate with a soft core, and dear to have exactly at every step of a sweep's fit.
-        """
-        return self._kept.get("dc", z, lambda: self._nearly_by_coefficients(z))
-
-    def by_coefficients_there(self, z: Array) -> Array:
-        """The same at the very place: of a stiff core the parts cancel by thousands."""
-        return self._kept.get("dc there", z, lambda: self._differences(z))
-
-    def _nearly_by_coefficients(self, z: Array) -> Array:
-        found = self._as_stated
-        for k in self._of_plate:
-            if abs(z[k]) > _FELT:
-                found = found + z[k] * self._second(k)
-        return found
-
-    @cached_property
-    def _as_stated(self) -> Array:
-        return self._differences(np.zeros(len(self)))
-
-    def _second(self, k: int) -> Array:
-        """How derivatives vary with one number."""
-        step = np.zeros(len(self))
-        step[k] = 1.0
-        return self._kept_differences.get(
-            "ddc", step, lambda: (self._differences(step) - self._differences(-step)) / 2
-        )
-
-    def _differences(self, z: Array) -> Array:
-        by = {}
-        for k in self._of_plate:
-            up, down = z.copy(), z.copy()
-            up[k], down[k] = z[k] + STEP, z[k] - STEP
-            by[k] = (self._coefficients(up) - self._coefficients(down)) / (2 * STEP)
-        # A loss makes some complex.
-        found = np.zeros((len(self), len(self._stated)), np.result_type(self._stated, *by.values()))
-        for k, row in by.items():
-            found[k] = row
-        return found
-
     def change(self, plate: EnrichedReducedPlate, z: Array) -> Change:
         """What they change of a plate that has the parts of `specimen`."""
-        c = self.coefficients(z)
-        n_0, n_1, n_M = self.counts
-        K, K_1, M = (
-            np.tensordot(c[a:b], plate.parts[a:b], axes=1)
-            for a, b in ((0, n_0), (n_0, n_0 + n_1), (n_0 + n_1, n_0 + n_1 + n_M))
-        )
-        M, load = M.real, self._load(plate, c) + self._force_change(plate, z)
+        c = self.of_parts.change(z)
+        K, K_1, M = self.of_parts.counts.summed(c, plate.parts)
         moved: Complex | float = 0.0
         if self.narrow:
             s = self._narrow_sides(plate)
@@ -214,8 +133,8 @@ class Nuisances:
         own = Change(
             K=K + moved,
             K_1=K_1.real,
-            M=M,
-            load=load,
+            M=M.real,
+            load=self._load(plate, c) + self._force_change(plate, z),
             observe=self._row_change(plate, z),
             damping=self._damping(len(plate.d), z),
         )
@@ -249,12 +168,13 @@ class Nuisances:
         return Masses(self.masses, self._points)
 
     def _load(self, plate: EnrichedReducedPlate, c: Array) -> Array:
-        """What the load becomes more. Shape (k,)."""
-        load = c[sum(self.counts) :].real
-        return -loaded(float(load[0]) if len(load) == 1 else load, plate.load_part)
+        """Additional load. Shape (k,)."""
+        return self.of_parts.load_sign * loaded(c[self.of_parts.counts.load].real, plate.load_part)
 
     def _row_change(self, plate: EnrichedReducedPlate, z: Array) -> Array:
-        return self.row(plate, z) - plate.pickup_row
+        return (
+            self.row(plate, z) - plate.pickup_row if "pickup" in self._spots else np.zeros(len(plate.observe))
+        )
 
     def row(self, plate: EnrichedReducedPlate, z: Array) -> Array:
         """Reads w at the pickup, where it is on the plate as long and as wide as it is. Shape (k,)."""
@@ -266,14 +186,15 @@ class Nuisances:
         return self._rows_by("pickup", plate, z)
 
     def _force_change(self, plate: EnrichedReducedPlate, z: Array) -> Array | float:
-        """What the load of a force becomes more. Shape (k,)."""
-        if self.specimen.drive == "base":
+        """Additional load of a force. Shape (k,)."""
+        if "force" not in self._spots:
             return 0.0
         (x, _), (y, _) = self._spot("force", z)
-        assert self.reference.force_m is not None
-        return plate.row(x, y) - plate.row(*self.reference.force_m)
+        return plate.row(x, y) - plate.row(*self._spots_of(self.reference)["force"])
 
     def _rows_by(self, spot: Spot, plate: EnrichedReducedPlate, z: Array) -> dict[int, Array]:
+        if spot not in self._spots:
+            return {}
         (x, by_x), (y, by_y) = self._spot(spot, z)
         found: dict[int, Array] = {}
         for slopes, (dx, dy) in ((by_x, (1, 0)), (by_y, (0, 1))):
@@ -282,12 +203,18 @@ class Nuisances:
                 found |= {k: size * slope for k, size in slopes.items()}
         return found
 
+    @cached_property
+    def _spots(self) -> Mapping[Spot, Place]:
+        return self._spots_of(self.specimen)
+
+    def _spots_of(self, specimen: Specimen) -> Mapping[Spot, Place]:
+        """Where one like it is read, and where a force drives it."""
+        stated: dict[Spot, Place | None] = {"pickup": specimen.pickup_m, "force": specimen.force_m}
+        return {spot: place for spot, place in stated.items() if place is not None}
+
     def _spot(self, spot: Spot, z: Array) -> Placed:
         """X and y in m of the point on the plate of `reference`, and how they go with z."""
-        s = self.specimen
-        place = s.pickup_m if spot == "pickup" else s.force_m
-        assert place is not None
-        return self._points.at(place, spot, z)
+        return self._points.at(self._spots[spot], spot, z)
 
     def _damping(self, modes: int, z: Array) -> Array:
         found = np.ones(modes)
@@ -308,16 +235,15 @@ class Nuisances:
         For a load that does not depend on the stated numbers take `by_pitch`.
         """
         found = self._by_matrices(plate, omega, G, q, adjoint, z)
-        found -= self._by_load(plate, adjoint, z)
+        found += self._by_load(plate, adjoint, z)
         for k, moved_load in self._masses.by_load(plate, adjoint, z).items():
             found[k] += moved_load
-        if self.specimen.drive == "force":
-            for k, row in self._rows_by("force", plate, z).items():
-                found[k] += adjoint @ row
+        for k, row in self._rows_by("force", plate, z).items():
+            found[k] += adjoint @ row
         return found
 
     def _by_load(self, plate: EnrichedReducedPlate, adjoint: Complex, z: Array) -> Complex:
-        by = self.by_coefficients(z)[:, sum(self.counts) :].real
+        by = self.of_parts.load_sign * self.of_parts.by(z)[:, self.of_parts.counts.load].real
         if plate.load_part.ndim > 1:
             return np.asarray(by @ (plate.load_part @ adjoint.T))
         return np.asarray(by * (adjoint @ plate.load_part))
@@ -332,10 +258,9 @@ class Nuisances:
         self, plate: EnrichedReducedPlate, omega: Array, G: Complex, q: Complex, adjoint: Complex, z: Array
     ) -> Complex:
         each = between(self._kept_parts.of(plate.parts), q, adjoint)
-        n_0, n_1, n_M = self.counts
-        each[n_0 : n_0 + n_1] *= G
-        each[n_0 + n_1 :] *= -(omega**2)
-        by = self.by_coefficients(z)[:, : n_0 + n_1 + n_M]
+        counts = self.of_parts.counts
+        counts.weigh(each, G, -(omega**2))
+        by = self.of_parts.by(z)[:, counts.matrices]
         found = np.asarray(-(by @ each), dtype=complex)
         for k, row in self.rows_by(plate, z).items():
             found[k] += q @ row
@@ -355,21 +280,8 @@ class Nuisances:
 
     def reading(self, v: Complex, omega: Array, z: Array) -> Complex:
         """What the velocity channel makes of a velocity. Shape (points,)."""
-        gain, delay, phase = (self._points.by(kind, z) for kind in ("gain", "delay", "phase"))
-        if not gain and not delay and not phase:
-            return v
-        return np.asarray(v * ((1 + gain) * np.exp(1j * (phase - omega * delay))))
+        return self.channel.reading(v, omega, z)
 
     def by_reading(self, read: Complex, omega: Array, z: Array) -> dict[int, Complex]:
-        """Derivatives of what has been read. Shape (points,) each."""
-        found: dict[int, Complex] = {}
-        k = self._places.get("gain")
-        if k is not None:
-            found[k] = read * (self._sigma[k] / (1 + self._points.by("gain", z)))
-        k = self._places.get("delay")
-        if k is not None:
-            found[k] = read * (-1j * omega * self._sigma[k])
-        k = self._places.get("phase")
-        if k is not None:
-            found[k] = read * (1j * self._sigma[k])
-        return found
+        """Derivatives of what has been read. Shape (..., points) each, of `z` (..., numbers)."""
+        return self.channel.by_reading(read, omega, z)

@@ -78,7 +78,7 @@ def element_parts(reference: Specimen, cell: Cell | None = None) -> tuple[Array,
 @lru_cache(maxsize=8)
 def _all_over(shape: Shape, names: Names, turned: bool) -> tuple[Array, Array, Array]:
     """Integrals over the whole element; not to be changed."""
-    K_0, K_1, M = (np.zeros((count, 4 * shape.dofs, 4 * shape.dofs)) for count in names.counts)
+    K_0, K_1, M = (np.zeros((count, 4 * shape.dofs, 4 * shape.dofs)) for count in names.counts.each)
     few, most = len(STIFFNESS), len(STIFFNESS) + len(OFF_AXIS)
     for x, y, dA in gauss_points(shape):
         r = _rows(shape, x, y)
@@ -109,7 +109,7 @@ def _of_treatment(names: Names) -> tuple[list[int], list[int]]:
 @lru_cache(maxsize=512)
 def _treated(shape: Shape, names: Names, rectangle: Rectangle) -> tuple[Array, Array, Array]:
     """Integrals of the treatment over a part of an element, zero for other parts; not to be changed."""
-    K_0, K_1, M = (np.zeros((count, 4 * shape.dofs, 4 * shape.dofs)) for count in names.counts)
+    K_0, K_1, M = (np.zeros((count, 4 * shape.dofs, 4 * shape.dofs)) for count in names.counts.each)
     at = {name: k for k, name in enumerate(names.K_0)}
     turned = PATCHED_OFF_AXIS[0] in at
     for x, y, dA in gauss_points(shape, (rectangle,)):
@@ -137,7 +137,7 @@ def _shifted(
 
     Shape (4 dofs, 4 dofs) each.
     """
-    K_0, K_1, M = (np.zeros((count, 4 * shape.dofs, 4 * shape.dofs)) for count in names.counts)
+    K_0, K_1, M = (np.zeros((count, 4 * shape.dofs, 4 * shape.dofs)) for count in names.counts.each)
     for over, sign in zip(both, (1, -1), strict=True):
         for rectangle in over:
             for to, more in zip((K_0, K_1, M), _treated(shape, names, rectangle), strict=True):

@@ -19,6 +19,7 @@ from fitting.laws.constant import ConstantModulus
 from fitting.plate.element import DOFS, GLUE_TURNS, THETA_X, THETA_Y, face_plane_stress
 from fitting.plate.face_shear import slip_of
 from fitting.plate.mesh import is_turned
+from fitting.plate.part_counts import PartCounts
 from fitting.specimen import Specimen
 from fitting.stated.layers import Core, Face, Glue, Orthotropy
 from fitting.stated.patches import Patch, shifts_of
@@ -79,9 +80,9 @@ class Names:
     M: tuple[str, ...]
 
     @property
-    def counts(self) -> tuple[int, int, int]:
+    def counts(self) -> PartCounts:
         """How many of each."""
-        return len(self.K_0), len(self.K_1), len(self.M)
+        return PartCounts(len(self.K_0), len(self.K_1), len(self.M))
 
 
 def names_of(specimen: Specimen) -> Names:

@@ -10,7 +10,7 @@ unknowns themselves, in groups where some are for an effect alone.
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 import numpy as np
 
@@ -20,9 +20,10 @@ from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate, Names
 from fitting.errors import OutsideModel
 from fitting.nuisances.nuisance import Nuisance, channels_felt
-from fitting.nuisances.nuisances import STEP, Nuisances, Spot
-from fitting.nuisances.placed import Placed
-from fitting.specimen import StatedSpecimen
+from fitting.nuisances.nuisances import SPOTS, Nuisances, Place, Spot
+from fitting.nuisances.stated_coefficients import STEP, StatedCoefficients
+from fitting.plate.part_counts import PartCounts
+from fitting.specimen import PlacedMass, StatedSpecimen
 
 _STILL = 1e-9
 """A reading below this reads nothing but rounding."""
@@ -59,6 +60,11 @@ class Parts:
         """How many there are."""
         return len(self.observe)
 
+    @property
+    def counts(self) -> PartCounts:
+        """How many parts each matrix has."""
+        return PartCounts(len(self.K_0), len(self.K_1), len(self.M))
+
 
 class SmallSpecimen(StatedSpecimen, Protocol):
     """What a specimen says of itself so that it can be fitted."""
@@ -92,6 +98,51 @@ class SmallSpecimen(StatedSpecimen, Protocol):
 
 
 @dataclass(frozen=True)
+class SmallCoefficients(StatedCoefficients):
+    """Coefficients of a small structure's parts, as functions of its stated numbers."""
+
+    specimen: SmallSpecimen
+    parts: Parts
+    # The parts already carry the minus sign.
+    load_sign: ClassVar[float] = 1.0
+
+    @property
+    def counts(self) -> PartCounts:
+        """How many parts K_0, K_1 and M have; those of the load follow them."""
+        return self.parts.counts
+
+    @cached_property
+    def moving(self) -> list[int]:
+        """Places in `each` of the numbers that change its matrices."""
+        return [k for k, n in enumerate(self.each) if n.kind in self.specimen.numbers]
+
+    @cached_property
+    def as_stated(self) -> Array:
+        """Coefficients as stated. Shape (parts,)."""
+        return np.asarray(_real_where_it_is(self.specimen.coefficients({})))
+
+    def at(self, z: Array) -> Array:
+        """Coefficients of all parts and the load. Shape (parts,)."""
+        by = {self.each[k].name: float(self.sigma[k] * z[k]) for k in self.moving}
+        return np.asarray(_real_where_it_is(self.specimen.coefficients(by)))
+
+    def by(self, z: Array) -> Array:
+        """As `by_there`: they are cheap. Shape (count, parts)."""
+        return self.by_there(z)
+
+    def _differences(self, z: Array) -> Array:
+        # All at once: one by one they took a fifth of a beam's diagnosis.
+        count = len(self.moving)
+        by = {self.each[k].name: np.full(2 * count, self.sigma[k] * z[k]) for k in self.moving}
+        for n, k in enumerate(self.moving):
+            by[self.each[k].name][[n, count + n]] += self.sigma[k] * STEP * np.array([1.0, -1.0])
+        c = np.asarray(_real_where_it_is(self.specimen.coefficients(by)))
+        found = np.zeros((len(self.each), len(c)), np.result_type(c))
+        found[self.moving] = (c[:, :count] - c[:, count:]).T / (2 * STEP)
+        return found
+
+
+@dataclass(frozen=True)
 class SmallNuisances(Nuisances):
     """The stated numbers of a small structure as unknowns."""
 
@@ -100,72 +151,24 @@ class SmallNuisances(Nuisances):
     """The matrices that the coefficients multiply."""
 
     @property
-    def reads_at_a_place(self) -> bool:
-        """Whether the row that reads it moves with stated numbers."""
-        return "pickup" in self.specimen.places
+    def masses(self) -> tuple[PlacedMass, ...]:
+        """None: its matrices hold them."""
+        return ()
 
-    @property
-    def counts(self) -> tuple[int, int, int]:
-        """How many parts K_0, K_1 and M have."""
+    @cached_property
+    def of_parts(self) -> SmallCoefficients:
+        """What they make of the coefficients of its parts."""
         assert self.parts is not None
-        return len(self.parts.K_0), len(self.parts.K_1), len(self.parts.M)
+        return SmallCoefficients(self.each, self.specimen, self.parts)
 
-    @cached_property
-    def _of_plate(self) -> list[int]:
-        return [k for k, n in enumerate(self.each) if n.kind in self.specimen.numbers]
-
-    @cached_property
-    def _stated(self) -> Array:
-        return np.asarray(_real_where_it_is(self.specimen.coefficients({})))
-
-    def _coefficients(self, z: Array) -> Array:
-        by = {self.each[k].name: float(self._sigma[k] * z[k]) for k in self._of_plate}
-        return np.asarray(_real_where_it_is(self.specimen.coefficients(by)))
-
-    def by_coefficients(self, z: Array) -> Array:
-        """As `by_coefficients_there`: they are cheap. Shape (count, parts + 1)."""
-        return self.by_coefficients_there(z)
-
-    def _differences(self, z: Array) -> Array:
-        # All at once: one by one they took a fifth of a beam's diagnosis.
-        count = len(self._of_plate)
-        by = {self.each[k].name: np.full(2 * count, self._sigma[k] * z[k]) for k in self._of_plate}
-        for n, k in enumerate(self._of_plate):
-            by[self.each[k].name][[n, count + n]] += self._sigma[k] * STEP * np.array([1.0, -1.0])
-        c = np.asarray(_real_where_it_is(self.specimen.coefficients(by)))
-        found = np.zeros((len(self), len(c)), np.result_type(c))
-        found[self._of_plate] = (c[:, :count] - c[:, count:]).T / (2 * STEP)
-        return found
-
-    def _load(self, plate: EnrichedReducedPlate, c: Array) -> Array:
-        # Their sign is in the parts.
-        return np.asarray(c[sum(self.counts) :].real @ plate.load_part)
-
-    def _by_load(self, plate: EnrichedReducedPlate, adjoint: Complex, z: Array) -> Complex:
-        return np.asarray(
-            -self.by_coefficients(z)[:, sum(self.counts) :].real @ (plate.load_part @ adjoint.T)
-        )
-
-    def _row_change(self, plate: EnrichedReducedPlate, z: Array) -> Array:
-        return super()._row_change(plate, z) if self.reads_at_a_place else np.zeros(len(plate.observe))
-
-    def rows_by(self, plate: EnrichedReducedPlate, z: Array) -> dict[int, Array]:
-        """As `Nuisances.rows_by`; none where no place is stated. Of `z`, shape (numbers,)."""
-        return super().rows_by(plate, z) if self.reads_at_a_place else {}
-
-    def _force_change(self, plate: EnrichedReducedPlate, z: Array) -> Array | float:
-        if "force" not in self.specimen.places:
-            return 0.0
-        (x, _), (y, _) = self._spot("force", z)
-        return plate.row(x, y) - plate.row(self.specimen.places["force"], 0.0)
+    def _spots_of(self, specimen: StatedSpecimen) -> Mapping[Spot, Place]:
+        # No other structure lends it matrices: the reference is the specimen itself.
+        return {spot: (self.specimen.places[spot], 0.0) for spot in SPOTS if spot in self.specimen.places}
 
     def placed(self, plate: EnrichedReducedPlate, z: Array) -> EnrichedReducedPlate:
         """The same, read and driven where these numbers say. `z` of shape (numbers,)."""
         observe, load = self._row_change(plate, z), self._force_change(plate, z)
         return replace(plate, observe=plate.observe + observe, load=plate.load + load)
-
-    def _spot(self, spot: Spot, z: Array) -> Placed:
-        return self._points.at((self.specimen.places[spot], 0.0), spot, z)
 
 
 def as_coefficients(rows: Sequence[Array | complex]) -> Complex:
@@ -193,7 +196,7 @@ class SmallSystem(EnrichedReducedPlate):
     """As fits and effects take it; it knows how its stated numbers change it."""
 
     stated: SmallSpecimen | None = None
-    counts: tuple[int, int, int] = (0, 0, 0)
+    counts: PartCounts = field(default_factory=PartCounts)
     """How many parts K_0, K_1 and M have."""
 
     def moved(self, by: Mapping[str, float]) -> Change:
@@ -201,12 +204,8 @@ class SmallSystem(EnrichedReducedPlate):
         s = self.stated
         assert s is not None
         c = s.coefficients(by) - s.coefficients({})
-        n_0, n_1, n_M = self.counts
-        K, K_1, M = (
-            np.tensordot(c[a:b], self.parts[a:b], axes=1)
-            for a, b in ((0, n_0), (n_0, n_0 + n_1), (n_0 + n_1, n_0 + n_1 + n_M))
-        )
-        load = c[n_0 + n_1 + n_M :].real @ self.load_part
+        K, K_1, M = self.counts.summed(c, self.parts)
+        load = c[self.counts.load].real @ self.load_part
         return Change(K=_real_where_it_is(K), K_1=K_1.real, M=M.real, load=load)
 
 
@@ -221,17 +220,17 @@ def widened_system_of(
     specimen: SmallSpecimen, parts: Parts, by: Mapping[str, float] | None = None
 ) -> SmallSystem:
     """The same with the unknowns that effects need."""
-    n_0, n_1, n_M = len(parts.K_0), len(parts.K_1), len(parts.M)
+    counts = parts.counts
     c = specimen.coefficients(by or {})
     k = parts.unknowns
     return SmallSystem(
         group=np.full(k, "plate") if parts.group is None else parts.group,
-        M=_sum(c[n_0 + n_1 : n_0 + n_1 + n_M], parts.M, k).real,
-        K_0=_sum(c[:n_0], parts.K_0, k),
-        K_1=_sum(c[n_0 : n_0 + n_1], parts.K_1, k).real,
+        M=_sum(c[counts.M], parts.M, k).real,
+        K_0=_sum(c[counts.K_0], parts.K_0, k),
+        K_1=_sum(c[counts.K_1], parts.K_1, k).real,
         U=np.zeros((k, 0)),
         d=np.zeros(0),
-        load=c[n_0 + n_1 + n_M :].real @ parts.load,
+        load=c[counts.load].real @ parts.load,
         pitch=np.zeros(k) if parts.pitch is None else parts.pitch,
         observe=parts.observe,
         gram=np.eye(k) if parts.gram is None else parts.gram,
@@ -246,7 +245,7 @@ def widened_system_of(
         load_part=parts.load,
         layers=np.zeros((3, 5)),
         stated=specimen,
-        counts=(n_0, n_1, n_M),
+        counts=counts,
     )
 
 

@@ -146,7 +146,7 @@ def stop_once(window: Window, folder: Path, place: Place, by_key: bool, wait_s: 
         turn(lambda: time.monotonic() > end, PATIENCE_S)
         began = time.monotonic()
         if on is None:
-            window.controller.stop()
+            window.controller.commands.stop()
         elif by_key:
             press(on, Qt.Key.Key_F12)
         else:

@@ -146,8 +146,8 @@ def test_glue_as_soft_as_the_core_makes_it_thicker():
 def test_parts_times_coefficients_are_the_plate(specimen):
     plate, c = Plate(specimen), coefficients(specimen, specimen)
     X = np.random.default_rng(0).normal(size=(plate.size, 2))
-    counts = names_of(specimen).counts
-    K_0, K_1, M = np.split(projected_parts(plate, X), np.cumsum(counts[:2]))
+    at, parts = names_of(specimen).counts, projected_parts(plate, X)
+    K_0, K_1, M = parts[at.K_0], parts[at.K_1], parts[at.M]
     twist = X.T @ (plate.edge_twist @ X) if specimen.lacks_edge_twist else 0.0
     for found, whole in (
         (np.tensordot(c.K_0, K_0, 1) - twist, plate.K_0),
@@ -195,9 +195,9 @@ def test_every_new_number_has_a_tolerance_and_moves_the_plate_as_the_other_plate
     assert [n for n in names if n.startswith("cut")] == ["cut_1_y", "cut_2_x", "cut_2_y"]
     plate = Plate(specimen)
     shapes = real_modes(plate, G, 3).shapes
-    n_0, n_1, _ = names_of(specimen).counts
+    counts = names_of(specimen).counts
     parts = np.einsum("pmm->pm", projected_parts(plate, shapes))
-    K_0, K_1, M = np.split(parts, [n_0, n_0 + n_1])
+    K_0, K_1, M = parts[counts.K_0], parts[counts.K_1], parts[counts.M]
     for name in ("substrate_angle", "constraining_shear", "glue_shear", "patch_1_x", "cut_1_y", "cut_2_x"):
         k = names.index(name)
         logs = []
@@ -232,7 +232,7 @@ def test_a_patch_cut_longer_ends_further_out_on_both_sides_and_lies_where_it_did
 
 def test_an_ordinary_plate_has_no_more_numbers_than_it_had():
     assert len(plate_numbers(PLATE)) == 13
-    assert names_of(PLATE).counts == (16, 7, 8)
+    assert names_of(PLATE).counts.each == (16, 7, 8)
 
 
 def test_the_model_s_error_counts_the_layers_that_are_there():
@@ -269,8 +269,7 @@ def test_a_patch_about_the_axis_is_even_and_its_shift_across_is_not(reach):
     X = plate.even @ np.random.default_rng(0).normal(size=(plate.even.shape[1], 2))
     found, whole = (projected_parts(plate, X, one_parity=one) for one in (True, False))
     np.testing.assert_array_equal(found, whole)
-    counts = np.cumsum(names_of(specimen).counts[:2])
-    K_1 = np.split(found, counts)[1]
+    K_1 = found[names_of(specimen).counts.K_1]
     across = shifts_of(specimen)[len(laid) - 1]
     moved = replace(specimen, patches=across.of(specimen, SHIFT_M))
     c = coefficients(moved, specimen)

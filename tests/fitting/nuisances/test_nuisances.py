@@ -135,9 +135,9 @@ def test_the_bare_plate_is_that_of_the_moved_specimen_its_free_length_as_stated(
 
 @pytest.mark.parametrize("share", [1.0, 3.0])
 def test_derivatives_at_the_very_place_are_exact(moved, share):
-    z, h, of = share * next(moved.places()), 1e-3, moved.nuisances
-    for by, step in zip(of.by_coefficients_there(z), h * np.eye(len(z)), strict=True):
-        difference = (of.coefficients(z + step) - of.coefficients(z - step)) / (2 * h)
+    z, h, of = share * next(moved.places()), 1e-3, moved.nuisances.of_parts
+    for by, step in zip(of.by_there(z), h * np.eye(len(z)), strict=True):
+        difference = (of.change(z + step) - of.change(z - step)) / (2 * h)
         np.testing.assert_allclose(by, difference, atol=1e-4 * np.abs(difference).max())
 
 
