@@ -106,7 +106,7 @@ def damping_of_hits(
 def damping_of_frfs(
     frfs: dict[str, Frf], *, band_hz: tuple[float, float] | None = None, at_hz: tuple[float, ...] = ()
 ) -> Damping:
-    """The same from FRFs of another instrument: nothing is padded, half power reads their own lines."""
+    """Damping from FRFs of another instrument: nothing is padded, half power reads their own lines."""
     any_frf = next(iter(frfs.values()))
     f = any_frf.frequency_hz
     band = band_hz or (float(f[0]), float(f[-1]))

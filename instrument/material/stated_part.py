@@ -34,7 +34,7 @@ class _Adjusted(BaseModel):
 
 
 def stated_numbers(facts: Mapping[str, Any]) -> tuple[Stated, ...]:
-    """Those of the JSON of a fit that have a tolerance."""
+    """Stated numbers with a tolerance, of the JSON of a fit."""
     try:
         return _Adjusted.model_validate(facts).adjusted
     except ValidationError:

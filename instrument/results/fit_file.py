@@ -186,7 +186,7 @@ def read_fit(path: Path) -> FoundLaw:
 
 
 def found_law(found: IdentificationResult) -> FoundLaw:
-    """The same from the result itself. Raises `ValidationError`."""
+    """The law that a fit has found, from its result. Raises `ValidationError`."""
     return FoundLaw.model_validate(found.as_json())
 
 

@@ -39,7 +39,7 @@ def none_is_likelier(found: DiagnosisResult) -> bool:
 
 
 def none_leads(equivalent: Mapping[str, Sequence[str]], probability: Mapping[str, float]) -> bool:
-    """The same of the accepted names, each with what is not told from it, and every candidate's share."""
+    """Whether no effect is likeliest: by names with what is not told from each, and candidates' shares."""
     if not any("none" in group for group in equivalent.values()):
         return False
     shares = {frozenset(split(name)): p for name, p in probability.items()}
