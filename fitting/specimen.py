@@ -5,7 +5,7 @@ Frozen data only. Files and their units are translated at the border (`instrumen
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, Protocol, get_args
+from typing import Any, ClassVar, Literal, Protocol, get_args
 
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
@@ -76,6 +76,10 @@ class StatedSpecimen(Protocol):
     def modal_ratios(self) -> tuple[float, ...]:
         """Remaining viscous damping."""
 
+    @property
+    def carried_kg(self) -> float | None:
+        """Of a shear pair: what its pads carry, as stated. None of what has a length."""
+
     def stated_number(self, name: str) -> StatedValue:
         """What is stated of one number, named as results list it: `pickup_x`."""
 
@@ -99,6 +103,7 @@ class Driven:
     force_m: Any
     """Where; None: the base does."""
     base_acceleration_m_s2: float
+    carried_kg: ClassVar[None] = None
 
     @property
     def drive(self) -> Drive:

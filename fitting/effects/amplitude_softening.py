@@ -43,6 +43,7 @@ class CoreStrain(Span):
     """The core's shear strain: mean square over its volume."""
 
     name = "strain"
+    strains = True
 
     def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
         s = full.specimen

@@ -150,6 +150,9 @@ class Effect:
     anew: ClassVar[bool] = False
     """Whether it differs from file to file, as everything that depends on time does."""
 
+    needs_time: ClassVar[bool] = False
+    """Whether it follows from when each point was read, and an even pace is supposed where nobody says."""
+
     of_a_segment: ClassVar[bool] = False
     """Whether it is in one segment of a sweep alone: the others cannot foretell it."""
 
@@ -325,6 +328,7 @@ ITS_OWN = (
     "chance",
     "causes",
     "sharp",
+    "needs_time",
     "of_a_segment",
     "beside_others",
 )

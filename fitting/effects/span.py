@@ -21,6 +21,8 @@ class Span:
     """Whether it couples to motions odd in y."""
     overlaps: bool = False
     """Whether its motions hold some of the plate's own: a condensed plate has lost those."""
+    strains: bool = False
+    """Whether its effects go by the core's strain."""
     columns: int = 40
     """At most as many of either parity."""
 

@@ -53,6 +53,7 @@ class TemperatureDriftEffect(Effect):
 
     name = "temperature_drift"
     enters = "time"
+    needs_time = True
     source = "Williams, Landel and Ferry, J. Am. Chem. Soc. 77 (1955)"
     structures = EVERY_STRUCTURE
     parameters: tuple[EffectParameter, ...] = (

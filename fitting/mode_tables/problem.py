@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from fitting.arrays import Array, Complex
 from fitting.data.readings import Readings
 from fitting.diagnosis.inference.evidence import Evidence
-from fitting.diagnosis.response.unknowns import STATED_NUMBER
+from fitting.diagnosis.response.unknowns import Unknowns
 from fitting.diagnosis.several.member_laws import by_all, law_at
 from fitting.diagnosis.several.of_files import Place, inner_of, own_unknowns
 from fitting.diagnosis.several.sharing import OF_EACH_KELVIN
@@ -131,9 +131,8 @@ class ModalResponse:
         self.modal, self.effects = problem, tuple(effects)
         self.plate = problem.members[0].system([inner_of(e) for e in effects])
         self.nuisances = Nuisances(problem.members[0].stated.specimen, problem.each)
-        count = len(problem.each)
-        self.parameters = (*(STATED_NUMBER,) * count, *(q for e in effects for q in e.parameters))
-        self._starts = count + np.cumsum([0, *(len(e.parameters) for e in effects)])
+        self._unknowns = Unknowns(len(problem.each), effects)
+        self.parameters = self._unknowns.parameters
 
     def velocity(self, law: CoreLaw, u: Array) -> Complex:
         """Ln f + i kappa ln eta, member after member. Shape (modes,)."""
@@ -168,10 +167,10 @@ class ModalResponse:
     def _acting(self, k: int) -> list[tuple[Effect, NDArray[np.intp]]]:
         """Effects on a member that change its matrices, and the places of their unknowns."""
         found = []
-        for e, start in zip(self.effects, self._starts, strict=False):
+        for e, its in zip(self.effects, self._unknowns.slices, strict=True):
             own, of = own_unknowns(e, Place(k + 1)), inner_of(e)
             if own is not None and not of.replaces_law:
-                found.append((of, int(start) + own))
+                found.append((of, its.start + own))
         return found
 
     def _steps(self, part: NDArray[np.intp], u: Array) -> Array:

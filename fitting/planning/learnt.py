@@ -15,7 +15,7 @@ from fitting.diagnosis.several.responses import response_of
 
 @dataclass(frozen=True, eq=False)
 class LearntRival:
-    """The posterior of one rival, linear about its fit."""
+    """Posterior of one rival, linear about its fit."""
 
     fitted: Refitted
     root: Array

@@ -32,14 +32,14 @@ from fitting.specimen import Specimen
 
 @dataclass(frozen=True, eq=False)
 class _Raw:
-    """Phasors that a rival expects, and how they vary."""
+    """Phasors that a rival predicts, and their standard deviations by source."""
 
     v: Complex
     """Shape (points,)."""
     by_known: Complex
-    """One standard deviation each. Shape (k, points)."""
+    """Changes by one standard deviation of what the rival has learnt. Shape (k, points)."""
     by_new: Complex
-    """The same, of what is new. Shape (any, points)."""
+    """Changes by one standard deviation of what the readings bring anew. Shape (any, points)."""
 
 
 class RivalForecasts:

@@ -16,7 +16,7 @@ _STEP = 1e-4
 def struck_forecast(
     learnt: LearntRival, bare: BareModes, nuisances: Nuisances, stated: Places, place: Place
 ) -> Forecast:
-    """Frequencies alone are asked.
+    """Forecast of the bare plate's natural frequencies, over their scatter.
 
     The plate is that of a `place`: `nuisances` are its own, `stated` where they are among those fitted.
     """

@@ -11,6 +11,7 @@ matrices themselves in `beam_parts.py`.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -45,6 +46,8 @@ tip, 1.4 and 4.8."""
 @dataclass(frozen=True)
 class Beam(StatedBeam):
     """Its matrices, the stated numbers that move them, and what its theory leaves open."""
+
+    narrow_resonances: ClassVar[bool] = True
 
     @property
     def numbers(self) -> tuple[str, ...]:

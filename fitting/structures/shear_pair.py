@@ -60,6 +60,7 @@ class ShearPair(BaseDriven):
     exact: bool = False
 
     kind: ClassVar[Kind] = "shear-pair"
+    narrow_resonances: ClassVar[bool] = False
     numbers = NUMBERS
     places: ClassVar[Mapping[str, float]] = MappingProxyType({})
     modal_ratios: tuple[float, ...] = ()
@@ -135,6 +136,11 @@ class ShearPair(BaseDriven):
         if name == "free_edges":
             return self.softer_by_edges**2 if self.edges else self.left_out_by_edges
         return float(self.tolerances.get(name, TYPICAL.get(name, STATED[name].typical)))
+
+    @property
+    def carried_kg(self) -> float:
+        """The mass on the pads."""
+        return self.mass_kg
 
     def theory_error(self, frequency_hz: Array, G: Complex) -> None:
         """The wave in the pad is exact; what its edges do is stated. Shape (points,) each."""

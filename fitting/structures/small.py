@@ -74,6 +74,10 @@ class SmallSpecimen(StatedSpecimen, Protocol):
         """Kinds of stated numbers that move its matrices."""
 
     @property
+    def narrow_resonances(self) -> bool:
+        """Whether a resonance may be narrower than stated numbers and theory say where it lies."""
+
+    @property
     def places(self) -> Mapping[str, float]:
         """Points along it that are stated in m: `pickup`, `force`. None where it has no length."""
 

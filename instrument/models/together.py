@@ -15,7 +15,7 @@ from fitting.diagnosis.diagnose import diagnose_problem, seen_in_channels
 from fitting.diagnosis.inference.begin import Begun, ended
 from fitting.diagnosis.inference.freer_law import loosened
 from fitting.diagnosis.joint import fit_of
-from fitting.diagnosis.several.among import among
+from fitting.diagnosis.several.effect_among_files import among
 from fitting.diagnosis.several.joining import joined
 from fitting.diagnosis.verdict.confounded import last_word
 from fitting.diagnosis.verdict.result import FoundEffect, ParameterEstimate

@@ -15,7 +15,8 @@ from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.diagnosis.search.candidates import CandidateFit
 from fitting.diagnosis.several.of_files import Place
 from fitting.diagnosis.several.one_plate import plates_of
-from fitting.diagnosis.several.several_problem import SeveralProblem, SeveralResponse
+from fitting.diagnosis.several.several_problem import SeveralProblem
+from fitting.diagnosis.several.several_response import SeveralResponse
 from fitting.dynamics.direct import displacement_direct
 from fitting.effects import CATALOGUE
 from fitting.effects.change import Change

@@ -33,14 +33,15 @@ from fitting.reduced.reduced_plate import ReducedPlate
 _FAR = 0.1
 """Relative change of the modulus from which the grids and the model's error are made anew."""
 _THE_SAME = 1.0
-"""Chi-square by which rough fits from two laws may differ that have met: what a standard error is worth."""
+"""Rough fits from two starts count as the same minimum below this difference in chi-square: one standard
+error is worth as much."""
 _ROUNDS = 3
 """A bound on time."""
 
 
 @dataclass(frozen=True)
 class Begun:
-    """Where everything starts."""
+    """Result of the joint fit without effects, from which everything else starts."""
 
     problem: DiagnosisProblem
     """Its grids made for the law found, its plate condensed."""

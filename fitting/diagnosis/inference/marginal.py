@@ -33,7 +33,7 @@ _AT_A_LIMIT = 0.1
 
 
 _NO_MISFIT = 1e-300
-"""Of a mean square: its logarithm is asked."""
+"""Lower bound of a mean square, so that its logarithm is finite."""
 
 
 def cost(fitted: Refitted, plate: EnrichedReducedPlate, temper: float = 1.0) -> float:

@@ -102,7 +102,7 @@ def _is_near(problem: DiagnosisProblem, law: CoreLaw, fitted: Refitted) -> bool:
     """Whether a grid made for a law serves where a fit that began from it has ended."""
     omega = problem.fine.nodes.omega
     moved = np.max(np.abs(fitted.law.modulus(omega) / law.modulus(omega) - 1))
-    by_strain = any(span.name == "strain" for e in fitted.effects for span in e.spans)
+    by_strain = any(span.strains for e in fitted.effects for span in e.spans)
     return bool(moved < (_FAR_OF_STRAIN if by_strain else _FAR))
 
 

@@ -52,7 +52,7 @@ def with_stated(problem: DiagnosisProblem, fitted: Refitted) -> Array:
     return np.concatenate([problem.as_stated, fitted.u])
 
 
-def whole(problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted) -> Refitted:
+def evaluated_with_stated(problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted) -> Refitted:
     """A fit of a wide valley that knows of stated numbers too, nothing moved."""
     if fitted.stated == len(problem.nuisances):
         return fitted

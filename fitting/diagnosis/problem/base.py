@@ -85,7 +85,7 @@ class DiagnosisProblem:
     nuisances: Nuisances
     """The stated numbers that may move."""
     found: Array | None = field(default=None, kw_only=True)
-    """Where they are when what the model gets wrong is asked; None: as stated. Shape (numbers,)."""
+    """Nuisance values at which the model error is evaluated; None: as stated. Shape (numbers,)."""
 
     @classmethod
     def of(
@@ -174,8 +174,18 @@ class DiagnosisProblem:
         return 1.0
 
     @property
+    def misfit(self) -> float:
+        """Of the reading, relative: what a fit has left that nothing explains."""
+        return 0.0
+
+    @property
+    def errs_in_level(self) -> bool:
+        """Whether files differ by levels, of gain, phase and the core's modulus, where noise leaves more."""
+        return False
+
+    @property
     def errs_as_found(self) -> bool:
-        """Whether what the model gets wrong is asked where the stated numbers are found (`as_found`).
+        """Whether the model error is evaluated at the fitted stated numbers (`as_found`).
 
         A struck plate's: its resonances are narrow, many and seen over hundreds of lines each.
         """
@@ -202,7 +212,7 @@ class DiagnosisProblem:
         return replace(self, plate=plate, nuisances=self.nuisances.with_narrow(narrow))
 
     def as_found(self, z: Array) -> "DiagnosisProblem":
-        """The same, its model's error asked with its stated numbers there. `z` of shape (numbers,)."""
+        """The same, its model error evaluated at these stated numbers. `z` of shape (numbers,)."""
         return replace(self, found=np.array(z))
 
     def model_error(self, law: CoreLaw, v: Complex) -> Complex | None:
@@ -284,7 +294,7 @@ def points_of(sweep: Sweep, specimen: StatedSpecimen) -> Points:
         if specimen.drive == "force" and sweep.base_m_s2 is not None
         else None,
         segment=sweep.segment,
-        mass_kg=getattr(specimen, "mass_kg", None),
+        mass_kg=specimen.carried_kg,
     )
 
 

@@ -100,7 +100,7 @@ def _together(asked: Sequence[Asked]) -> list[Motions]:
 
 
 def _place(row: Array, each: list[Array]) -> int:
-    """Of a side among those to be solved, itself added where it is new."""
+    """Index of a right-hand side among those to be solved; appended if it is new. Shape (k,)."""
     for n, other in enumerate(each):
         if np.array_equal(row, other):
             return n
@@ -120,7 +120,7 @@ class PlateAnswer:
     nearby: Sequence[tuple[Change, Change, float]] = ()
     """For every unknown the changes a step above and below, and the step between them."""
     nuisances: tuple[Nuisances, Array] | None = None
-    """With where they are: the change has what they change in it."""
+    """Nuisances and their values, which are already included in the change."""
 
     @property
     def poles(self) -> Complex:

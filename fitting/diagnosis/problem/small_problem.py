@@ -13,6 +13,7 @@ from fitting.diagnosis.problem.every_point import EveryPoint
 from fitting.diagnosis.problem.narrow_resonances import Errs
 from fitting.diagnosis.problem.plate_poles import PlatePoles
 from fitting.diagnosis.problem.small_error import octaves, theory_rows
+from fitting.discrepancy.model_error import ModelError
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.structures.small import (
@@ -29,7 +30,8 @@ from fitting.sweep import Sweep
 _PLACES, _FEWEST = 24, 8
 """Frequencies that a beam's first sum is made to hold at, four to each resonance; the least of a band."""
 _SIZES, _ANGLES = (0.01, 0.1, 0.5, 2.0, 10.0, 100.0), (0.1, 0.8, 1.4)
-"""And moduli, over a size and by argument: a decade or less apart, from hardly any loss to mostly loss."""
+"""Moduli that it is made to hold at: sizes, over the law's, times arguments in rad. A decade or less apart,
+from hardly any loss to mostly loss."""
 _LEFT_OUT = 5e-7
 """Of its largest singular value: off by 1e-7, by 1e-4 in the depth of an anti-resonance without losses."""
 _CONDENSED = 1e-6
@@ -67,6 +69,7 @@ def _compact(own: EnrichedReducedPlate, omega: Array, size_pa: float, share: flo
 class SmallProblem(DiagnosisProblem):
     """A sweep with the small structure it was measured on."""
 
+    specimen: SmallSpecimen
     misfit: float = 0.0
     """Of the reading, relative: what a fit has left that nothing explains."""
 
@@ -108,8 +111,13 @@ class SmallProblem(DiagnosisProblem):
 
     @property
     def errs(self) -> Errs | None:
-        """A beam's theory; a pair's resonance is never narrow."""
-        return self.specimen.theory_error if self.specimen.kind == "beam" else None  # type: ignore[attr-defined]
+        """Its theory, where a resonance may be narrow."""
+        return self._theory_error if self.specimen.narrow_resonances else None
+
+    def _theory_error(self, frequency_hz: Array, G: Complex) -> ModelError:
+        found = self.specimen.theory_error(frequency_hz, G)
+        assert found is not None
+        return found
 
     @property
     def left_out(self) -> float:
@@ -139,9 +147,14 @@ class SmallProblem(DiagnosisProblem):
         return Noise(np.hypot(noise.std_m_s, more) if noise.is_known else more, "misfit")
 
     @property
+    def errs_in_level(self) -> bool:
+        """Files of small structures differ by levels."""
+        return True
+
+    @property
     def errs_as_found(self) -> bool:
-        """A beam's: a resonance is narrower than its stated numbers may be off."""
-        return self.specimen.kind == "beam" and len(self.nuisances) > 0
+        """Where a resonance is narrower than its stated numbers may be off."""
+        return self.specimen.narrow_resonances and len(self.nuisances) > 0
 
     def _system(self) -> SmallSystem:
         """With its stated numbers where they were found."""
@@ -170,7 +183,7 @@ class SmallProblem(DiagnosisProblem):
         if isinstance(self.plate, SmallSystem):
             drive, omega = self.points.acceleration_m_s2, self.sweep.omega
             narrow = self.nuisances.narrow
-            rows += theory_rows(self.specimen, self._system(), omega, law, drive, narrow)  # type: ignore[arg-type]
+            rows += theory_rows(self.specimen, self._system(), omega, law, drive, narrow)
         if self.misfit:
             hats = octaves(self.sweep.omega)
             size = WANDERING * self.misfit

@@ -33,7 +33,7 @@ class PointModulus:
         self._points, self._unknowns, self._changes = problem.points, unknowns, changes
         self.effects = [k for k, e in enumerate(unknowns.effects) if type(e).modulus is not Effect.modulus]
         """Numbers of those that shift a modulus."""
-        self.strained = bool(self.effects) and any(s.name == "strain" for s in spans)
+        self.strained = bool(self.effects) and any(s.strains for s in spans)
         """Whether one of them goes by the core's strain."""
         self._strains = Strains(problem, changes.plate, reference)
         self._latest: tuple[CoreLaw, Complex] | None = None

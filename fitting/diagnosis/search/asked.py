@@ -5,14 +5,14 @@ from typing import NamedTuple
 
 from fitting.arrays import Array
 from fitting.diagnosis.inference.refitted import Refitted
-from fitting.diagnosis.search.candidates import Known
+from fitting.diagnosis.search.candidates import CandidateState
 from fitting.diagnosis.search.looks import Start
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
 
 Form = tuple[str, int]
 """An effect by its name, and the number of its variant."""
-State = list[Known]
+State = list[CandidateState]
 """What is known of each variant of an effect."""
 
 
@@ -35,7 +35,7 @@ class OfForm(NamedTuple):
     """A form, and what is known of it so far."""
 
     form: Form
-    known: Known
+    known: CandidateState
 
 
 class FormFit(NamedTuple):

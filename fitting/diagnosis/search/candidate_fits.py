@@ -40,7 +40,7 @@ from fitting.diagnosis.search.asked import (
     ToEnd,
     ToFollow,
 )
-from fitting.diagnosis.search.candidates import CandidateFit, Known, is_over_decades
+from fitting.diagnosis.search.candidates import CandidateFit, CandidateState, is_over_decades
 from fitting.diagnosis.search.looks import Start, has_place
 from fitting.diagnosis.search.wide_fits import WideFits
 from fitting.diagnosis.several.responses import response_of
@@ -160,7 +160,7 @@ class CandidateFits(WideFits):
             placed = has_place(candidate.effect) and candidate.promise > share * (self.none.chi2 - best.chi2)
             if astray and (placed or is_over_decades(candidate.effect)):
                 near += candidate.quick
-            candidate.learn(Known(near=sorted(near, key=by_chi2)))
+            candidate.learn(CandidateState(near=sorted(near, key=by_chi2)))
         return FirstLook(name, [f for c in self.candidates[name] for f in c.near], self.state(name))
 
     def _from_the_law_of(
@@ -236,13 +236,13 @@ class CandidateFits(WideFits):
         (name, number), begun, rival = asked
         return self.candidates[name][number].gone_on(begun, rival)
 
-    def fit_far(self, asked: OfForm) -> Known:
+    def fit_far(self, asked: OfForm) -> CandidateState:
         """Rough fits of a form in wide valleys, and nothing else of it: the rest is known already."""
         (name, number), known = asked
         candidate = self.candidates[name][number]
         candidate.learn(known)
         far = candidate.far
-        return Known(plain=candidate.plain, far=far)
+        return CandidateState(plain=candidate.plain, far=far)
 
     def thorough(self, name: str, *, astray: bool) -> list[FormFit]:
         """The best of an effect's rough fits, but for those that have been followed to their end.

@@ -26,7 +26,7 @@ _NEAR_BY = 3.0
 
 
 @dataclass
-class Known:
+class CandidateState:
     """What a candidate has found so far; None where nobody has asked."""
 
     starts: Sequence[Start] | None = None
@@ -56,14 +56,14 @@ class CandidateFit:
         """
         self.problem, self.evidence, self.before = problem, evidence, before
         self.effect, self._goal, self._one = effect, goal, one
-        self._known = Known(starts)
+        self._known = CandidateState(starts)
 
     @property
-    def known(self) -> Known:
+    def known(self) -> CandidateState:
         """What has been asked for so far."""
         return replace(self._known)
 
-    def learn(self, known: Known) -> None:
+    def learn(self, known: CandidateState) -> None:
         """What the same candidate has found elsewhere."""
         found = {field.name: getattr(known, field.name) for field in fields(known)}
         self._known = replace(self._known, **{k: v for k, v in found.items() if v is not None})

@@ -100,7 +100,8 @@ class Search:
             [e for e in some if e.objection(problem.points, problem.plate) is None]
             for some in (effects, unnamed)
         )
-        self._objected = {e.name for e in effects} - {e.name for e in self.effects}
+        self.objected = tuple(e for e in effects if e not in self.effects)
+        """Effects that were asked for, and that these data cannot carry."""
         self.passing_for_a_law = tuple(e.name for e in effects if e.passes_for_a_law(problem.points))
         """Effects that these data would show as another law."""
         fitted = [e for e in (*self.effects, *self.unnamed) if not e.laws(stated, problem.points)]
@@ -114,16 +115,12 @@ class Search:
         """Least chi-square of each effect by itself."""
         self.none = self.judged(none)
 
-    def objects_to(self, name: str) -> bool:
-        """Whether an effect was asked for, and these data cannot carry it."""
-        return name in self._objected
-
     def with_evidence(self, evidence: Evidence) -> "Search":
-        """The same search of data that are worth something else."""
+        """The same search with other evidence: of the same readings with another noise."""
         none = self.none.fitted
         again = refit(response_of(self.problem, ()), evidence, none.law, none.u)
         search = Search(self.problem, evidence, again, self.effects, self.executor, self.unnamed)
-        search._objected = self._objected
+        search.objected = self.objected
         return search
 
     def judged(self, fitted: Refitted) -> ScoredFit:
@@ -211,9 +208,9 @@ class Search:
     def converged_group(
         self, scored_fits: Sequence[ScoredFit], best: ScoredFit, validated: Sequence[ScoredFit] = ()
     ) -> list[ScoredFit]:
-        """What may be in one group with `best`, and none, followed to its very end, the others as they are.
+        """Explanations that may be in one group with `best`, and none, converged; the others as they are.
 
-        Meanwhile some are `validated`: neither needs to know of the other.
+        Fits that are to be `validated` are so in the same batch of work.
         """
         moving, new = self.moving([self.none, *scored_fits], best), self._not_validated(validated)
         calls: list[Call] = [(self.work.follow_to_convergence, fitted) for fitted in moving]
@@ -257,7 +254,7 @@ class Search:
 
     def _at_its_end(self, scored: ScoredFit) -> ScoredFit:
         end = self._ends.get(scored.fitted, scored.fitted)
-        # A cost is one at a least chi-square only: what is reached counts, though it were dearer.
+        # Laplace's cost holds only at a minimum: keep the lower chi-square, even at a higher cost.
         return self.judged(end) if end.chi2 < scored.fitted.chi2 else scored
 
     def freer(self, scored_fits: Sequence[ScoredFit], best: ScoredFit) -> list[ScoredFit]:

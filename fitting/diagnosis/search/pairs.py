@@ -40,7 +40,7 @@ class Pairs:
             return []
         pair = min(found, key=by_cost)
         alone = search.alone(pair)
-        # One of the two was only to be found: what may be beside it is asked there.
+        # A pair may only have revealed one of its effects: then pairs with that one are searched.
         led = any(search.suffices(t) and t.cost < pair.cost for t in alone)
         if pair.cost < singles[0].cost and not led:
             found += self._improved(found)
@@ -220,7 +220,7 @@ class Pairs:
             if frozenset(pair.names) not in simplified:
                 simplified.add(frozenset(pair.names))
                 new += self._search.simpler([pair])
-            # One that a winding valley leads to would be dismissed on its way.
+            # Followed to convergence: a fit in a slow valley would be discarded too early.
             found += self._search.converged_group(new, min([pair, *new], key=by_cost))
         return found
 

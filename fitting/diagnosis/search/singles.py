@@ -7,7 +7,7 @@ import numpy as np
 from fitting.diagnosis.inference.refitted import Refitted, by_chi2
 from fitting.diagnosis.search.asked import BesideBest, Form, FormFit, FormStart, OfEffect, OfForm, ToFollow
 from fitting.diagnosis.search.candidate_fits import FirstLook
-from fitting.diagnosis.search.candidates import Known, is_over_decades
+from fitting.diagnosis.search.candidates import CandidateState, is_over_decades
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search, by_cost
 from fitting.diagnosis.search.looks import has_place
 from fitting.diagnosis.thresholds import SEARCH, STARTS, STOPPING, VERDICT
@@ -73,7 +73,7 @@ class Singles:
         for (form, *_), fitted in zip(asked, self._followed(asked), strict=True):
             found.setdefault(form, []).append(fitted)
         for (name, number), fits in found.items():
-            work.candidates[name][number].learn(Known(elsewhere=sorted(fits, key=by_chi2)))
+            work.candidates[name][number].learn(CandidateState(elsewhere=sorted(fits, key=by_chi2)))
         if astray:
             self._look_far(names)
 
@@ -232,13 +232,13 @@ class Singles:
             order.sort(key=lambda t: t.fitted.chi2)
             near = [t for t in order if t.fitted.chi2 < STOPPING.rough_chi2_factor * order[0].fitted.chi2]
         else:
-            # What was still on its way may have far to go.
+            # Fits that have not converged may still improve much.
             near = [t for t in order if t.cost < order[0].cost + _near_best(t)]
         names = {t.names[0] for t in near[: 2 * SEARCH.leaders]}
         return [name for name in self._effects if name in names]
 
     def _dismissed_on_the_way(self) -> list[FormFit]:
-        """Rough fits that had not come to their end, where an effect explains much: none loses unheard."""
+        """Rough fits that have not converged, where an effect explains much: none is discarded too early."""
         if not self._gains(self._order()):
             return []
         return [one for name in self._effects for one in self._work.on_the_way(name)]

@@ -37,7 +37,7 @@ def supposes_too_much(fitted: Refitted) -> bool:
 def unsized(fitted: Refitted) -> bool:
     """Whether one of several effects has no size that the data tell from nothing.
 
-    Alone it would not be there: beside another it may be what that one's formula lacks.
+    A second effect of no significant size may only make up for what the first one's formula lacks.
     """
     if len(fitted.effects) < 2:
         return False

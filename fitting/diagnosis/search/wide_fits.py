@@ -12,7 +12,12 @@ from fitting.arrays import Array
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refit import ROUGH, refit
 from fitting.diagnosis.inference.refitted import Refitted, by_chi2
-from fitting.diagnosis.inference.wide_valley import in_wide_valley, of_effects, whole, with_stated
+from fitting.diagnosis.inference.wide_valley import (
+    evaluated_with_stated,
+    in_wide_valley,
+    of_effects,
+    with_stated,
+)
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.search.asked import Beside, Form, SecondWide
 from fitting.diagnosis.search.candidates import CandidateFit
@@ -56,7 +61,7 @@ class WideFits:
         By a linear step weighed as the readings are; where a place is to be found, as it is there too. Shape
         (parameters,) each.
         """
-        before, forms = whole(self.problem, self.evidence, beside.before), beside.forms
+        before, forms = evaluated_with_stated(self.problem, self.evidence, beside.before), beside.forms
         found = [[u for _, u in starts[:1]] for starts in self.look_by(Beside(before, forms), self.evidence)]
         placed = [k for k, form in enumerate(forms) if has_place(self.form(form))]
         again = Beside(before, [forms[k] for k in placed])

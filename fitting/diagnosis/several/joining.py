@@ -10,6 +10,12 @@ from fitting.reduced.rational import RationalSweep
 from fitting.sweep import Sweep
 
 
+def parts_of(sweeps: Sequence[Sweep]) -> list[slice]:
+    """Where the points of each are among all of them."""
+    ends = np.cumsum([len(s) for s in sweeps])
+    return [slice(int(e) - len(s), int(e)) for e, s in zip(ends, sweeps, strict=True)]
+
+
 def joined(sweeps: Sequence[Sweep]) -> Sweep:
     """All points one after the other; every file's segments are its own, numbered on."""
     segments, last = [], 0

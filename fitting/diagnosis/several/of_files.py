@@ -14,17 +14,16 @@ from fitting.effects.given import BarePlateModes, Points
 
 FILE, PICKUP = "file", "pickup"
 _ALL = -1
-"""In the place of a spot's number: common to all of them."""
+"""Instead of a spot's number: the effect is at all of them."""
 ALIKE, EACH = 0, -1
-"""In the place of a file's number: the same in all of them; in each of its own size."""
+"""Instead of a file's number: it is in all files, with one size, or with a size of its own in each."""
 _ALONE = 1 / 30
-"""Chance that what would be in all data is in a part of them alone, over that it is there at all: one channel
-reads all spots of a file, and one plate has on it, and one rig does, in every file what they do in one. A
-judgement."""
+"""Probability that an effect is in one file or at one spot alone, over that it is there at all. One channel
+reads all spots of a file; what is on a plate, or wrong with a rig, is so in every file. A judgement."""
 
 
 class Place(NamedTuple):
-    """Whose some data are."""
+    """The file and the spot that some data were measured in."""
 
     file: int
     """From 1."""
@@ -35,10 +34,11 @@ class Place(NamedTuple):
 class OfFiles(Effect):
     """`inner` in every file (`file` 0) or in one, counted from 1; the forms are tried apart.
 
-    With `spots` also at one of them in every file (`pickup`, -1 for all), what moves the reading at the
-    first spot of the first file alone too. What comes of a mounting, or anew with every file, is also tried
-    with a size of its own in each (`file` -1): those of further files have their number behind, and lie about
-    the first one's as one mounting lies about another (`EffectParameter.mounting`).
+    With `spots` it may also be at one of them in every file (`pickup`, -1 for all); an effect on how the
+    plate is read may be at the first spot of the first file alone too. An effect that comes with a mounting,
+    or differs from file to file, is also tried with a size of its own in each (`file` -1). Keys of further
+    files end in the file's number; their priors are about the first file's size, as wide as mountings differ
+    (`EffectParameter.mounting`).
     """
 
     def __init__(
@@ -53,10 +53,10 @@ class OfFiles(Effect):
         stays: bool = False,
         mounted: tuple[int, ...] = (),
     ) -> None:
-        """`apart`: whether it may be of one file alone; `stays`: whether it is seldom of one alone.
+        """`apart`: whether it may be in one file alone; `stays`: whether that is seldom so.
 
-        `mounted`: of each file the first one of its mounting, 0 where the effect has no meaning; each by
-        itself where nothing is said.
+        `mounted`: for each file the first file of the same mounting, or 0 where the effect has no meaning; by
+        default every file is a mounting of its own.
         """
         self.apart, self.stays = apart, stays
         self.mounted = mounted or tuple(range(1, files + 1))

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 from fitting.diagnosis.problem.base import DiagnosisProblem, NodeGrid
 from fitting.diagnosis.response.sweep_response import SweepResponse
-from fitting.diagnosis.several.several_problem import SeveralProblem, SeveralResponse
+from fitting.diagnosis.several.several_problem import SeveralProblem
+from fitting.diagnosis.several.several_response import SeveralResponse
 from fitting.effects.base import Effect
 
 

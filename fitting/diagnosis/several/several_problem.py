@@ -4,46 +4,35 @@ The stated numbers of all members are the unknowns, those of the same thing once
 for all files or for one of them (`OfFiles`).
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
-from typing import ClassVar, Self
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
-from fitting.diagnosis.problem.base import DiagnosisProblem, NodeGrid, spans_of
+from fitting.diagnosis.problem.base import DiagnosisProblem, NodeGrid
 from fitting.diagnosis.problem.every_point import EveryPoint
 from fitting.diagnosis.problem.model_error import OfOnePlate, model_error, own_errors
-from fitting.diagnosis.problem.plate_answer import motions
 from fitting.diagnosis.problem.plate_poles import PlatePoles
-from fitting.diagnosis.problem.small_problem import BENT_MORE, LEVEL, SmallProblem
-from fitting.diagnosis.response.strains import Reference
-from fitting.diagnosis.response.sweep_response import SweepResponse
-from fitting.diagnosis.response.unknowns import STATED_NUMBER
+from fitting.diagnosis.problem.small_problem import BENT_MORE
 from fitting.diagnosis.several import one_plate
-from fitting.diagnosis.several.joining import joined, joined_points, side_by_side
-from fitting.diagnosis.several.member_laws import by_all, law_at
+from fitting.diagnosis.several.errors_between_files import alike, of_one_rig, own_cores, own_temperatures
+from fitting.diagnosis.several.joining import joined, joined_points, parts_of, side_by_side
+from fitting.diagnosis.several.member_laws import law_at
 from fitting.diagnosis.several.mountings import mountings
-from fitting.diagnosis.several.of_files import Place, inner_of, own_unknowns
+from fitting.diagnosis.several.of_files import Place
 from fitting.diagnosis.several.one_plate import Taken
-from fitting.diagnosis.several.one_rig import alike_rows
+from fitting.diagnosis.several.shared_nuisances import SharedNuisances
 from fitting.diagnosis.several.sharing import Places, shared, with_narrow
 from fitting.diagnosis.several.wandering import Wandering
-from fitting.effects.base import Effect
-from fitting.effects.temperature_drift import time_scale
 from fitting.errors import OutsideModel
 from fitting.identification.adjusted import Adjusted
-from fitting.identification.validation import rms
 from fitting.laws import CoreLaw
-from fitting.nuisances.nuisances import Nuisances
 from fitting.reduced.reduced_plate import ReducedPlate
-from fitting.specimen import PlacedMass, Specimen
+from fitting.specimen import Specimen
 from fitting.sweep import Sweep
-
-KELVIN = 0.1
-"""Standard deviation of how much warmer a core is in one file than in another where nobody took care."""
 
 
 @dataclass(frozen=True)
@@ -119,8 +108,7 @@ class SeveralProblem(DiagnosisProblem):
     @property
     def starts_at(self) -> list[slice]:
         """Where each member's points are."""
-        ends = np.cumsum([len(m.sweep) for m in self.members])
-        return [slice(int(e) - len(m.sweep), int(e)) for e, m in zip(ends, self.members, strict=True)]
+        return parts_of([m.sweep for m in self.members])
 
     @property
     def file_of_points(self) -> NDArray[np.intp]:
@@ -199,63 +187,14 @@ class SeveralProblem(DiagnosisProblem):
             block = np.zeros((len(own), len(v)), complex)
             block[:, part] = own
             rows.append(block)
-        rows += [theory.rows, self.own_temperatures(law, v) * v]
+        rows += [theory.rows, own_temperatures(self.members, self.belongs, law, v) * v]
         if self.wandering is not None:
             rows.append(self.wandering.rows(np.log(self.sweep.frequency_hz), self.file_of_points, v))
-            rows.append(self.own_cores(law, v) * v)
-        elif (alike := self.alike) > 0:
-            rows.append(alike * np.array([v, 1j * v]))
-        rows.append(self.of_one_rig * v)
+            rows.append(own_cores(self.members, law, v) * v)
+        elif (size := alike(self.members, self.belongs)) > 0:
+            rows.append(size * np.array([v, 1j * v]))
+        rows.append(of_one_rig(self.members, self.belongs) * v)
         return np.concatenate(rows)
-
-    @property
-    def of_one_rig(self) -> Complex:
-        """Gain and delay that all masses of a shear pair have in common, besides each file's own.
-
-        The same two accelerometers read them. Relative, one standard deviation each; shape (any, points).
-        """
-        pairs = all(m.specimen.kind == "shear-pair" for m in self.members)
-        if not pairs or len({b.file for b in self.belongs}) < 2:
-            return np.zeros((0, len(self.sweep)), complex)
-        # The angle is one stated number of all of them.
-        return alike_rows(self.members, ("gain", "delay"))
-
-    def own_temperatures(self, law: CoreLaw, v: Complex) -> Complex:
-        """What a core by `KELVIN` warmer in one file than in the others does to ln of the reading.
-
-        Shape (files, points); none of specimens that are exactly as stated.
-        """
-        files = sorted({b.file for b in self.belongs})
-        rows = np.zeros((len(files), len(v)), complex)
-        if self.specimen.exact or len(files) < 2:
-            return rows[:0]
-        for k, (m, b, part) in enumerate(zip(self.members, self.belongs, self.starts_at, strict=True)):
-            own, omega = law_at(law, k), m.sweep.omega
-            change = np.log(own.modulus(omega * time_scale(KELVIN)) / own.modulus(omega))
-            rows[files.index(b.file), part] = change * m.feels(own, v[part])
-        return rows
-
-    def own_cores(self, law: CoreLaw, v: Complex) -> Complex:
-        """What a core a little stiffer in one file than in the others does to ln of the reading, by `LEVEL`.
-
-        No two files are at one temperature. Of members that are small. Shape (members, points).
-        """
-        rows = np.zeros((len(self.members), len(v)), complex)
-        for k, (m, part) in enumerate(zip(self.members, self.starts_at, strict=True)):
-            if isinstance(m, SmallProblem):
-                rows[k, part] = LEVEL * m.feels(law_at(law, k), v[part])
-        return rows
-
-    @property
-    def alike(self) -> float:
-        """Gain and phase that all files have in common may be off by so much: as the files' misfit is.
-
-        The same accelerometers have read every one of them. Zero where noise explains the files, and of one
-        file alone, whose law would hide it.
-        """
-        misfits = [m.misfit for m in self.members if isinstance(m, SmallProblem)]
-        files = {b.file for b in self.belongs}
-        return rms(np.array(misfits)) if len(files) > 1 and len(misfits) == len(self.members) else 0.0
 
     def adjusted(self, z: Array, errors: Array) -> tuple[Adjusted, ...]:
         """Under the names of `nuisances`; each as its first owner states it. Shape (numbers,)."""
@@ -268,105 +207,3 @@ class SeveralProblem(DiagnosisProblem):
             )
             found.append(replace(one, name=n.name))
         return tuple(found)
-
-
-@dataclass(frozen=True)
-class SharedNuisances(Nuisances):
-    """Of all files; a hammer test is of the first one's bare plate."""
-
-    first: Nuisances = field(kw_only=True, compare=False)
-    places: NDArray[np.intp] = field(kw_only=True, compare=False)
-    """Of the first file's among all."""
-
-    @property
-    def masses(self) -> tuple[PlacedMass, ...]:
-        """Known masses placed on the first file's plate."""
-        return self.first.masses
-
-    @cached_property
-    def of_bare_plate(self) -> list[int]:
-        """Those that a hammer test of the bare plate feels."""
-        return [int(self.places[k]) for k in self.first.of_bare_plate]
-
-    def bare_coefficients(self, z: Array) -> tuple[Array | Complex, Array]:
-        """As `Nuisances.bare_coefficients`, of the first file's plate."""
-        return self.first.bare_coefficients(z[self.places])
-
-
-class SeveralResponse:
-    """What all members read under one law: a `Response`."""
-
-    derivatives_cost_extra: ClassVar[bool] = True
-
-    def __init__(self, problem: SeveralProblem, effects: Sequence[Effect], *, coarse: bool = False) -> None:
-        self.problem = problem
-        self.effects, self.nuisances, self.plate = tuple(effects), problem.nuisances, problem.plate
-        count = len(self.nuisances)
-        self.parameters = (*(STATED_NUMBER,) * count, *(q for e in effects for q in e.parameters))
-        self._of_member: list[tuple[SweepResponse, NDArray[np.intp]]] = []
-        # One core, whatever is made of it: what softens it at a strain does so in every file.
-        reference = Reference()
-        for k, m in enumerate(problem.members):
-            places, inner, start = [problem.places[k]], [], count
-            for e in effects:
-                own = own_unknowns(e, problem.belongs[k])
-                if own is not None:
-                    inner.append(inner_of(e))
-                    places.append(start + own)
-                start += len(e.parameters)
-            number = problem.plates[k]
-            plate = None
-            if problem.plates.count(number) > 1:
-                plate = problem.taken.of(number, m, spans_of(m, inner))
-            response = SweepResponse(m, inner, m.coarse if coarse else None, plate, reference)
-            self._of_member.append((response, np.concatenate(places)))
-
-    def each(self, law: CoreLaw, u: Array) -> Iterator[tuple[SweepResponse, CoreLaw, Array]]:
-        """Of every member the response, its own law and its own unknowns. `u` of shape (unknowns,)."""
-        for k, (response, at) in enumerate(self._of_member):
-            yield response, law_at(law, k), u[at]
-
-    def _solve(self, law: CoreLaw, u: Array) -> None:
-        """What several members ask of one plate, all at once."""
-        plates = self.problem.plates
-        for number in {k for k in plates if plates.count(k) > 1}:
-            its = [
-                (r, law_at(law, k), u[at]) for k, (r, at) in enumerate(self._of_member) if plates[k] == number
-            ]
-            asked = [(r, v, one) for r, own, v in its if (one := r.asked(own, v))]
-            for (r, v, one), moved in zip(asked, motions([one for *_, one in asked]), strict=True):
-                r.know(one, moved, v)
-
-    def velocity(self, law: CoreLaw, u: Array) -> Complex:
-        """Phasors in m/s, member after member. Shape (points,)."""
-        self._solve(law, u)
-        return np.concatenate(
-            [r.velocity(law_at(law, k), u[at]) for k, (r, at) in enumerate(self._of_member)]
-        )
-
-    def with_derivatives(self, law: CoreLaw, u: Array) -> tuple[Complex, Complex]:
-        """As `Response.with_derivatives`, member after member. Shapes (points,), (parameters, points)."""
-        n = len(law.names)
-        self._solve(law, u)
-        found, rows = [], np.zeros((n + len(u), len(self.problem.sweep)), complex)
-        each = zip(self._of_member, self.problem.starts_at, strict=True)
-        for k, ((response, at), part) in enumerate(each):
-            own = law_at(law, k)
-            v, dv = response.with_derivatives(own, u[at])
-            found.append(v)
-            of_law = len(own.names)
-            rows[:n, part] = by_all(law, k, dv[:of_law])
-            rows[n + at, part] = dv[of_law:]
-        return np.concatenate(found), rows
-
-    def signatures(self, law: CoreLaw, known: Array, starts: Sequence[Array]) -> Complex:
-        """As `SweepResponse.signatures`, of every member that has the last effect. Shape (starts, points)."""
-        found = np.zeros((len(starts), len(self.problem.sweep)), complex)
-        count = len(self.nuisances) + sum(len(e.parameters) for e in self.effects[:-1])
-        each = zip(self._of_member, self.problem.starts_at, strict=True)
-        for k, ((response, at), part) in enumerate(each):
-            own = at[at < count]
-            if len(own) < len(at):
-                its = [u[at[len(own) :] - count] for u in starts]
-                found[:, part] = response.signatures(law_at(law, k), known[own], its)
-        return found

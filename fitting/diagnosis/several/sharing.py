@@ -13,19 +13,21 @@ from fitting.identification.adjusted import stated_number
 from fitting.nuisances.nuisance import Nuisance
 
 OF_EACH_SPOT = ("gain", "delay", "pickup")
-"""Kinds of stated numbers that are another one at every spot, though they are stated alike."""
+"""Kinds of stated numbers that differ from spot to spot, though the files state the same."""
 CHANNELS = ("gain", "delay")
-"""What a specimen that stays where it is does not keep."""
+"""Kinds that differ from one measurement to the next even where the specimen stays where it is."""
 OF_EACH_CHAIN = ("phase",)
-"""Of one accelerometer, or one hammer, against one laser: alike in all files that are driven alike."""
+"""Kinds that all files with the same drive share: of one accelerometer, or hammer, against one laser."""
 OF_EACH_FILE = ("force",)
-"""And in every file, its spots sharing them."""
+"""Kinds that differ from file to file; spots of one file share them."""
 OF_EACH_KELVIN = ("axial",)
-"""The same, though the specimen stays where it is: what clamps pull goes with the temperature."""
+"""Kinds that differ from file to file though the specimen stays where it is: what clamps pull by goes with
+the temperature."""
 OF_EACH_PLATE = ("mass", "place", "damping", "length", "width")
-"""And in every file, but of one plate that is struck, there or elsewhere: it was not mounted anew."""
+"""Kinds that differ from file to file, except for one plate that is struck at several points: it was not
+mounted anew."""
 _SAME = 1e-3
-"""Of the frequencies of two files' resonances, within which they are the same one."""
+"""Relative difference of frequency within which two files' resonances are the same one."""
 Places = tuple[NDArray[np.intp], ...]
 
 

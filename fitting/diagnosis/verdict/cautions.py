@@ -41,10 +41,10 @@ def warnings_of(search: Search, judgement: Judgement) -> tuple[str, ...]:
     names = {n for group in judgement.equivalent.values() for n in group}
     if not problem.points.timed:
         stated = problem.sweep.time_s is not None
-        if "temperature_drift" in names:
+        if any(e.name in names for e in search.effects if e.needs_time):
             why = _NO_SECONDS if stated else _NO_TIME
             said.append(f"{why}: the drift assumes an even sweep upwards in frequency")
-        elif not judgement.by_hand and search.objects_to("temperature_drift"):
+        elif not judgement.by_hand and any(e.needs_time for e in search.objected):
             said.append(NO_SECONDS if stated else NO_DRIFT)
     by_hand = judgement.group[0][0] if judgement.by_hand else None
     if by_hand is not None and (why := against_by_checks(by_hand)):

@@ -20,7 +20,7 @@ from fitting.diagnosis.verdict.shares import group_of, shares_of
 from fitting.digits import two_digits
 
 _MOST_OF_KIN = 1 - 1e-9
-"""Probability: what is listed keeps its order beside it."""
+"""Cap on the probability of kin, so that what is listed keeps its order in floating point."""
 
 
 @dataclass(frozen=True)
@@ -49,8 +49,8 @@ class Judgement:
     note: str = ""
     """What is said in the place of a story of the effects: whole sentences."""
     unlisted: Unlisted | None = None
-    """What is in no catalogue and akin to those of the group that nothing refuses; None where nothing may be
-    named, or kin is not asked."""
+    """The combined kin of explanations that nothing refuses; None where nothing may be named, or kin is not
+    computed."""
 
     @property
     def share_of_kin(self) -> float:
@@ -63,7 +63,7 @@ class Judgement:
         return _is_doubted(self.share_of_kin)
 
     def weighing(self, none: ScoredFit) -> list[tuple[ScoredFit, float]]:
-        """Whose laws make the band, with their shares.
+        """Explanations whose laws are mixed into the band, and their weights.
 
         Where nothing explains the readings, two that are wrong say how far laws may be apart: that of no
         effect, and that of something like what comes nearest.
@@ -99,7 +99,7 @@ def judged_by_hand(scored: ScoredFit) -> Judgement:
 
 
 def in_light_of(judgement: Judgement, p_value: float | None) -> Judgement:
-    """Nothing is named that sweeps without any effect would name too. The band stays the group's."""
+    """Withdraws a name that sweeps without any effect would earn too. The band stays the group's."""
     if (
         p_value is None
         or p_value <= 1 - VERDICT.credible + 1e-9

@@ -29,7 +29,7 @@ from fitting.diagnosis.problem.narrow_resonances import BESIDE, loss_of, with_si
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
 from fitting.diagnosis.several.responses import response_of
-from fitting.diagnosis.several.several_problem import SeveralResponse
+from fitting.diagnosis.several.several_response import SeveralResponse
 from fitting.diagnosis.thresholds import KIN, VERDICT
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
@@ -90,30 +90,30 @@ class Unlisted(ScoredFit):
 
     @property
     def chi2_per_dof(self) -> float:
-        """That the likeliest leaves."""
+        """Chi-square per degree of freedom that the likeliest kin leaves."""
         (first, kin, _), *_ = self.of
         dof = first.fitted.data - first.fitted.parameter_count
         return kin.leaves / dof if dof > 0 else float("nan")
 
     def weighing(self, none: ScoredFit) -> list[tuple[ScoredFit, float]]:
-        """Whose laws are its own, with their shares.
+        """Explanations whose laws stand for its own, and their weights.
 
-        As long as it is the explanation but for its formula it leaves the law nearly there. Another thing may
-        leave it anywhere: where it is without any effect half of the time, in the place of more.
+        While it is the explanation with a slightly different formula, the law stays near. A different cause
+        may leave the law anywhere: half of its weight goes to the law without any effect.
         """
         back = sum(part * kin.another_cause for _, kin, part in self.of) / 2
         return [(none, back), (self, 1 - back)]
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Its own, beside those of effects."""
+        """Name of the cause in no catalogue, as effects have theirs."""
         return (UNLISTED,)
 
 
 def kin_of(search: Search, fitted: Refitted, temper: float) -> Kin | None:
-    """Of an explanation with effects; None where that is not asked.
+    """Kin of an explanation with effects; None where the noise is not known.
 
-    So it is where the noise is not known. `temper` as `marginal.cost` takes it.
+    `temper` as `marginal.cost` takes it.
     """
     problem = search.problem
     if not search.evidence.scale_known:
@@ -129,9 +129,10 @@ def kin_along(
     directions: Callable[[], Array],
     temper: float,
 ) -> Kin | None:
-    """The same beside `none`, whitened changes of the readings given, if asked for: shape (data, any).
+    """Kin of an explanation from its fit, and from that without effects, `none`.
 
-    None where the effects' own formulas are no better than kin.
+    `directions` computes whitened changes of the readings by which kin differs: shape (data, any). None
+    where the effects' own formulas are no better than kin.
     """
     loose = KIN.beyond_formula * np.sqrt(
         max((max(VERDICT.formula_share, e.unexplained_share) for e in fitted.effects), default=1.0)

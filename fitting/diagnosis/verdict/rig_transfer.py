@@ -20,6 +20,7 @@ from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refit import evaluated
 from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.several.errors_between_files import own_cores
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.several.several_problem import SeveralProblem
 from fitting.diagnosis.several.wandering import Wandering
@@ -169,7 +170,7 @@ def _linear(
     measured = problem.sweep.response_m_s[taken]
     r = np.log(measured / v[taken]) + moved @ by
     noise = evidence.sigma_m_s[taken] / np.abs(v[taken])
-    by = np.concatenate([by, problem.own_cores(none.law, v)[:, taken]])
+    by = np.concatenate([by, own_cores(problem.members, none.law, v)[:, taken]])
     t = np.log(problem.sweep.frequency_hz[taken])
     return _Linear(r, by, noise, t, problem.file_of_points[taken])
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from shear_pair_cases import LAW
 
-from fitting.diagnosis.several.among import among
 from fitting.diagnosis.several.between_files import BetweenFiles
+from fitting.diagnosis.several.effect_among_files import among
 from fitting.effects import CATALOGUE
 from fitting.effects.core_difference import CoreDifferenceEffect
 from fitting.effects.given import ModulusAt, Points

@@ -8,7 +8,12 @@ import pytest
 from fitting.data.readings import Readings
 from fitting.diagnosis.inference import wide_valley
 from fitting.diagnosis.inference.evidence import Evidence
-from fitting.diagnosis.inference.wide_valley import in_wide_valley, of_effects, whole, with_stated
+from fitting.diagnosis.inference.wide_valley import (
+    evaluated_with_stated,
+    in_wide_valley,
+    of_effects,
+    with_stated,
+)
 from fitting.diagnosis.response.unknowns import STATED_NUMBER
 from fitting.effects import CATALOGUE
 from fitting.laws.constant import ConstantModulus
@@ -73,10 +78,10 @@ def test_as_the_readings_are_it_is_still_on_its_way(problem):
 
 def test_told_of_stated_numbers_it_is_where_it_was_and_feels_them(problem):
     found = in_wide_valley(problem, [GAIN], EVIDENCE, LAW, np.array([1.0]))
-    told = whole(problem, EVIDENCE, found)
+    told = evaluated_with_stated(problem, EVIDENCE, found)
     assert told.stated == 1
     assert told.chi2 == pytest.approx(found.chi2)
     assert told.jacobian.shape[1] == found.jacobian.shape[1] + 1
     assert np.linalg.norm(told.jacobian[: told.data, 2]) > 0
-    assert whole(problem, EVIDENCE, told) is told
+    assert evaluated_with_stated(problem, EVIDENCE, told) is told
     assert with_stated(problem, told) is told.u

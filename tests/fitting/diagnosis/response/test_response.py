@@ -5,7 +5,8 @@ from shear_pair_problem import GAIN, HIGH, MASS, ShearPairProblem
 
 from fitting.diagnosis.response.response import Response
 from fitting.diagnosis.response.sweep_response import SweepResponse
-from fitting.diagnosis.several.several_problem import SeveralProblem, SeveralResponse
+from fitting.diagnosis.several.several_problem import SeveralProblem
+from fitting.diagnosis.several.several_response import SeveralResponse
 from fitting.mode_tables.fit import begin_modal, problem_of
 
 

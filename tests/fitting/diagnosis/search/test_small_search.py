@@ -14,7 +14,7 @@ from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.diagnosis.search.asked import Beside, OfEffect, OneOfPair, Second, ToFollow
 from fitting.diagnosis.search.candidate_fits import CandidateFits
-from fitting.diagnosis.search.candidates import Known
+from fitting.diagnosis.search.candidates import CandidateState
 from fitting.diagnosis.search.singles import Singles
 from fitting.diagnosis.verdict.cautions import NO_DRIFT, NO_SECONDS
 from fitting.effects import CATALOGUE
@@ -60,7 +60,7 @@ def test_of_two_forms_that_do_alike_so_far_both_are_followed(high, worse_by, fol
     (rough,) = work.begin(OfEffect("gain_error", work.state("gain_error"))).fits
     other = replace(rough, residuals=rough.residuals * np.sqrt(1 + worse_by / rough.chi2))
     work.candidates["gain_error"] = [copy(work.candidates["gain_error"][0]) for _ in range(2)]
-    work.learn("gain_error", [Known(near=[rough]), Known(near=[other])])
+    work.learn("gain_error", [CandidateState(near=[rough]), CandidateState(near=[other])])
     assert [number for (_, number), _ in work.best_near("gain_error")] == followed
     # What is followed is not gone into twice.
     assert len(work.thorough("gain_error", astray=False)) == 2 - len(followed)
@@ -84,7 +84,7 @@ def test_only_a_fit_that_had_not_come_to_its_end_is_on_the_way(high):
     work = high.fits(GAIN)
     (rough,) = work.begin(OfEffect("gain_error", work.state("gain_error"))).fits
     for converged, waiting in ((True, []), (False, [rough.chi2])):
-        work.learn("gain_error", [Known(near=[replace(rough, converged=converged)])])
+        work.learn("gain_error", [CandidateState(near=[replace(rough, converged=converged)])])
         assert [f.chi2 for _, f in work.on_the_way("gain_error")] == waiting
 
 
@@ -150,7 +150,7 @@ def test_a_rough_fit_that_leads_and_was_on_its_way_is_followed_to_its_end_once(h
     def begun(self, one):
         found = first(self, one)
         short = [replace(f, converged=False) for f in found.fits]
-        return replace(found, fits=short, state=[Known(near=short)])
+        return replace(found, fits=short, state=[CandidateState(near=short)])
 
     first = CandidateFits.begin
     monkeypatch.setattr(CandidateFits, "finish", finished)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from fitting.diagnosis.several.among import among
 from fitting.diagnosis.several.between_files import BetweenFiles
+from fitting.diagnosis.several.effect_among_files import among
 from fitting.diagnosis.several.of_files import EACH, Place
 from fitting.effects import CATALOGUE
 

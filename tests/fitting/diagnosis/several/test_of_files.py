@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fitting.diagnosis.several.among import among
+from fitting.diagnosis.several.effect_among_files import among
 from fitting.diagnosis.several.of_files import EACH, OfFiles, Place, copies_of, inner_of, own_unknowns
 from fitting.effects import CATALOGUE
 

@@ -7,6 +7,7 @@ import pytest
 from shear_pair_cases import LAW, pair, sweep
 
 from fitting.diagnosis.problem.small_problem import SmallProblem
+from fitting.diagnosis.several.errors_between_files import alike
 from fitting.diagnosis.several.of_files import Place
 from fitting.diagnosis.several.several_problem import SeveralProblem
 
@@ -34,7 +35,7 @@ def common_rows(problem):
 def test_files_with_a_misfit_share_a_gain_and_a_phase_of_its_size():
     problem = of((0.01, 0.02))
     size = np.sqrt((0.01**2 + 0.02**2) / 2)
-    assert problem.alike == pytest.approx(size)
+    assert alike(problem.members, problem.belongs) == pytest.approx(size)
     gain, phase, *_ = common_rows(problem)
     np.testing.assert_allclose(gain, size)
     np.testing.assert_allclose(phase, 1j * size)
@@ -53,5 +54,5 @@ def test_accelerometers_that_read_every_mass_have_a_gain_and_a_delay_in_common()
 @pytest.mark.parametrize(("misfits", "files"), [((0.0, 0.0), (1, 2)), ((0.01, 0.02), (1, 1))])
 def test_no_misfit_is_shared_where_noise_explains_the_files_or_there_is_one(misfits, files):
     problem = of(misfits, files)
-    assert problem.alike == 0.0
+    assert alike(problem.members, problem.belongs) == 0.0
     assert len(common_rows(problem)) == (2 if len(set(files)) > 1 else 0)

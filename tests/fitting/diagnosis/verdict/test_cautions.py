@@ -4,7 +4,7 @@ from types import SimpleNamespace as Like
 
 import numpy as np
 
-from fitting.diagnosis.verdict.cautions import warnings_of
+from fitting.diagnosis.verdict.cautions import NO_DRIFT, warnings_of
 from fitting.effects import CATALOGUE
 from fitting.identification.result import doubts_itself
 from fitting.laws import LAWS
@@ -43,3 +43,17 @@ def test_of_a_sweep_in_one_piece_it_is_said_what_is_held_out():
     search = Like(problem=Like(points=Like(timed=True), sweep=alone), stated=LAW, work=Like(parts=PARTS))
     (said,) = warnings_of(search, Like(accepted=None, equivalent={}, group=(), by_hand=False))
     assert said.endswith("segments 1 to 3 are its stretches of 11 to 30, 31 to 50, 51 to 70 Hz")
+
+
+def test_what_follows_from_times_is_named_with_a_caution_or_said_not_to_have_been_looked_for():
+    drift = CATALOGUE["temperature_drift"]
+    untimed = Like(points=Like(timed=False), sweep=SWEEP)
+    named = Like(accepted=None, equivalent={drift.name: (drift.name,)}, group=(), by_hand=False)
+    nothing = Like(accepted=None, equivalent={}, group=(), by_hand=False)
+    asked = Like(problem=untimed, stated=LAW, work=Like(parts=PARTS), effects=[drift], objected=())
+    assert warnings_of(asked, named)[0].endswith("the drift assumes an even sweep upwards in frequency")
+    assert warnings_of(asked, nothing) == ()
+    objecting = Like(**{**vars(asked), "effects": [], "objected": (drift,)})
+    assert warnings_of(objecting, nothing)[0] == NO_DRIFT
+    without = Like(**{**vars(asked), "effects": [], "objected": (CATALOGUE["gain_error"],)})
+    assert warnings_of(without, nothing) == ()
