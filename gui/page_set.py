@@ -33,7 +33,7 @@ class PageSet:
         for name in [n for n in self.kinds if not PAGES.is_own(n)]:
             try:
                 self.page(name)
-            except Exception as error:
+            except Exception as error:  # whatever another package's page raises, the window opens without it
                 PAGES.leave_out(name, error)
                 del self.kinds[name]
         self._fed = set(self.kinds)
@@ -62,7 +62,7 @@ class PageSet:
                 continue
             try:
                 page.show_state(state)
-            except Exception as error:
+            except Exception as error:  # whatever another package's page raises, the others are shown
                 if PAGES.is_own(name):
                     raise
                 PAGES.leave_out(name, error)
