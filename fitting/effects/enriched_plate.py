@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.arrays import Array, Complex, Place, as_slice
+from fitting.arrays import Array, Complex, as_slice
 from fitting.dynamics.dynamic_stiffness import dynamic_stiffness, stacked
 from fitting.effects.change import Change
 from fitting.effects.combined_columns import AllCombined, OwnCombined, own_and_beside
@@ -28,6 +28,8 @@ from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
 
 Names = NDArray[np.str_]
+Place = tuple[float, float]
+"""On the plate, in m."""
 
 CONDENSED = 1e-4
 """Of the largest singular value, what a condensed plate may leave out; its reading is then off by 1e-5."""
