@@ -113,7 +113,7 @@ def parse_quantity(reply: str, unit: str) -> float:
 
 
 def parse_optional_quantity(reply: str, unit: str) -> float | None:
-    """The same, or None where the device states none."""
+    """As `parse_quantity`, or None where the device states none."""
     return None if is_missing(reply) else parse_quantity(reply, unit)
 
 

@@ -191,7 +191,7 @@ class RigDocument(TomlTable):
         return found | ({"chamber": self.chamber} if self.chamber is not None else {})
 
     def anywhere(self) -> "RigDocument":
-        """The same rig wherever its instruments answer: to compare two."""
+        """A copy without addresses and `[simulation]`: to compare two rigs wherever they answer."""
         kept = {n: device.model_copy(update={"address": NOT_KEPT}) for n, device in self.devices().items()}
         return self.model_copy(update={**kept, "simulation": None})
 

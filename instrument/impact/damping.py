@@ -127,7 +127,7 @@ def damping_of_hits(
 def damping_of_frfs(
     frfs: dict[str, Frf], *, band_hz: tuple[float, float] | None = None, at_hz: tuple[float, ...] = ()
 ) -> Damping:
-    """The same from FRFs of another instrument: nothing is padded, half power reads their own lines."""
+    """Find modes as `damping_of_hits` does, in FRFs of another program; half power reads their own lines."""
     any_frf = next(iter(frfs.values()))
     f = any_frf.frequency_hz
     band = band_hz or (float(f[0]), float(f[-1]))

@@ -163,7 +163,7 @@ def mounted_beam(stated: BeamStated, reduced: Reduced, law: MaxwellLaw, effects:
 
 
 def mounted_pair(stated: PairStated, reduced: Reduced, law: MaxwellLaw, effects: Effects) -> Mounted:
-    """The same of a pair."""
+    """As `mounted_beam`, of a shear pair."""
     refuse_effects("shear-pair", effects)
     M, load = reduced.M, reduced.load
     if effects.added_mass:
