@@ -1,4 +1,4 @@
-"""Types of arrays, and of places in them."""
+"""Types of arrays, of places in them, and of places on a plate."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,8 @@ Integers = NDArray[np.intp]
 Indices = NDArray[np.intp]
 """Places in another array."""
 Places = Indices | slice
+Place = tuple[float, float]
+"""A place on a plate: x and y in m."""
 
 
 def as_slice(places: Indices) -> Places:

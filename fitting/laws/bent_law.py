@@ -76,7 +76,7 @@ class BentLaw(CoreLaw):
         return self.law
 
     @property
-    def kind(self) -> str:  # type: ignore[override]
+    def kind(self) -> str:
         """Of the law that is bent."""
         return self.law.kind
 

@@ -143,9 +143,10 @@ def _shifted(
             for to, more in zip((K_0, K_1, M), _treated(shape, names, rectangle), strict=True):
                 to += sign / (2 * SHIFT_M) * more
     c = coefficients(reference, reference)
-    return tuple(
+    dK_0, dK_1, dM = (
         np.tensordot(f.real, P, axes=1) for f, P in zip((c.K_0, c.K_1, c.M), (K_0, K_1, M), strict=True)
-    )  # type: ignore[return-value]
+    )
+    return dK_0, dK_1, dM
 
 
 def load_part(reference: Specimen) -> Array:

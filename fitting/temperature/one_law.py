@@ -43,7 +43,7 @@ class OneLaw(MemberLaws):
     """Of each sweep, e to the power of standard deviations; none where temperatures are as stated."""
 
     @property
-    def kind(self) -> str:  # type: ignore[override]
+    def kind(self) -> str:
         """Of the law that is shifted."""
         return self.law.kind
 
@@ -159,7 +159,7 @@ class OwnLaws(MemberLaws):
     points: tuple[int, ...]
 
     @property
-    def kind(self) -> str:  # type: ignore[override]
+    def kind(self) -> str:
         """Of every one of them."""
         return self.laws[0].kind
 

@@ -26,7 +26,7 @@ class ShiftedLaw(CoreLaw):
     b: float = 1.0
 
     @property
-    def kind(self) -> str:  # type: ignore[override]
+    def kind(self) -> str:
         """Of the law that is shifted."""
         return self.law.kind
 

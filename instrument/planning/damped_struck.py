@@ -38,7 +38,7 @@ from instrument.planning.measurement import HANDS_S, Measurable
 from instrument.planning.steps import Steps, about, where
 from instrument.stepped_sine.settings import SweepSettings
 
-_AT = [(0.95, 0.5), (0.6, 0.5)]
+_STRUCK_AT = [(0.95, 0.5), (0.6, 0.5)]
 """Of length and width, where it is hit in its clamp. On the axis: the basis of a plate that its base drives
 has motions even across the width alone."""
 _APART_M = 0.03
@@ -122,7 +122,7 @@ def _in_clamp(expecting: RivalForecasts, stated: Specimen, lines: Steps) -> Iter
     assert reduced is not None
     assert stated.pickup_m is not None
     read = np.array(stated.pickup_m)
-    places = [(along * stated.length_m, across * stated.width_m) for along, across in _AT]
+    places = [(along * stated.length_m, across * stated.width_m) for along, across in _STRUCK_AT]
     point = next(p for p in places if np.hypot(*(read - p)) > _APART_M)
     plate, moved, nuisances = struck(member.plate, reduced, member.nuisances, point, GAIN)
     assert isinstance(nuisances.specimen, Specimen)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fitting.arrays import Array, Integers, Mask
+from fitting.arrays import Array, Integers, Mask, Place
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.plate_poles import PlatePoles
 from fitting.diagnosis.several.sharing import OF_EACH_FILE, OF_EACH_KELVIN, OF_EACH_PLATE, OF_EACH_SPOT
@@ -47,7 +47,6 @@ OF_THE_SPOT = frozenset({"spot_offset"})
 _OF_A_MOUNTING = frozenset({*OF_EACH_SPOT, *OF_EACH_FILE, *OF_EACH_KELVIN, *OF_EACH_PLATE})
 """Stated numbers that are other ones in a file of its own, as the joint fit has them."""
 _LEAST_HZ, _MOST_HZ = 5.0, 2000.0
-Place = tuple[float, float]
 
 
 @dataclass(frozen=True)

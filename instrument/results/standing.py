@@ -11,7 +11,7 @@ from fitting.diagnosis.verdict.shares import holding
 from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageFitted, StageName
 
 Standing = Literal["found", "equal", "none", "other"]
-_LEAST = 1e-300
+_LEAST_WHOLE = 1e-300
 """Where the listed ones have nothing left to share."""
 
 
@@ -80,5 +80,5 @@ def _group(found: DiagnosisResult) -> set[str] | None:
         return None
     listed = [c for c in found.candidates if c.name != UNLISTED]
     ranked, whole = sorted(listed, key=lambda c: -c.probability), sum(c.probability for c in listed)
-    group = {c.name for c in ranked[: holding([c.probability / max(whole, _LEAST) for c in ranked])]}
+    group = {c.name for c in ranked[: holding([c.probability / max(whole, _LEAST_WHOLE) for c in ranked])]}
     return group | {UNLISTED} if any(UNLISTED in names for names in found.equivalent.values()) else group

@@ -39,7 +39,7 @@ def all_are_right(points):
 def change_range(rig):
     """As a hand at the panel does."""
     with rig.world.lock:
-        rig._head.range_name = "50mm/s/V"
+        rig.vibrometer.head.range_name = "50mm/s/V"
         rig.world.laser.scale_m_s_v = 0.05
 
 
