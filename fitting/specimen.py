@@ -12,7 +12,7 @@ from fitting.laws import CoreLaw
 from fitting.stated.edges import Edges, edges_of, named
 from fitting.stated.layers import Core, Face, Glue, Orthotropy
 from fitting.stated.patches import OF_PATCHES, Patch, shift_of
-from fitting.stated.tolerances import OF_OWN_AXES, StatedNumber, StatedValue, number_of
+from fitting.stated.tolerances import OF_OWN_AXES, StatedNumber, StatedValue, number_of, of_scope
 
 Kind = Literal["plate", "beam", "shear-pair"]
 """Which structure a specimen is. What another one needs: CONTRIBUTING.md."""
@@ -20,7 +20,7 @@ KINDS: tuple[Kind, ...] = get_args(Kind)
 Reading = Literal["relative", "absolute"]
 Drive = Literal["base", "force"]
 
-OF_DRIVE_AND_READING = ("pickup", "force", "gain", "delay", "phase")
+OF_DRIVE_AND_READING = of_scope("file", "spot", "channel", "chain")
 """Tolerances that are not of the plate itself."""
 DEFAULT_ELEMENTS = 1040
 """Elements of the default mesh: 40 x 26 on a plate of aspect 1.5."""

@@ -18,6 +18,7 @@ _UNITS = {
 }
 """Ending of the file's key, unit for people, factor."""
 _NOT_OF_A_SWEEP = ("mass", "place", "area")
+"""Of masses put on a plate, or of a shear pair's disc: no scope, but not of a plate by itself."""
 
 
 def asked(specimen: AnySpecimen) -> list[str]:
