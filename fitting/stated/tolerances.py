@@ -39,6 +39,32 @@ GPA, MPA = Shown("GPa", 1e-9), Shown("MPa", 1e-6)
 KG_M3, GRAM, KG = Shown("kg/m^3", 1.0), Shown("g", 1e3), Shown("kg", 1.0)
 
 
+class InFiles(NamedTuple):
+    """How files and tables of tolerances say a standard deviation."""
+
+    ending: str
+    """Of the file's key."""
+    unit: str
+    """For people."""
+    to_si: float
+
+    @property
+    def from_si(self) -> float:
+        """Times what is kept, what files and tables say."""
+        return 1 / self.to_si
+
+
+IN_FILES: dict[Unit, InFiles] = {
+    "1": InFiles("percent", "%", 1e-2),
+    "m": InFiles("mm", "mm", 1e-3),
+    "s": InFiles("us", "µs", 1e-6),
+    "rad": InFiles("deg", "°", pi / 180),
+    "1/K": InFiles("percent", "%/K", 1e-2),
+    "Pa": InFiles("mpa", "MPa", 1e6),
+}
+"""By the unit that a tolerance is kept in."""
+
+
 class StatedValue(NamedTuple):
     """What a specimen states of one number."""
 

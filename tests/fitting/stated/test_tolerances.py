@@ -2,7 +2,7 @@
 
 from typing import get_args
 
-from fitting.stated.tolerances import NUMBERS, OF_CHANNELS, OF_THEORY, PLATE, Scope, of_scope
+from fitting.stated.tolerances import IN_FILES, NUMBERS, OF_CHANNELS, OF_THEORY, PLATE, Scope, of_scope
 
 
 def test_every_number_is_of_one_scope():
@@ -21,3 +21,9 @@ def test_layers_and_what_a_theory_leaves_open_are_alike_wherever_they_are_stated
         *OF_THEORY,
         *(n for n in PLATE if n not in ("length", "width", "axial")),
     }
+
+
+def test_what_files_say_of_a_tolerance_and_back_is_the_same():
+    for said in IN_FILES.values():
+        assert said.from_si * said.to_si == 1
+    assert {number.unit for number in NUMBERS.values()} == set(IN_FILES)
