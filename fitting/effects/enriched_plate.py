@@ -18,12 +18,9 @@ from fitting.effects.change import Change
 from fitting.effects.combined_columns import AllCombined, OwnCombined, own_and_beside
 from fitting.effects.span import Span
 from fitting.plate.element import Shape
+from fitting.plate.layers_array import specimen_of
 from fitting.plate.mesh import Mesh
-from fitting.plate.parts import (
-    Coefficients,
-    coefficients,
-    specimen_of,
-)
+from fitting.plate.parts import Coefficients, coefficients
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
 
@@ -95,7 +92,7 @@ class EnrichedReducedPlate:
     load_part: Array
     """Shape (k,); of a small structure, and of a plate not treated all over, (parts, k)."""
     layers: Array
-    """What is stated of them (`fitting.plate.parts.layers_of`), zero for a plate that carries no effects."""
+    """What is stated of them (`layers_array.layers_of`), zero for a plate that carries no effects."""
     shares: Array = field(default_factory=lambda: np.empty(0))
     """Singular values of its own columns, which are the first then. Shape (own,); empty if not condensed."""
 
