@@ -160,7 +160,7 @@ class Specimen(Driven):
         pulled = tuple(0.0 if stress is None and a and b else stress for stress, a, b in between)
         object.__setattr__(self, "axial_pa", pulled)
         if self.force_m is not None:
-            # Its edges are at rest: one reading is the other.
+            # A force leaves the edges at rest: relative and absolute readings agree.
             object.__setattr__(self, "reads", "relative")
 
     @property
