@@ -16,8 +16,8 @@ from fitting.arrays import Array, Complex, as_slice
 from fitting.dynamics.dynamic_stiffness import dynamic_stiffness, stacked
 from fitting.effects.change import Change
 from fitting.effects.combined_columns import AllCombined, OwnCombined, own_and_beside
+from fitting.effects.plate_rows import RowReader
 from fitting.effects.span import Span
-from fitting.plate.element import Shape
 from fitting.plate.layers_array import specimen_of
 from fitting.plate.mesh import Mesh
 from fitting.plate.parts import Coefficients, coefficients
@@ -41,9 +41,7 @@ _PART = "part"
 """Group of the motion of a part on the plate."""
 _MOST_TAKEN = 12
 """Plates with some spans' columns that are kept. A bound on memory: one takes up to 6 MB."""
-_MOST_ROWS = 32
-"""Rows that are kept: those of one evaluation. A choice."""
-_MADE_ANEW = ("_taken", "_stacks", "_rows", "roughly", "with_part")
+_MADE_ANEW = ("_taken", "_stacks", "_reader", "roughly", "with_part")
 """Another process makes these anew."""
 
 
@@ -348,36 +346,12 @@ class EnrichedReducedPlate:
         return float(self.size[1])
 
     def row(self, x_m: float, y_m: float, dx: int = 0, dy: int = 0) -> Array:
-        """Reads w, or its derivative, at a point of the plate; beyond an edge the nearest one. Shape (k,).
-
-        The latest are kept: a step along one unknown of an effect leaves its other places where they are.
-        """
-        key, known = (float(x_m), float(y_m), dx, dy), self._rows
-        if key not in known:
-            while len(known) >= _MOST_ROWS:
-                del known[next(iter(known))]
-            known[key] = self._row(*key)
-        return known[key]
+        """Reads w, or its derivative, at a point of the plate; beyond an edge the nearest one. Shape (k,)."""
+        return self._reader.row(x_m, y_m, dx, dy)
 
     @cached_property
-    def _rows(self) -> dict[tuple[float, float, int, int], Array]:
-        return {}
-
-    def _row(self, x_m: float, y_m: float, dx: int, dy: int) -> Array:
-        mesh = self._mesh
-        a, b = mesh.sides_m
-        x, y = min(max(x_m, 0.0), mesh.length_m), min(max(y_m, 0.0), mesh.width_m)
-        i, j = min(int(x / a), mesh.n_x - 1), min(int(y / b), mesh.n_y - 1)
-        first = i * (mesh.n_y + 1) + j
-        corners = [first, first + mesh.n_y + 1, first + mesh.n_y + 2, first + 1]
-        shape = Shape(a, b).deflection_by_corners(x - i * a, y - j * b, dx, dy)
-        found = np.asarray(shape.ravel() @ self.deflection[corners].reshape(shape.size, -1))
-        found.setflags(write=False)
-        return found
-
-    @cached_property
-    def _mesh(self) -> Mesh:
-        return Mesh(self.length_m, self.width_m, int(self.size[2]), int(self.size[3]))
+    def _reader(self) -> RowReader:
+        return RowReader(self.deflection, self.size)
 
 
 def _squares(stack: Array, columns: NDArray[np.intp]) -> Array:
