@@ -8,7 +8,7 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from fitting.dynamics.direct import displacement_direct
-from instrument.campaign.bench import GRID_HZ, synthetic_sweep
+from instrument.bench.sweeps import GRID_HZ, synthetic_sweep
 from instrument.files.specimen_file import read_specimen
 from instrument.models.diagnosis import diagnose
 from instrument.models.identification import identify

@@ -5,12 +5,13 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
-from gui.background_task import BackgroundTask, Progress
 from gui.data_beside import DataBeside
 from gui.feeds.feed import Feed
 from gui.feeds.live import LiveFeed
 from gui.feeds.recorded import RecordedFeed
 from gui.rediagnosis import Rediagnosis
+from gui.run_commands import RunCommands
+from gui.starting import Starting
 from gui.state import SessionState
 from gui.together import Together
 from instrument.engine import Engine, Order, Stopped
@@ -20,7 +21,7 @@ from instrument.files.experiment_file import other_kind
 from instrument.interchange.found import Found
 from instrument.interchange.given import SESSION_ENDINGS, is_session
 from instrument.interchange.readers import foreign_endings
-from instrument.session.configuration import Configuration, read_whole_experiment
+from instrument.session.configuration import Configuration
 
 EXPERIMENT_ENDING = ".toml"
 BROKEN_OFF = ".running"
@@ -70,12 +71,13 @@ class AppController(QObject):
         self.data_beside = DataBeside(self)
         self.rediagnosis = Rediagnosis(self)
         self.together = Together(self.rediagnosis, self)
+        self.commands = RunCommands(lambda: self.live, lambda: self._starting, self)
         self.changed.connect(self.together.let_go)
         self.changed.connect(self.rediagnosis.let_go)
         self.ending: Ended | None = None
         """Of the last run; None while one goes on."""
         self._opening: RecordedFeed | None = None
-        self._starting: _Starting | None = None
+        self._starting: Starting | None = None
         self.data_beside.changed.connect(self.beside_changed)
         self.data_beside.renewed.connect(self.rediagnosis.let_go_of)
         self.data_beside.read.connect(self._laid)
@@ -112,7 +114,7 @@ class AppController(QObject):
     @property
     def running(self) -> bool:
         """Whether a run goes on."""
-        return self.live is not None and self.live.engine.running
+        return self.commands.running
 
     @property
     def starting(self) -> bool:
@@ -177,57 +179,11 @@ class AppController(QObject):
             self.refused.emit("a run goes on already")
             return
         self.began.emit()
-        self._starting = _Starting(order, self)
+        self._starting = Starting(order, self)
         self._starting.done.connect(self._started)
         self._starting.failed.connect(self._not_started)
         self._starting.cancelled.connect(self._start_cancelled)
         self._starting.start()
-
-    def hold(self) -> None:
-        """Silence the shaker and wait, or go on where it is held."""
-        if self.live is None or not self.running:
-            return
-        if self.live.state is not None and self.live.state.run.state == "held":
-            self.live.engine.resume()
-        else:
-            self.live.engine.hold()
-
-    def answer(self) -> None:
-        """What the run asked the operator for is done."""
-        if self.live is not None:
-            self.live.answer()
-
-    def decline(self) -> None:
-        """Not what the run offers to measure."""
-        if self.live is not None:
-            self.live.answer(False)
-
-    def leave_out(self) -> None:
-        """The step that is being measured."""
-        if self.live is not None and self.running:
-            self.live.engine.decline()
-
-    def add_step(self, frequency_hz: float) -> None:
-        """To a sweep that chooses its own steps."""
-        if self.live is not None and self.running:
-            self.live.engine.overrule("add", frequency_hz)
-
-    def end_sweep(self) -> None:
-        """One that chooses its own steps: the run goes on with what is measured."""
-        if self.live is not None and self.running:
-            self.live.engine.overrule("end")
-
-    def abort(self) -> None:
-        """End the run in order."""
-        if self.live is not None and self.running:
-            self.live.engine.abort()
-
-    def stop(self) -> None:
-        """Silence the shaker past whatever hangs; a run that is about to begin does not."""
-        if self._starting is not None:
-            self._starting.cancel()
-        elif self.live is not None and self.running:
-            self.live.stop()
 
     def close(self) -> None:
         """Let go of everything."""
@@ -342,14 +298,3 @@ def _said_of_folder(path: Path) -> str:
         f"{path.name}: a run that was broken off: open its experiment and choose it beside Begin; "
         f"'viscorig recover' makes a session of what is complete"
     )
-
-
-class _Starting(BackgroundTask[Configuration]):
-    """Of a run: its files are read."""
-
-    def __init__(self, order: Order, parent: QObject) -> None:
-        super().__init__(self._read_files, parent)
-        self.order = order
-
-    def _read_files(self, _: Progress) -> Configuration:
-        return read_whole_experiment(self.order.experiment).configuration(self.order.experiment.stem, "")

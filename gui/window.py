@@ -62,7 +62,7 @@ class Window(Shell):
         self._page_set = PageSet(self.controller)
         self.replay = ReplayBar()
         self.log = LogPane()
-        self._guard = StopGuard(self.bar.stop, self.controller.stop, self._escaped)
+        self._guard = StopGuard(self.bar.stop, self.controller.commands.stop, self._escaped)
         self._closing = self._may_lose = False
         self._asked: QMessageBox | None = None
         """Whether to close although a run goes on."""
@@ -286,9 +286,9 @@ class Window(Shell):
 
     def _shortcuts(self) -> None:
         for keys, slot in (
-            ("F9", self.controller.hold),
-            ("Ctrl+F9", self.controller.abort),
-            ("Ctrl+Return", self.controller.answer),
+            ("F9", self.controller.commands.hold),
+            ("Ctrl+F9", self.controller.commands.abort),
+            ("Ctrl+Return", self.controller.commands.answer),
             ("Ctrl+Space", self.replay.toggle),
             ("Ctrl+Left", self.replay.to_mark_before),
             ("Ctrl+Right", self.replay.to_next_mark),
@@ -338,7 +338,7 @@ class Window(Shell):
 
     def _leave(self) -> None:
         self._closing = True
-        self.controller.stop()
+        self.controller.commands.stop()
 
 
 def _room_for(name: str) -> QWidget:

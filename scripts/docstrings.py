@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from itertools import chain, pairwise
 from pathlib import Path
 
-ROOMS = ("fitting", "drivers", "instrument", "gui", "viscorig")
+ROOMS = ("fitting", "drivers", "instrument", "gui", "viscorig", "campaign")
 KEPT = {f"drivers/simulated/plant/{name}.py" for name in ("air", "grid", "specimen", "strips")}
 """plate.npz carries a digest of their text: a docstring more would make it another plate."""
 

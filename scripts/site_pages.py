@@ -36,7 +36,7 @@ DECISIONS = "decisions"
 MODULES = "modules.md"
 MADE_HERE = "scripts/site_pages.py"
 """Where the repository links to this file, the site has the page that it makes: the modules."""
-ROOMS = ("fitting", "drivers", "instrument", "gui", "viscorig")
+ROOMS = ("fitting", "drivers", "instrument", "gui", "viscorig", "campaign")
 
 _SOURCES = {site: root for root, site in ROOT_PAGES.items()}
 _LINK = re.compile(r"(?<=\]\()[^)\s]+(?=[)\s])")

@@ -73,11 +73,11 @@ def a_law(number, last_step, points, damping, specimen):
 def grouped(*offers):
     """A diagnosis that ends in a group as long as there are offers, one after another."""
 
-    def diagnose(number, last_step, points, times_s, damping, struck, specimen, possible):
-        measured = {p.sweep for p in points if p.step <= last_step}
-        left = offers[len(measured) + len(struck) - 1 :][:1]
+    def diagnose(asked):
+        measured = {p.sweep for p in asked.points if p.step <= asked.last_step}
+        left = offers[len(measured) + len(asked.struck) - 1 :][:1]
         result = diagnosis().but(next_measurements=left)
-        return DiagnosisFound(number, last_step, result)
+        return DiagnosisFound(asked.number, asked.last_step, result)
 
     return diagnose
 
@@ -92,9 +92,9 @@ def really(*offers):
     """A diagnosis as a run makes it, but for what it proposes: the ranking of such data may be empty."""
     proposed = grouped(*offers)
 
-    def diagnose(*given):
-        found = diagnose_points(*given)
-        offered = proposed(*given).result.next_measurements
+    def diagnose(asked):
+        found = diagnose_points(asked)
+        offered = proposed(asked).result.next_measurements
         return replace(found, result=found.result.but(next_measurements=offered))
 
     return diagnose

@@ -10,6 +10,7 @@ from functools import cache
 
 import numpy as np
 
+from campaign.plant.materials import draw_material
 from fitting.diagnosis.inference.whitening import SHARE
 from fitting.discrepancy.model_error import DRIFT, GAIN, model_error_at
 from fitting.dynamics.damping import viscous_damping
@@ -22,7 +23,6 @@ from fitting.plate.plate_numbers import moved, plate_numbers, tolerance
 from fitting.specimen import Specimen
 from fitting.stated.layers import Core, Face
 from fitting.sweep import Sweep
-from instrument.campaign.plant.materials import draw_material
 
 NOISE = 0.003
 POINTS, SEGMENTS = 16, 3

@@ -5,13 +5,13 @@ from functools import lru_cache
 import numpy as np
 import scipy.linalg as la
 
+from campaign.law import TrueLaw
+from campaign.plates.geometry import plate_named
+from campaign.plates.grid import Fineness
+from campaign.plates.reduced import reduced
+from campaign.plates.solid import Build, Solid
+from campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
 from fitting.mode_tables.table import ModalTable
-from instrument.campaign.law import TrueLaw
-from instrument.campaign.plates.geometry import plate_named
-from instrument.campaign.plates.grid import Fineness
-from instrument.campaign.plates.reduced import reduced
-from instrument.campaign.plates.solid import Build, Solid
-from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
 
 TRUTH = TrueLaw("fractional-zener", (0.35e6, 12e6, 4e-5, 0.62))
 """Of every plate here; the file that a fit is given names another one."""

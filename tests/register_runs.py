@@ -30,10 +30,10 @@ class Turns:
 
 
 def _hold_and_stop(turns, window, rig, seconds):
-    window.controller.hold()
+    window.controller.commands.hold()
     turns.waitUntil(lambda: window.controller.state.run.state == "held" and drive_v(rig) == 0)
     turns.wait(seconds)
-    window.controller.hold()
+    window.controller.commands.hold()
     turns.waitUntil(lambda: drive_v(rig) > 0.05)
     turns.wait(seconds)
 
@@ -79,7 +79,7 @@ def one_run(window, folder: Path, what: str, seconds: float) -> RegisterLooks:
         turns.wait(seconds)
         HAPPENINGS[what](turns, window, rig, seconds)
         if window.controller.running:
-            window.controller.stop()
+            window.controller.commands.stop()
         turns.waitUntil(lambda: not window.controller.running)
         turns.wait(1.0)
     return looks

@@ -9,7 +9,7 @@ import pytest
 
 TESTS = Path(__file__).parent
 ROOT = TESTS.parent
-ROOMS = ("viscorig", "instrument", "drivers", "gui", "fitting")
+ROOMS = ("viscorig", "instrument", "drivers", "gui", "fitting", "campaign")
 
 
 def module_of(path):

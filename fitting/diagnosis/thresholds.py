@@ -1,11 +1,14 @@
-"""Every number that a diagnosis is decided by, and why it is what it is.
+"""The numbers that a diagnosis is decided by, and why they are what they are.
 
-`VERDICT` decides what is said, `SEARCH`, `STARTS`, `PAIRS`, `WIDE_VALLEYS` and `STOPPING` only what is looked
-at on the way: more of it costs time and finds no other verdict, unless the cause was missed. What each is
-for: docs/diagnosis-method.md; how often the verdicts are right: docs/evidence/diagnosis.md.
+`VERDICT` and `KIN` decide what is said, `SEARCH`, `STARTS`, `PAIRS`, `WIDE_VALLEYS` and `STOPPING` only what
+is looked at on the way: more of it costs time and finds no other verdict, unless the cause was missed. What
+each is for: docs/diagnosis-method.md; how often the verdicts are right: docs/evidence/diagnosis.md.
+Tolerances of the arithmetic, and what shapes a model of an error, stand where they are used.
 """
 
 from dataclasses import dataclass
+
+import numpy as np
 
 
 @dataclass(frozen=True)
@@ -67,6 +70,36 @@ class VerdictThresholds:
     """The same in Ljung-Box's test, whose tail is heavier."""
     bent_by_chance: float = 1e-4
     """Chance that the model's own error is as large: one clean sweep in ten thousand is called structured."""
+    causes: int = 2
+    """Most that an explanation may suppose at once: so many numbers as three have come near to anything."""
+    sized: float = 2.0
+    """Standard errors from nothing at which an effect beside another has a size. A choice."""
+    freer_law_cost: float = float(2 * np.log(10.0))
+    """Of -2 ln Z, that a law twice as free to bend has to gain: one material in ten is expected to need it. A
+    choice."""
+    law_of_none: float = 0.5
+    """Share of the law without effects in the band where nothing explains the readings; the rest is that of
+    what is akin to the nearest explanation. Both are wrong, and neither is known to be less so (decision 77).
+    """
+
+
+@dataclass(frozen=True)
+class KinThresholds:
+    """How likely a cause is that acts almost as an explanation does, and is in no catalogue."""
+
+    chance: float = 0.125
+    """That what an explanation explains is something of its kind that is in no catalogue. A choice: at one in
+    twenty effects given 95 % and more were there in 94 of 100, and with the true one left out a sixth of
+    solid plates were certain of another; at one in eight in 97, and a fiftieth (docs/evidence/diagnosis.md).
+    """
+    shares: tuple[float, ...] = (0.03, 0.1, 0.3, 1.0)
+    """Of what is explained, that kin may differ by: one as likely as another. A choice."""
+    another_cause: float = 0.3
+    """From this share on, kin counts as a different cause, not as the same one with a slightly different
+    formula. A choice: where the base rolls or a piece is missing, a mass explains it nearly, and the law
+    found with it is off by 10 to 40 %, the one found without any effect by 4."""
+    beyond_formula: float = 2.0
+    """Times the error of an effect's own formula: within it kin is the effect itself. A choice."""
 
 
 @dataclass(frozen=True)
@@ -197,6 +230,6 @@ class SearchThresholds:
     """Effects that are gone into twice together, until one explains everything."""
 
 
-VERDICT, SEARCH = VerdictThresholds(), SearchThresholds()
+VERDICT, KIN, SEARCH = VerdictThresholds(), KinThresholds(), SearchThresholds()
 STARTS, PAIRS, WIDE_VALLEYS = StartThresholds(), PairThresholds(), WideValleyThresholds()
 STOPPING = StoppingThresholds()

@@ -59,6 +59,9 @@ class AirAddedMassEffect(Effect):
     def bare_shift(self, bare: BarePlateModes, u: Array) -> Array:
         return np.asarray(-0.5 * np.log1p(2 * u[0] * u[1] * bare.lowering_per_density))
 
+    def bare_forms(self, u: Array) -> list[Array]:
+        return [np.array([u[0], felt]) for felt in (0.0, 1.0)]
+
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         return Change(M=u[0] * plate.matrix("air.M"), load=u[0] * plate.vector("air.load"))
 

@@ -306,6 +306,13 @@ class Effect:
         """Change of ln f of the bare plate's modes. Shape (modes,)."""
         return np.zeros(len(bare.lowering_per_density))
 
+    def bare_forms(self, u: Array) -> list[Array]:
+        """Its unknowns as a bare plate may have them, where readings of the treated one do not say which.
+
+        Each is as likely as another. Shape (parameters,) each.
+        """
+        return [u]
+
     def story(self, u: Mapping[str, float]) -> str:
         """What the plate or the rig does, in half a sentence with numbers."""
         raise NotImplementedError

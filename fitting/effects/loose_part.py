@@ -109,7 +109,7 @@ class LoosePartEffect(Effect):
     def story(self, u: Mapping[str, float]) -> str:
         return (
             f"a part of {1e3 * u['mass']:.2g} g {near(u)} swings by itself at "
-            f" {u['frequency']:.4g} Hz (loss factor {u['loss_factor']:.2g})"
+            f"{u['frequency']:.4g} Hz (loss factor {u['loss_factor']:.2g})"
         )
 
 

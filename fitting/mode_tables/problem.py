@@ -13,7 +13,7 @@ from fitting.data.readings import Readings
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.response.unknowns import STATED_NUMBER
 from fitting.diagnosis.several.member_laws import by_all, law_at
-from fitting.diagnosis.several.of_files import OfFiles
+from fitting.diagnosis.several.of_files import Place, inner_of, own_unknowns
 from fitting.effects.base import Effect
 from fitting.effects.given import Points
 from fitting.identification.adjusted import Adjusted, adjusted
@@ -132,7 +132,7 @@ class ModalResponse:
 
     def __init__(self, problem: ModalProblem, effects: Sequence[Effect]) -> None:
         self.modal, self.effects = problem, tuple(effects)
-        self.plate = problem.members[0].system(_inner(effects))
+        self.plate = problem.members[0].system([inner_of(e) for e in effects])
         self.nuisances = Nuisances(problem.members[0].stated.specimen, problem.each)
         count = len(problem.each)
         self.parameters = (*(STATED_NUMBER,) * count, *(q for e in effects for q in e.parameters))
@@ -172,9 +172,9 @@ class ModalResponse:
         """Effects on a member that change its matrices, and the places of their unknowns."""
         found = []
         for e, start in zip(self.effects, self._starts, strict=False):
-            of = e.inner if isinstance(e, OfFiles) else e
-            if (not isinstance(e, OfFiles) or e.file in (0, k + 1)) and not of.replaces_law:
-                found.append((of, int(start) + np.arange(len(of.parameters))))
+            own, of = own_unknowns(e, Place(k + 1)), inner_of(e)
+            if own is not None and not of.replaces_law:
+                found.append((of, int(start) + own))
         return found
 
     def _steps(self, part: NDArray[np.intp], u: Array) -> Array:
@@ -182,10 +182,6 @@ class ModalResponse:
         return np.array(
             [_STEP * (abs(u[n]) if p.logarithmic else p.typical or 1.0) for n, p in zip(part, q, strict=True)]
         )
-
-
-def _inner(effects: Sequence[Effect]) -> list[Effect]:
-    return [e.inner if isinstance(e, OfFiles) else e for e in effects]
 
 
 def _as_stated(member: Member, one: Nuisance) -> Adjusted:

@@ -13,7 +13,7 @@ from fitting.arrays import Array
 from fitting.diagnosis.inference.marginal import cost, probabilities
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.inference.usual_law import polished
-from fitting.diagnosis.several.of_files import OfFiles
+from fitting.diagnosis.several.of_files import copies_of, inner_of
 from fitting.diagnosis.verdict.result import Rivals
 from fitting.effects.base import Effect
 
@@ -39,18 +39,15 @@ def forms_of(rivals: Rivals, fitted: Refitted) -> Weighted:
 
 def _others(rivals: Rivals, fitted: Refitted) -> Iterator[Array]:
     """Unknowns of the other forms, everything else as it was fitted. Shape of `fitted.u` each."""
-    start = fitted.stated
-    for effect in fitted.effects:
-        inner = effect.inner if isinstance(effect, OfFiles) else effect
+    for effect, part in fitted.each():
+        inner = inner_of(effect)
         at = np.flatnonzero([q.fixed for q in inner.parameters])
-        copies = effect.copies if isinstance(effect, OfFiles) else 1
         for how in _ways(inner, at, rivals):
             u = fitted.u.copy()
-            for first in range(start, start + copies * len(inner.parameters), len(inner.parameters)):
-                u[first + at] = how
+            for own in copies_of(effect):
+                u[part][own[at]] = how
             if not np.array_equal(u, fitted.u):
                 yield u
-        start += len(effect.parameters)
 
 
 def _ways(inner: Effect, at: NDArray[np.intp], rivals: Rivals) -> list[tuple[float, ...]]:

@@ -30,7 +30,7 @@ from instrument.stream.raw import (
 
 _SETTLES = 0.53
 """Of the time from scratch that settling takes as a rule: a step begins near its end. Of twenty plans by
-chance no forecast at 10, 30 and 60 % of a run is off by 15 % then (tests/campaigns/time_to_go.py)."""
+chance no forecast at 10, 30 and 60 % of a run is off by 15 % then (tests/by_hand/time_to_go.py)."""
 _PRIOR = 2.0
 """So many pieces of a kind count as having gone as forecast."""
 _DIDS: dict[str, Kind] = {"mounted": "mount", "aimed": "aim", "changed": "change"}

@@ -4,7 +4,7 @@ from dataclasses import asdict
 
 import click
 
-from instrument.campaign.bench import run_bench
+from instrument.bench.table import run_bench
 from instrument.cli.options import json_option
 from instrument.cli.output import Output
 from instrument.facts.bench import BenchResult, BenchRow

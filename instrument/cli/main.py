@@ -21,6 +21,8 @@ from instrument.errors import BadInput, RigStopped, StoppedByUser, system_words
 from instrument.models.background import VARIABLE as BACKGROUND
 from instrument.models.background import step_back
 
+SETTINGS = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
+"""How every command of ours shows its help."""
 BAD_INPUT = 2
 RIG_STOPPED = 3
 STOPPED_BY_USER = 130
@@ -50,13 +52,12 @@ COMMANDS = (
     "export",
     "import",
     "bench",
-    "campaign",
 )
 """Each is a function of that name in the module of that name beside this file (or `import_`)."""
 
 
 _SUMS = frozenset(
-    ("plan", "predict", "damping", "identify", "diagnose", "batch", "compare", "report", "bench", "campaign")
+    ("plan", "predict", "damping", "identify", "diagnose", "batch", "compare", "report", "bench")
 )
 """Those that take long and hold no instrument: SIGTERM ends them as Ctrl-C does, their processes too."""
 
@@ -138,9 +139,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     ctx.exit()
 
 
-@click.group(
-    cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100}
-)
+@click.group(cls=_Commands, context_settings=SETTINGS)
 @click.option(
     "--version", is_flag=True, is_eager=True, expose_value=False, callback=_version,
     help="Show the version, and what other packages add to it.",
@@ -152,20 +151,22 @@ def viscorig(ctx: click.Context) -> None:
         ctx.with_resource(ended_as_by_a_person(even_ignored=False))
 
 
-def main(arguments: list[str] | None = None) -> None:
+def main(
+    arguments: list[str] | None = None, program: click.Command = viscorig, name: str = "viscorig"
+) -> None:
     """Run and exit: 0 done, 2 bad input or usage, 3 the rig stopped itself, 130 stopped by the user."""
     if os.environ.get(BACKGROUND):
         step_back()
     # A library's warning is for the log; what a reader has to know a command says itself.
     logging.captureWarnings(True)
     logging.getLogger("py.warnings").addHandler(logging.NullHandler())
-    sys.exit(run(arguments))
+    sys.exit(run(arguments, program, name))
 
 
-def run(arguments: list[str] | None = None) -> int:
-    """Run one command; its exit status."""
+def run(arguments: list[str] | None = None, program: click.Command = viscorig, name: str = "viscorig") -> int:
+    """Run one command of `program`; its exit status."""
     try:
-        status = viscorig.main(arguments, prog_name="viscorig", standalone_mode=False)
+        status = program.main(arguments, prog_name=name, standalone_mode=False)
         return status if isinstance(status, int) else 0
     except click.exceptions.NoArgsIsHelpError as asked:
         click.echo(asked.format_message(), err=True)

@@ -35,6 +35,5 @@ SUMMARIES = {
     "bench": (
         "Time the reduced model against direct solves and the paper's procedure, in this run on this machine."
     ),
-    "campaign": "For developers: effects hidden in simulated specimens, and how often they are found.",
     "gui": "The window, with SESSION.h5 where one is given.",
 }

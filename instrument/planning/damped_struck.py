@@ -12,7 +12,7 @@ import numpy as np
 
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.plate_poles import PlatePoles
-from fitting.diagnosis.several.of_files import OfFiles
+from fitting.diagnosis.several.of_files import inner_of
 from fitting.diagnosis.several.sharing import OF_EACH_MOUNTING
 from fitting.effects import CATALOGUE
 from fitting.effects.base import BASE, CLAMP, Effect
@@ -22,7 +22,8 @@ from fitting.planning.candidates import resonances_hz
 from fitting.planning.elsewhere import struck
 from fitting.planning.exact_problem import exact_problem
 from fitting.planning.free_plate import free_plate, free_specimen
-from fitting.planning.further import Expecting, Further
+from fitting.planning.further_readings import FurtherReadings
+from fitting.planning.rival_forecasts import RivalForecasts
 from fitting.planning.sensitivity import ReadingNoise
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
@@ -59,7 +60,7 @@ _NO_BASE = (
 
 
 def damped_struck(
-    expecting: Expecting, lines: Steps, settings: SweepSettings, whole_length_m: float | None = None
+    expecting: RivalForecasts, lines: Steps, settings: SweepSettings, whole_length_m: float | None = None
 ) -> Iterator[Measurable]:
     """What of it is worth asking; `lines` are those of the spectrum about the resonances of the sweep.
 
@@ -68,16 +69,12 @@ def damped_struck(
     stated = expecting.member.nuisances.specimen
     if not isinstance(stated, Specimen) or stated.boundary != "cantilever" or expecting.struck_already:
         return
-    effects = [[_inner(e) for e in known.fitted.effects] for known in expecting.known]
+    effects = [[inner_of(e) for e in known.fitted.effects] for known in expecting.learnt]
     if len({frozenset(e.name for e in each if not _of_the_mounting(e)) for each in effects}) > 1:
         hangs = free_specimen(stated, whole_length_m)
         yield from _hung_free(expecting, hangs, [e for each in effects for e in each], settings)
     if any(e.needs >= BASE for each in effects for e in each):
         yield from _in_clamp(expecting, stated, lines)
-
-
-def _inner(effect: Effect) -> Effect:
-    return effect.inner if isinstance(effect, OfFiles) else effect
 
 
 def _of_the_shaker(effect: Effect) -> bool:
@@ -91,9 +88,9 @@ def _of_the_mounting(effect: Effect) -> bool:
 
 
 def _hung_free(
-    expecting: Expecting, free: Specimen, effects: list[Effect], settings: SweepSettings
+    expecting: RivalForecasts, free: Specimen, effects: list[Effect], settings: SweepSettings
 ) -> Iterator[Measurable]:
-    band, law = expecting.member.sweep.frequency_hz, expecting.known[0].fitted.law
+    band, law = expecting.member.sweep.frequency_hz, expecting.learnt[0].fitted.law
     spans = {s.name: s for e in effects if not _of_the_mounting(e) for s in e.spans}
     plate, reduced = free_plate(free, law, band, list(spans.values()))
     poles = resonances_hz(PlatePoles(plate, law), float(band.min()), float(band.max()))[:_MODES]
@@ -115,7 +112,7 @@ def _hung_free(
     yield replace(found, spot_m=free.pickup_m, held="free")
 
 
-def _in_clamp(expecting: Expecting, stated: Specimen, lines: Steps) -> Iterator[Measurable]:
+def _in_clamp(expecting: RivalForecasts, stated: Specimen, lines: Steps) -> Iterator[Measurable]:
     member, reduced = expecting.member, expecting.reduced
     assert reduced is not None
     assert stated.pickup_m is not None
@@ -128,7 +125,7 @@ def _in_clamp(expecting: Expecting, stated: Specimen, lines: Steps) -> Iterator[
     there = exact_problem(f, lines.segment[first], 1.0, nuisances.specimen, plate, moved)
     there = replace(there, nuisances=nuisances)
     gone = frozenset(n for n, e in CATALOGUE.items() if _of_the_shaker(e))
-    further = _further(there, moved, expecting.known[0].fitted.law, frozenset(of_scope("channel")), gone)
+    further = _further(there, moved, expecting.learnt[0].fitted.law, frozenset(of_scope("channel")), gone)
     found = _measurable(further, _STRIKE.format(hit=_words(point)), point)
     yield replace(found, held="clamped", reason=_NO_BASE)
 
@@ -139,10 +136,10 @@ def _further(
     law: CoreLaw,
     new: frozenset[str],
     gone: frozenset[str],
-) -> Further:
+) -> FurtherReadings:
     omega = there.points.omega
     mobility = omega * np.abs(there.rational.displacement(law.modulus(omega)))
-    return Further(
+    return FurtherReadings(
         there,
         np.arange(len(omega)),
         np.ones(len(omega)),
@@ -155,7 +152,7 @@ def _further(
     )
 
 
-def _measurable(further: Further, todo: str, point_m: tuple[float, float]) -> Measurable:
+def _measurable(further: FurtherReadings, todo: str, point_m: tuple[float, float]) -> Measurable:
     seconds = HANDS_S["damped_struck"]
     return Measurable(
         "damped_struck",

@@ -8,7 +8,7 @@ import numpy as np
 
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.diagnosis.verdict.result import Rivals
-from fitting.planning.further import Expecting
+from fitting.planning.rival_forecasts import RivalForecasts
 from fitting.planning.rivalry import Forecast, Outcome, outcome
 from fitting.specimen import Specimen
 from instrument.facts.diagnosis import DiagnosisResult
@@ -60,7 +60,7 @@ def rank_follow_ups(diagnosed: Diagnosed, possible: Possible | None = None) -> t
     rivals = diagnosed.result.rivals
     if rivals is None or not _doubtful(diagnosed, rivals):
         return ()
-    expecting = Expecting(rivals, _MOST_RIVALS)
+    expecting = RivalForecasts(rivals, _MOST_RIVALS)
     worth = [one for one in _asked(expecting, possible) if one.told.information > _WORTH]
     return tuple(
         course.first.measurable.follow_up(*_said(course.first.told, expecting)).but(
@@ -95,13 +95,13 @@ def _doubtful(diagnosed: Diagnosed, rivals: Rivals) -> bool:
     return result.verdict == "ambiguous" or (result.verdict == "none" and none < _EVEN)
 
 
-def _asked(expecting: Expecting, possible: Possible) -> Iterator[Asked]:
+def _asked(expecting: RivalForecasts, possible: Possible) -> Iterator[Asked]:
     for measurable, forecasts in _forecast(expecting, possible):
         told = outcome(forecasts, expecting.probabilities, expecting.temper, VERDICT.credible, expecting.of)
         yield Asked(measurable, forecasts, told)
 
 
-def _forecast(expecting: Expecting, possible: Possible) -> Iterator[tuple[Measurable, list[Forecast]]]:
+def _forecast(expecting: RivalForecasts, possible: Possible) -> Iterator[tuple[Measurable, list[Forecast]]]:
     template = Template.of(expecting, possible.settings)
     limits = possible.settings.limits
     every = template.measurable(possible.mass_kg, hands=possible.hands)
@@ -130,7 +130,7 @@ def _forecast(expecting: Expecting, possible: Possible) -> Iterator[tuple[Measur
             yield struck, expecting.struck(bare)
 
 
-def _said(told: Outcome, expecting: Expecting) -> tuple[float, float, tuple[str, ...]]:
+def _said(told: Outcome, expecting: RivalForecasts) -> tuple[float, float, tuple[str, ...]]:
     """Separation of the two best that it separates best, chance to resolve, and who is told from whom."""
     count = len(expecting.names)
     p = np.bincount(expecting.of, expecting.probabilities)

@@ -13,9 +13,10 @@ from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.planning.candidates import resonances_hz
 from fitting.planning.elsewhere import read_elsewhere
 from fitting.planning.exact_problem import exact_problem
-from fitting.planning.further import Expecting, Further
+from fitting.planning.further_readings import FurtherReadings
 from fitting.planning.known_mass import KnownMass
 from fitting.planning.measured import noise_seen
+from fitting.planning.rival_forecasts import RivalForecasts
 from fitting.planning.sensitivity import ReadingNoise
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
@@ -67,9 +68,9 @@ class Template:
     """Whether a rival changes with time: else the order of the steps tells nothing."""
 
     @classmethod
-    def of(cls, expecting: Expecting, settings: SweepSettings) -> "Template":
+    def of(cls, expecting: RivalForecasts, settings: SweepSettings) -> "Template":
         """Of the first file's sweep, of a plate."""
-        member, first = expecting.member, expecting.known[0].fitted
+        member, first = expecting.member, expecting.learnt[0].fitted
         assert expecting.reduced is not None
         places = _places(member)
         once = member.sweep.take(places)
@@ -145,7 +146,7 @@ class Template:
         """The bare plate's hammer test."""
         todo = "Clamp the bare plate and strike it: viscorig damping, then diagnose with --hammer."
         none = np.zeros(0, dtype=np.intp)
-        nothing, seconds = Further(self.member, none, np.zeros(0)), HANDS_S["bare_hammer"]
+        nothing, seconds = FurtherReadings(self.member, none, np.zeros(0)), HANDS_S["bare_hammer"]
         return Measurable("bare_hammer", nothing, none, (), (), 0.0, seconds, todo, needs_hands=True)
 
     def _levels(self, home: DiagnosisProblem) -> Iterator[Measurable]:
@@ -206,10 +207,12 @@ class Template:
             todo = f"{words} {choice.words}."
             yield self._measurable(kind, further, offered, choice, todo, spot_m=spot_m, mass=mass)
 
-    def _further(self, problem: DiagnosisProblem, offered: Offered, *, same_errors: bool | Mask) -> Further:
+    def _further(
+        self, problem: DiagnosisProblem, offered: Offered, *, same_errors: bool | Mask
+    ) -> FurtherReadings:
         """All steps of a place, each at the problem's point of its frequency."""
         f = offered.steps.frequency_hz
-        return Further(
+        return FurtherReadings(
             problem,
             np.searchsorted(problem.sweep.frequency_hz, f),
             dwell_seconds(f, self.settings),
@@ -220,7 +223,7 @@ class Template:
     def _measurable(
         self,
         kind: FollowUpKind,
-        further: Further,
+        further: FurtherReadings,
         offered: Offered,
         choice: Choice,
         todo: str,

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.planning.further import Further
+from fitting.planning.further_readings import FurtherReadings
 from fitting.planning.known_mass import KnownMass
 from instrument.facts.follow_up import FollowUp, FollowUpKind, Support
 from instrument.planning.reasons import why
@@ -25,7 +25,7 @@ class Measurable:
     """One measurement that could be made."""
 
     kind: FollowUpKind
-    further: Further
+    further: FurtherReadings
     part: NDArray[np.intp]
     """Of the points that `further` reads; those of several measurements of one place are asked at once."""
     frequencies_hz: tuple[float, ...]

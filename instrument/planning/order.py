@@ -15,7 +15,7 @@ all. Where nothing is worth to follow, t_b = 0 and h_ab = h_a.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from fitting.planning.further import Expecting
+from fitting.planning.rival_forecasts import RivalForecasts
 from fitting.planning.rivalry import Forecast, Outcome, share_left
 from instrument.facts.follow_up import FollowUpKind
 from instrument.planning.measurement import Measurable
@@ -51,7 +51,7 @@ class MeasurementSequence:
 
 
 def best_courses(
-    asked: Sequence[Asked], expecting: Expecting, measurements: int = 2
+    asked: Sequence[Asked], expecting: RivalForecasts, measurements: int = 2
 ) -> list[MeasurementSequence]:
     """The best of each kind, the one that is expected to end soonest first.
 
@@ -75,7 +75,7 @@ def _alone_s(one: Asked) -> float:
     return one.seconds + one.told.left * OPEN_S
 
 
-def _courses(first: Asked, each: Sequence[Asked], expecting: Expecting) -> list[MeasurementSequence]:
+def _courses(first: Asked, each: Sequence[Asked], expecting: RivalForecasts) -> list[MeasurementSequence]:
     alone = first.told.left
     found = [MeasurementSequence(first, None, _alone_s(first))]
     for other in each:

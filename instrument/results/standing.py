@@ -5,9 +5,9 @@ from itertools import product
 from math import isnan
 from typing import Literal
 
-from fitting.diagnosis.verdict.judgement import holding
 from fitting.diagnosis.verdict.kin import UNLISTED
 from fitting.diagnosis.verdict.names import split
+from fitting.diagnosis.verdict.shares import holding
 from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageFitted, StageName
 
 Standing = Literal["found", "equal", "none", "other"]

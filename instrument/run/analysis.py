@@ -10,7 +10,8 @@ from instrument.hammer_test.analysis import HammerAnalysis
 from instrument.hammer_test.struck import StruckAnalysis
 from instrument.session.setup import Setup
 from instrument.stepped_sine.calibration import Calibration, calibrate, phase_left
-from instrument.stepped_sine.step import StepAnalysis, StepContext
+from instrument.stepped_sine.step import StepAnalysis
+from instrument.stepped_sine.step_context import StepContext
 from instrument.stream.clock import SessionClock
 from instrument.stream.derived import (
     CalibrationFound,

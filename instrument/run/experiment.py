@@ -21,7 +21,7 @@ from instrument.run.keeping import finish_session, kept, open_journal
 from instrument.run.live_diagnosis import Diagnoser, diagnose_points
 from instrument.run.live_fit import Fitter, fit_points
 from instrument.run.part import Part
-from instrument.run.session_run import SessionRun
+from instrument.run.session_run import RunRequest, SessionRun
 from instrument.session.configuration import Experiment
 from instrument.session.recorder import Recorder
 from instrument.session.storage import part_events
@@ -66,35 +66,17 @@ def run_experiment(
 
     Whatever ends the run, the shaker is silent and what is complete is kept; the message says where.
     """
+    request = RunRequest(
+        experiment, parts, control or RunControl(), fit, diagnose, companion or Companion(), progress
+    )
     # One thread for all sums: with several, their last bit would depend on what else runs.
     with threadpool_limits(1, "blas"):
-        return _run(
-            experiment,
-            out,
-            parts,
-            control or RunControl(),
-            watch,
-            resume,
-            progress,
-            fit,
-            diagnose,
-            companion or Companion(),
-        )
+        return _run(request, out, resume, watch)
 
 
-def _run(
-    experiment: Experiment,
-    out: Path,
-    parts: tuple[Part, ...],
-    control: RunControl,
-    watch: Watch | None,
-    resume: Path | None,
-    progress: Progress,
-    fit: Fitter,
-    diagnose: Diagnoser,
-    companion: Companion,
-) -> Finished:
-    with progress("forecasting the sweep"):
+def _run(request: RunRequest, out: Path, resume: Path | None, watch: Watch | None) -> Finished:
+    experiment, parts, companion = request.experiment, request.parts, request.companion
+    with request.progress("forecasting the sweep"):
         forecast = Forecast.of(experiment.the_specimen())
         objections = experiment_objections(experiment, forecast, parts)
     if objections:
@@ -113,9 +95,7 @@ def _run(
     for event in earlier:
         if not isinstance(event, BlockAcquired):
             companion.happened(event)
-    session = SessionRun(
-        experiment, journal, forecast, control, earlier, parts, fit, diagnose, companion, progress
-    )
+    session = SessionRun(request, journal, forecast, earlier)
     begun = (command, str(experiment.path))
     try:
         with Recorder(journal, entries, watch) as recorder:

@@ -1,7 +1,8 @@
 """The diagnosis of a sweep that is whole: apart from the run's own thread, its result an event."""
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 from pydantic import ValidationError
 from threadpoolctl import threadpool_limits
@@ -21,25 +22,43 @@ from instrument.planning.open_questions import with_open_questions
 from instrument.progress import Progress, quiet
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.together_from import diagnosed_together_from
+from instrument.run.analysis import Analysis
 from instrument.session.points import sweep_of, uncalibrated
 from instrument.stepped_sine.settings import SweepSettings
 from instrument.stream.derived import DampingFound, DiagnosisFound, PointMeasured, StruckFound
+from instrument.stream.raw import DiagnosisStarted
 
-Diagnoser = Callable[
-    [
-        int,
-        int,
-        list[PointMeasured],
-        list[float],
-        DampingFound | None,
-        tuple[StruckFound, ...],
-        AnySpecimen,
-        Possible,
-    ],
-    DiagnosisFound,
-]
-"""Number, last step, points, when each was read, hammer test, blows on the treated plate, specimen, what may
-be measured next."""
+
+@dataclass(frozen=True)
+class ToDiagnose:
+    """What a diagnosis within a run is made of."""
+
+    number: int
+    """Of the run's diagnoses, from 1."""
+    last_step: int
+    """Points of later steps are left out."""
+    points: Sequence[PointMeasured]
+    times_s: Sequence[float]
+    """When each point was read."""
+    damping: DampingFound | None
+    """The hammer test of the bare plate."""
+    struck: tuple[StruckFound, ...]
+    """Hammer tests of the treated plate."""
+    specimen: AnySpecimen
+    possible: Possible
+    """What may be measured next."""
+
+    @classmethod
+    def of(
+        cls, analysis: Analysis, started: DiagnosisStarted, specimen: AnySpecimen, possible: Possible
+    ) -> "ToDiagnose":
+        """Everything that an analysis has by now, for the diagnosis that was started."""
+        a = analysis
+        given = (a.points, a.times_s, a.damping, tuple(a.struck), specimen, possible)
+        return cls(started.number, started.last_step, *given)
+
+
+Diagnoser = Callable[[ToDiagnose], DiagnosisFound]
 
 
 def able(document: ExperimentDocument, settings: SweepSettings, number: int) -> Possible:
@@ -54,52 +73,35 @@ def able(document: ExperimentDocument, settings: SweepSettings, number: int) -> 
     return Possible(settings, measurements=left, most_s=table.follow_up_most_s, whole_length_m=whole)
 
 
-def diagnose_points(
-    number: int,
-    last_step: int,
-    points: list[PointMeasured],
-    times_s: list[float],
-    damping: DampingFound | None,
-    struck: tuple[StruckFound, ...],
-    specimen: AnySpecimen,
-    possible: Possible,
-    progress: Progress = quiet,
-) -> DiagnosisFound:
+def diagnose_points(asked: ToDiagnose, progress: Progress = quiet) -> DiagnosisFound:
     """Diagnose all points up to a step, jointly with all that was struck. Pure: the same in a replay.
 
-    What is proposed next is `possible`: within the run's limits, at what its steps take.
+    What is proposed next is possible: within the run's limits, at what its steps take.
     """
-    used = [(p, t) for p, t in zip(points, times_s, strict=True) if p.step <= last_step]
+    number, last_step = asked.number, asked.last_step
+    used = [(p, t) for p, t in zip(asked.points, asked.times_s, strict=True) if p.step <= last_step]
+    asked = replace(asked, points=[p for p, _ in used], times_s=[t for _, t in used])
     try:
         # One thread: sums in another order would differ in the last bit.
         with threadpool_limits(1):
-            points, times_s = [p for p, _ in used], [t for _, t in used]
-            result = _result(points, times_s, damping, struck, specimen, possible, progress)
-            return DiagnosisFound(number, last_step, result)
+            return DiagnosisFound(number, last_step, _result(asked, progress))
     except (FittingError, BadInput, ValidationError, ValueError, ArithmeticError) as error:
         # Data may be such that nothing can be said of them: that is said, and the session is kept.
         return DiagnosisFound(number, last_step, None, " ".join(str(error).split()))
 
 
-def _result(
-    points: list[PointMeasured],
-    times_s: list[float],
-    damping: DampingFound | None,
-    struck: tuple[StruckFound, ...],
-    specimen: AnySpecimen,
-    possible: Possible,
-    progress: Progress,
-) -> DiagnosisResult:
+def _result(asked: ToDiagnose, progress: Progress) -> DiagnosisResult:
+    points, damping, specimen, possible = asked.points, asked.damping, asked.specimen, asked.possible
     hammer = accepted_modes(damping.result) if damping is not None else None
-    sweep = sweep_of(points, times_s)
-    files = files_of(sweep, points, specimen, struck)
+    sweep = sweep_of(points, asked.times_s)
+    files = files_of(sweep, points, specimen, asked.struck)
     if len(files) > 1 or not isinstance(specimen, Specimen):
         several = diagnose_together(files, progress=progress, hammer=hammer)
         result = with_open_questions(diagnosed_together_from(several, files), several.found, possible).untimed
     else:
         found = diagnose(sweep, specimen, hammer, progress=progress)
         result = with_open_questions(diagnosis_from(found, sweep), found, possible).untimed
-    said = [f"damped plate struck: {remark}" for one in struck for remark in one.remarks]
+    said = [f"damped plate struck: {remark}" for one in asked.struck for remark in one.remarks]
     return result.but(warnings=(*result.warnings, *uncalibrated(points), *said))
 
 

@@ -11,7 +11,7 @@ from fitting.specimen import Specimen
 from instrument.run.analysis import Analysis
 from instrument.run.differences import as_known_then, first_difference
 from instrument.run.live_choice import Chooser
-from instrument.run.live_diagnosis import Diagnoser, able, diagnose_points
+from instrument.run.live_diagnosis import Diagnoser, ToDiagnose, able, diagnose_points
 from instrument.run.live_fit import Fitter, fit_points
 from instrument.session.setup import setup_of
 from instrument.session.storage import SessionFile
@@ -111,10 +111,8 @@ def _replay(
             apart[StepsChosen, event.number] = chosen
             derived = [*derived, chosen]
         elif isinstance(event, DiagnosisStarted):
-            a = analysis
             possible = able(configuration.experiment, setup.sweep, event.number)
-            given = (a.points, a.times_s, a.damping, tuple(a.struck), specimen, possible)
-            again.diagnosis = diagnose(event.number, event.last_step, *given)
+            again.diagnosis = diagnose(ToDiagnose.of(analysis, event, specimen, possible))
             apart[DiagnosisFound, event.number] = again.diagnosis
             derived = [*derived, again.diagnosis]
         for one in derived:

@@ -1,6 +1,7 @@
 """One run of a session: what needs the rig, recorded and analysed as it happens, then the diagnosis."""
 
 import threading
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Literal
 
@@ -18,11 +19,12 @@ from instrument.run.analysis import Analysis
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl
 from instrument.run.following import Earlier, Following
-from instrument.run.live_diagnosis import Diagnoser, able, apart
+from instrument.run.live_diagnosis import Diagnoser, ToDiagnose, able, apart
 from instrument.run.live_fit import Fitter
 from instrument.run.part import Part
 from instrument.run.rig import Rig, open_rig
 from instrument.run.runner import Runner
+from instrument.run.striking import Striking
 from instrument.run.sweep_part import SweepPart
 from instrument.session.configuration import Experiment
 from instrument.session.journal import SessionJournal
@@ -44,27 +46,28 @@ _MODES_TO_TELL = 3
 _FOLLOWING = (DiagnosisFound, FollowUpProposed, FollowUpDecided)
 
 
+@dataclass(frozen=True)
+class RunRequest:
+    """What a run is asked to do, and who steers it, computes for it and is told of it."""
+
+    experiment: Experiment
+    parts: tuple[Part, ...]
+    control: RunControl
+    fit: Fitter
+    diagnose: Diagnoser
+    companion: Companion
+    progress: Progress
+
+
 class SessionRun:
-    """Of a new session, or of one that is carried on."""
+    """Measures and analyses one session, new or carried on, and records it."""
 
     def __init__(
-        self,
-        experiment: Experiment,
-        journal: SessionJournal,
-        forecast: Forecast,
-        control: RunControl,
-        earlier: list[Event],
-        parts: tuple[Part, ...],
-        fit: Fitter,
-        diagnose: Diagnoser,
-        companion: Companion,
-        progress: Progress,
+        self, request: RunRequest, journal: SessionJournal, forecast: Forecast, earlier: list[Event]
     ) -> None:
-        self._progress = progress
-        self._diagnoser = diagnose
-        self._companion, self._in_order = companion, threading.Lock()
-        self._experiment, self._control = experiment, control
-        self._parts, self._resumed = parts, bool(earlier)
+        """`earlier` are the events of a run that was broken off."""
+        self._request, self._experiment, self._in_order = request, request.experiment, threading.Lock()
+        self._resumed = bool(earlier)
         self._configuration = journal.configuration()
         self._setup = setup_of(self._configuration)
         self.analysis = Analysis(self._setup)
@@ -72,16 +75,16 @@ class SessionRun:
             self.analysis.restore(event)
         self._sweep = (
             SweepPart(
-                experiment,
-                self._configuration.the_specimen(),
-                self._setup,
-                forecast,
-                self.analysis,
-                earlier,
-                self._record,
-                fit,
+                self._experiment,
+                specimen=self._configuration.the_specimen(),
+                setup=self._setup,
+                forecast=forecast,
+                analysis=self.analysis,
+                earlier=earlier,
+                record=self._record,
+                fit=request.fit,
             )
-            if "sweep" in parts and experiment.document.sweep is not None
+            if "sweep" in request.parts and self._experiment.document.sweep is not None
             else None
         )
         self._earlier = Earlier.of(earlier)
@@ -102,7 +105,7 @@ class SessionRun:
             document = self._experiment.document
             with (
                 open_rig(self._experiment.rig, self._experiment.rig_path, document.hammer) as bare,
-                self._companion.with_rig(bare) as rig,
+                self._request.companion.with_rig(bare) as rig,
             ):
                 self._go(rig)
             if not self._follows:
@@ -121,7 +124,7 @@ class SessionRun:
 
     def _prepare(self) -> None:
         if self._sweep is not None and self._sweep.table.plan == "adaptive":
-            with self._progress("models of the adaptive sweep"):
+            with self._request.progress("models of the adaptive sweep"):
                 self._sweep.prepare()
 
     def _go(self, rig: Rig) -> None:
@@ -136,8 +139,8 @@ class SessionRun:
         )
         _clear_heartbeat_alarm(rig)
         choice = self._sweep.choice if self._sweep else None
-        runner = Runner(rig, self.analysis, self._emit, self._control, self._setup.sweep, choice)
-        if "hammer" in self._parts and self.analysis.damping is None:
+        runner = Runner(rig, self.analysis, self._emit, self._request.control, self._setup.sweep, choice)
+        if "hammer" in self._request.parts and self.analysis.damping is None:
             self._hammer(rig, runner)
             if self._sweep is not None and self.analysis.damping is not None:
                 self._question_plate(self.analysis.damping)
@@ -151,7 +154,7 @@ class SessionRun:
         if settings is None or hammer is None:
             return
         self._emit(rig.operator.mount("bare"))
-        runner.hammer(settings.hits, hammer.wait_s)
+        Striking(runner, rig, self.analysis, self._emit).bare(settings.hits, hammer.wait_s)
         if self.analysis.damping is None:
             raise RigStopped(_without_a_hit(self.analysis, hammer.wait_s))
 
@@ -162,7 +165,9 @@ class SessionRun:
         assert hammer is not None
         names = [r.name for r in distinct(rig.vibrometer.ranges)]
         calibrated = [k for k, name in enumerate(names) if name in self.analysis.calibrations]
-        runner.strike(max(FEWEST_HITS, settings.hits), hammer.wait_s, names[max(calibrated, default=-1) :])
+        ranges = names[max(calibrated, default=-1) :]
+        wanted = max(FEWEST_HITS, settings.hits)
+        Striking(runner, rig, self.analysis, self._emit).treated(wanted, hammer.wait_s, ranges)
         if self.analysis.struck is before:
             raise RigStopped(_without_a_hit(self.analysis, hammer.wait_s))
 
@@ -214,12 +219,13 @@ class SessionRun:
         if self.fit is None or self.fit.message:
             return None
         self._diagnoses += 1
-        a, number, last = self.analysis, self._diagnoses, self.fit.last_step
-        self._record(DiagnosisStarted(number, last))
+        number, last = self._diagnoses, self.fit.last_step
+        started = DiagnosisStarted(number, last)
+        self._record(started)
         specimen = self._configuration.the_specimen()
         possible = able(self._experiment.document, self._setup.sweep, number)
-        given = (a.points, a.times_s, a.damping, tuple(a.struck), specimen, possible)
-        found = apart(lambda: self._diagnoser(number, last, *given))
+        asked = ToDiagnose.of(self.analysis, started, specimen, possible)
+        found = apart(lambda: self._request.diagnose(asked))
         self._record(found)
         return found
 
@@ -237,7 +243,7 @@ class SessionRun:
         """Onto the disk, and told; the fit's thread does so too, and the order is the same for both."""
         with self._in_order:
             self._recorder.record(event)
-            self._companion.happened(event)
+            self._request.companion.happened(event)
         if isinstance(event, _FOLLOWING):
             self.following.append(event)
 

@@ -48,6 +48,7 @@ class SweepPart:
     def __init__(
         self,
         experiment: Experiment,
+        *,
         specimen: AnySpecimen,
         setup: Setup,
         forecast: Forecast,

@@ -11,7 +11,7 @@ from instrument.files.column import reading_std_m_s
 from instrument.stream.derived import PointMeasured
 
 
-def uncalibrated(points: list[PointMeasured]) -> list[str]:
+def uncalibrated(points: Sequence[PointMeasured]) -> list[str]:
     """A warning where points were read in a range that was not calibrated; nothing otherwise."""
     raw = sum(any("is not calibrated" in r for r in p.remarks) for p in points)
     if not raw:
@@ -66,7 +66,7 @@ def is_one_mounting(points: Sequence[PointMeasured]) -> bool:
     return not any(p.mounting or p.mass_at_mm is not None for p in points)
 
 
-def sweep_of(points: list[PointMeasured], times_s: Sequence[float] | None = None) -> Sweep:
+def sweep_of(points: Sequence[PointMeasured], times_s: Sequence[float] | None = None) -> Sweep:
     """The points as a `Sweep`, each at its own level; `times_s` on any clock, where there is one.
 
     The reading's standard deviation holds the reference channel's too: both blur the response over the base.

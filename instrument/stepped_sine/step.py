@@ -7,47 +7,33 @@
 A new command makes what came before worthless: blocks count from the end of its ramp.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
 from fitting.arrays import Array
-from instrument.stepped_sine.calibration import Calibration
 from instrument.stepped_sine.guard import Guard
+from instrument.stepped_sine.level_control import LevelControl
+from instrument.stepped_sine.point_of_reading import Reading, point_of
 from instrument.stepped_sine.samples import Samples
-from instrument.stepped_sine.settings import SweepSettings
 from instrument.stepped_sine.settling import Settling
 from instrument.stepped_sine.settling_trace import begins_at
 from instrument.stepped_sine.sine_fit import SineFit, sine_fit
 from instrument.stepped_sine.soundness import soundness
+from instrument.stepped_sine.step_context import StepContext
 from instrument.stream.derived import (
     DriveRequested,
     LimitExceeded,
     LoopChecked,
-    PointMeasured,
     RangeRequested,
     SettlingTimedOut,
     StepSettled,
 )
 from instrument.stream.event import Derived
 from instrument.stream.raw import RangeSet, ShakerCommanded, StepBegan
-from instrument.stream.scaling import Scaling
 
-_TRIM = 0.5
-"""Share of the control tolerance at which the drive is corrected: drift has room until the point is read."""
 _CHECK_BLOCKS = 2.0
 """A loop check reads so many blocks at once."""
-_BOUND = 3.0
-"""What may be left of a transient is bounded; a third of that counts as a standard deviation of each part."""
-_LOST = 0.55
-"""Below this share of the wanted level the drive is not corrected, as the sensor or the loop is suspected:
-known gains are right within a tenth, and the drive would be nearly twice what was reckoned with. A choice."""
-_LOST_BLOCKS = 3
-"""So many in a row, until the loop counts as lost: a build-up rises meanwhile. A choice."""
-_RISES = 1.1
-"""From block to block, by which a base that is only building up rises. A choice."""
 _RINGS = 4.0
 """E-foldings of the slowest motion, until an overload of a range just set is no more of what went before:
 to a fiftieth. A choice."""
@@ -55,51 +41,24 @@ _CLIPPED = 0.98
 """Share of the vibrometer's full scale from which its output counts as clipped."""
 
 
-@dataclass(frozen=True)
-class StepContext:
-    """What is known when a step begins: how the rig is set, and what was read of it last."""
-
-    settings: SweepSettings
-    scaling: Scaling
-    sample_rate_hz: float
-    vibrometer: RangeSet
-    latest: int
-    """The first sample that is yet to come."""
-    wider: tuple[str, ...] = ()
-    """Ranges coarser than the vibrometer's, the next first."""
-    calibration: Callable[[str], Calibration | None] | None = None
-    """Of a range by its name; None where readings are not to be calibrated."""
-    signal_level: float | None = None
-    temperature_c: float | None = None
-    """Before the step, for points during whose dwell no input of the front-end reads it."""
-    settled_at: frozenset[int] | None = None
-    """Samples at which a recorded run began to read; None where that is for the analysis to say."""
-    range_is_new: bool = False
-    """Whether what went before was read in another range, and may ring on beyond this one."""
-
-
 class StepAnalysis:
     """Follows one step from its command to its point."""
 
     def __init__(self, began: StepBegan, context: StepContext) -> None:
-        self._began = began
+        self._began, self._context = began, context
         self._settings, self._scaling = context.settings, context.scaling
         self._rate = context.sample_rate_hz
         self._range, self._wider = context.vibrometer, context.wider
-        self._calibration = context.calibration
-        self._signal_level = context.signal_level
-        self._read_c = context.temperature_c
         self._settled_at = context.settled_at
         self._rings_until: int | None = None if context.range_is_new else context.latest
         self._guard = Guard(began, context.settings)
         self._samples = Samples(3)
         self._command: ShakerCommanded | None = None
         self._from = self._latest = context.latest
-        self._corrections = 0
         self._phase: Literal["settling", "dwelling", "done"] = "settling"
         self._remarks: list[str] = []
+        self._control = LevelControl(began, context.settings, self._guard, self._remarks.append)
         self._base: float | None = None
-        self._far_under = 0
         self._flattened = False
         self._settle_s = 0.0
         self._left = 0.0
@@ -175,22 +134,23 @@ class StepAnalysis:
     def _followed(self, end: int, count: int, fit: SineFit) -> list[Derived]:
         """A block on the way to rest: correct the level, or see whether it has settled."""
         base, velocity = fit.phasor[:2]
-        error = abs(base) / self._level - 1
+        error = self._control.error(abs(base))
         before, self._base = self._base, abs(base)
-        if lost := self._lost(float(abs(base)), before):
+        if lost := self._control.lost(float(abs(base)), before, self._command_drive()):
             return lost
-        if self._far_under:
+        if self._control.far_under:
             return []
-        steady = before is not None and abs(abs(base) / before - 1) < max(abs(error) / 2, self._trim / 2)
-        if abs(error) > self._trim and steady and self._may_correct():
-            return self._correct(abs(base), error)
+        trim = self._control.trim
+        steady = before is not None and abs(abs(base) / before - 1) < max(abs(error) / 2, trim / 2)
+        if abs(error) > trim and steady and self._control.may_correct:
+            return self._control.correct(abs(base), error, self._command_drive())
         noise = float(np.hypot(fit.std[1] / abs(velocity), fit.std[0] / abs(base)))
         block_s = count / self._rate
         waited = (end - self._from) / self._rate
         settled = self._settling.add(complex(velocity / base), noise, block_s)
         if self._settled_at is not None:
             settled = end in self._settled_at
-        held = abs(error) <= self._settings.control.tolerance or not self._may_correct()
+        held = abs(error) <= self._settings.control.tolerance or not self._control.may_correct
         if settled and held:
             self._dwell(waited)
             return [
@@ -217,21 +177,32 @@ class StepAnalysis:
 
     def _dwelt(self, first: int, x: Array, fit: SineFit) -> list[Derived]:
         """The reading itself."""
-        error = abs(fit.phasor[0]) / self._level - 1
+        error = self._control.error(abs(fit.phasor[0]))
         if abs(error) > self._settings.control.tolerance:
-            if self._may_correct():
-                # However far: a base that fell in the dwell is judged by the blocks after it.
-                drop = max(abs(fit.phasor[0]), _LOST * self._level)
-                return self._correct(float(drop), error)
+            if self._control.may_correct:
+                base = float(abs(fit.phasor[0]))
+                return self._control.correct_in_dwell(base, error, self._command_drive())
             if abs(error) > self._settings.control.abort:
-                level, base = self._level, abs(fit.phasor[0])
+                level, base = self._control.level_m_s2, abs(fit.phasor[0])
                 what, remedy = "base acceleration under its level", "lower the level or raise the drive limit"
                 return [self._guard.stop(what, float(base), level, "m/s^2", remedy)]
             self._remarks.append(f"level {100 * error:+.2g} % off, limit {self._tolerance_percent:.2g} %")
         if unsound := self._unsound(first, x, fit):
             return unsound
         self._phase = "done"
-        return [self._point(first, x, fit, error)]
+        reading = Reading(
+            first_sample=first,
+            dwell_s=x.shape[1] / self._rate,
+            settle_s=self._settle_s,
+            fit=fit,
+            left=self._left,
+            level_m_s2=self._control.level_m_s2,
+            control_error=float(error),
+            drive_v=self._command_drive(),
+            range_name=self._range.name,
+            remarks=tuple(self._remarks),
+        )
+        return [point_of(reading, self._began, self._context)]
 
     def _unsound(self, first: int, x: Array, fit: SineFit) -> list[Derived]:
         """What makes this reading none; what makes it doubtful is remarked."""
@@ -245,45 +216,6 @@ class StepAnalysis:
             return [RangeRequested(self._began.step, self._wider[0], f"a flat top in {self._range.name}")]
         self._remarks += found.remarks
         return []
-
-    def _point(self, first: int, x: Array, fit: SineFit, error: float) -> PointMeasured:
-        b, f = self._began, self._began.frequency_hz
-        velocity = fit.phasor[1]
-        velocity_std = np.hypot(fit.std[1], self._left * abs(velocity) / _BOUND)
-        if self._calibration is not None:
-            calibration = self._calibration(self._range.name)
-            if calibration is None:
-                self._remarks.append(f"range {self._range.name} is not calibrated")
-            else:
-                velocity = calibration.true_velocity(f, velocity)
-                velocity_std = velocity_std / calibration.gain
-        if self._signal_level is not None and self._signal_level < self._settings.least_signal_level:
-            self._remarks.append(f"weak light: signal level {self._signal_level:.2f}")
-        return PointMeasured(
-            step=b.step,
-            purpose=b.purpose,
-            segment=b.segment,
-            sweep=b.sweep,
-            frequency_hz=f,
-            level_m_s2=self._level,
-            sample=first,
-            dwell_s=x.shape[1] / self._rate,
-            settle_s=self._settle_s,
-            drive_v=self._command_drive(),
-            base_accel_re_m_s2=float(fit.phasor[0].real),
-            base_accel_im_m_s2=float(fit.phasor[0].imag),
-            base_accel_std_m_s2=float(fit.std[0]),
-            velocity_re_m_s=float(velocity.real),
-            velocity_im_m_s=float(velocity.imag),
-            velocity_std_m_s=float(velocity_std),
-            control_error_percent=100 * float(error),
-            base_distortion_percent=100 * float(fit.distortion[0]),
-            velocity_distortion_percent=100 * float(fit.distortion[1]),
-            range_name=self._range.name,
-            signal_level=self._signal_level,
-            temperature_c=float(fit.mean[2]) if self._scaling.has("temperature") else self._read_c,
-            remarks=tuple(self._remarks),
-        )
 
     def _loop_checked(self, end: int, fit: SineFit) -> list[Derived]:
         base, need = abs(fit.phasor[0]), self._settings.control.signal_over_noise
@@ -299,8 +231,6 @@ class StepAnalysis:
         f = self._began.frequency_hz
         return [LoopChecked(self._began.step, f, float(base / self._command_drive()), ratio)]
 
-    # Corrections
-
     def _overloaded(self) -> list[Derived]:
         if self._latest < (self._rings_until or 0):
             self._from = self._latest
@@ -313,55 +243,15 @@ class StepAnalysis:
         self._samples.clear()
         return [RangeRequested(self._began.step, self._wider[0], f"overload in {self._range.name}")]
 
-    def _correct(self, base: float, error: float) -> list[Derived]:
-        self._corrections += 1
-        wanted = self._command_drive() * self._level / base
-        drive = min(wanted, self._settings.limits.drive_v)
-        if drive < wanted:
-            self._remarks.append(f"drive held at its limit of {drive:.3g} V")
-            self._corrections = self._settings.control.most_corrections
-        return [DriveRequested(self._began.step, drive, f"base {100 * error:+.2g} % off its level")]
-
-    def _lost(self, base: float, before: float | None) -> list[Derived]:
-        """The base far under what the known gain promises is no level to correct: no drive is raised for it.
-
-        A sensor that came off, an amplifier that fell silent, a shaker that does not follow: with the drive
-        at its limit, whatever comes back comes back at full force.
-        """
-        least = _LOST * self._level
-        held = self._command_drive() >= self._settings.limits.drive_v
-        if base >= least or held:
-            self._far_under = 0
-            return []
-        rises = before is not None and base > _RISES * before
-        self._far_under = 1 if rises else self._far_under + 1
-        if self._far_under < _LOST_BLOCKS:
-            return []
-        remedy = (
-            "is the accelerometer on, its cable whole, the amplifier on? the drive is not raised to find out"
-        )
-        return [self._guard.stop("base acceleration lost: it is", base, least, "m/s^2", remedy)]
-
-    def _may_correct(self) -> bool:
-        return self._corrections < self._settings.control.most_corrections
-
     def _restart(self) -> None:
         self._samples.clear()
         self._settling = Settling(self._began.decay_1_s, self._settings.settle.tolerance)
         self._base = None
-        self._far_under = 0
+        self._control.restart()
         if self._phase == "dwelling":
             self._phase = "settling"
 
     # Small things
-
-    @property
-    def _level(self) -> float:
-        return self._began.level_m_s2 or 0.0
-
-    @property
-    def _trim(self) -> float:
-        return _TRIM * self._settings.control.tolerance
 
     @property
     def _tolerance_percent(self) -> float:

@@ -33,7 +33,7 @@ def asked(qtbot, window, page):
         def is_asked():
             question = window.controller.live.question
             if question is not None and question.what in ("mount", "aim"):
-                window.controller.answer()
+                window.controller.commands.answer()
             return question is not None and question.what == what and page.banner.button.isVisible()
 
         qtbot.waitUntil(is_asked, timeout=PATIENCE_MS)

@@ -65,20 +65,20 @@ def test_the_drive_shown_is_that_of_the_device_through_hold_hang_and_stop(qtbot,
     run_until_driven(qtbot, window, rig, experiment, tmp_path / "out")
     controller, looks = window.controller, Looks(window, rig)
     look_on(qtbot, looks, seconds=2.0)
-    controller.hold()
+    controller.commands.hold()
     look_on(qtbot, looks, lambda: controller.state.run.state == "held" and drive_v(rig) == 0)
     look_on(qtbot, looks, seconds=1.5)
     assert window.bar.gauges.drive.value == 0
     base = window.bar.gauges.by_name["base"]
     assert base.value is None or base.value < 0.1
-    controller.hold()
+    controller.commands.hold()
     look_on(qtbot, looks, lambda: drive_v(rig) > 0.05)
     look_on(qtbot, looks, seconds=1.0)
     httpx.put(f"{rig.front_end.url}/simulated/hang", trust_env=False).raise_for_status()
     look_on(qtbot, looks, seconds=1.5)
     assert base.marked
     assert "ago" in base.text()
-    controller.stop()
+    controller.commands.stop()
     look_on(qtbot, looks, lambda: not controller.running)
     assert looks.wrong == []
     assert looks.count > 50

@@ -279,7 +279,7 @@ def test_the_time_left_is_known_before_the_first_point(qtbot, window, unchecked,
     assert "plan" in told[: told.index("PointMeasured")]
     assert "left" in window.bar.left.text()
     assert 0 < live.fraction < 0.5
-    window.controller.abort()
+    window.controller.commands.abort()
     wait_for_end(qtbot, window)
 
 

@@ -13,6 +13,7 @@ from window_runs import run_until_driven
 
 from gui.background_task import BackgroundCommand
 from gui.controller import AppController
+from gui.run_commands import RunCommands
 
 WITHIN_S = 0.5
 
@@ -21,7 +22,7 @@ WITHIN_S = 0.5
 def stops(monkeypatch):
     """One for each stop asked for; nothing is stopped, no command is run."""
     asked = []
-    monkeypatch.setattr(AppController, "stop", lambda controller: asked.append(time.monotonic()))
+    monkeypatch.setattr(RunCommands, "stop", lambda commands: asked.append(time.monotonic()))
     monkeypatch.setattr(BackgroundCommand, "start", lambda command: None)
     return asked
 

@@ -81,11 +81,8 @@ def checks(
         found["causality"] = float(chi2_above(breaches @ breaches / t, len(breaches)))
     parts = 2 if evidence.has_phase else 1
     runs, memory = along_frequency(sweep, whitened, parts, VERDICT.longest_trace, struck)
-    excess = may_leave / dof
-    found["signs"] = float(normal_above(runs / (VERDICT.wider_along * (1 + VERDICT.formula_along * excess))))
-    found["memory"] = float(
-        normal_above(memory / (VERDICT.wider_along * (1 + VERDICT.formula_along * excess)))
-    )
+    wider = VERDICT.wider_along * (1 + VERDICT.formula_along * (may_leave / dof))
+    found["signs"], found["memory"] = (float(normal_above(z / wider)) for z in (runs, memory))
     return found
 
 

@@ -18,6 +18,7 @@ from fitting.diagnosis.inference.begin import Begun
 from fitting.diagnosis.inference.marginal import cost
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.inference.usual_law import polished
+from fitting.diagnosis.thresholds import VERDICT
 from fitting.laws import CoreLaw
 from fitting.laws.bent_law import BentLaw
 
@@ -25,8 +26,6 @@ _TIMES = 2.0
 """From one width of the prior to the next: their evidence is flat between. A choice."""
 _STEPS = 3
 """Widths tried at most: eight times the usual one, 20 % in G' and 36 % in eta, is no law of that form."""
-RARE = 2 * np.log(10.0)
-"""Of -2 ln Z, that the first wider one has to gain: one material in ten is expected to need it. A choice."""
 
 
 def loosened(begun: Begun) -> Begun:
@@ -46,7 +45,7 @@ def as_free_as_asked(
 
     `again` fits with another law from where a fit ended; `worth` is its -2 ln Z.
     """
-    best, least = fitted, RARE
+    best, least = fitted, VERDICT.freer_law_cost
     for _ in range(_STEPS):
         if not _asks_for_more(best):
             break

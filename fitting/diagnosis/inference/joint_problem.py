@@ -10,6 +10,8 @@ from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.response.response import Response
+from fitting.diagnosis.response.unknowns import Unknowns
+from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 
@@ -126,6 +128,12 @@ class JointProblem:
             self._with_slopes = self._seen, self._jacobian(law, u, *both)
         return self._seen
 
+    @cached_property
+    def _each(self) -> list[tuple[Effect, slice]]:
+        """Effects, and where the unknowns of each are among `u`."""
+        effects = self.response.effects
+        return list(zip(effects, Unknowns(self._z, effects).slices, strict=True))
+
     @property
     def _part(self) -> slice | Mask:
         return slice(None) if self.points is None else self.points
@@ -148,11 +156,9 @@ class JointProblem:
         bare = self.evidence.bare
         if bare is None:
             return np.empty(0)
-        start, expected = self._z, bare.stated_shift(self.response.nuisances, u[: self._z])
-        for e in self.response.effects:
-            stop = start + len(e.parameters)
-            expected = expected + e.bare_shift(bare, u[start:stop])
-            start = stop
+        expected = bare.stated_shift(self.response.nuisances, u[: self._z])
+        for e, part in self._each:
+            expected = expected + e.bare_shift(bare, u[part])
         return -bare.whitened(expected)
 
     def _bare_by(self, u: Array) -> Array:
@@ -190,13 +196,11 @@ class JointProblem:
     def _tied(self) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
         """Places of both among `u`, and how near they are known to be. Shape (ties,) each."""
         first, other, sigma = list[int](), list[int](), list[float]()
-        start = self._z
-        for e in self.response.effects:
+        for e, part in self._each:
             for tie in e.ties:
-                first.append(start + tie.first)
-                other.append(start + tie.other)
+                first.append(part.start + tie.first)
+                other.append(part.start + tie.other)
                 sigma.append(tie.sigma)
-            start += len(e.parameters)
         return np.array(first, np.intp), np.array(other, np.intp), np.array(sigma)
 
     def fitted(self, x: Array) -> Refitted:

@@ -98,27 +98,28 @@ def _log_share_within(fitted: Refitted, plate: EnrichedReducedPlate, H: Array, s
     Of those that have a size; each for itself. `slope` is the derivative of -ln p to the fitted numbers.
     Shapes (columns, columns) and (columns,).
     """
-    start, found = fitted.stated, 0.0
+    found = 0.0
     # Directions that no reading feels leave H all but singular, in units far apart.
     d = 1 / np.sqrt(np.diag(H))
     C = np.linalg.inv(H * np.outer(d, d) + _DROWNED * np.eye(len(H))) * np.outer(d, d)
     # The effects' unknowns come last among the columns.
-    column = len(H) - int(fitted.free[start:].sum())
-    for effect in fitted.effects:
+    column = len(H) - int(fitted.free[fitted.stated :].sum())
+    for effect, part in fitted.each():
         lower, upper = effect.limits(plate)
-        for k, q in enumerate(effect.parameters):
-            if not fitted.free[start + k]:
+        for k, (q, value, free) in enumerate(
+            zip(effect.parameters, fitted.u[part], fitted.free[part], strict=True)
+        ):
+            if not free:
                 continue
             if q.neutral is not None and np.isfinite(q.neutral):
                 s = float(np.sqrt(C[column, column]))
-                least, u, most = (_as_fitted(q, x) for x in (lower[k], fitted.u[start + k], upper[k]))
+                least, u, most = (_as_fitted(q, x) for x in (lower[k], value, upper[k]))
                 low, high = (u - least) / s, (most - u) / s
                 away = float(slope[column]) * (1.0 if low < high else -1.0) * s
                 # Within the limits a slope is only what the fit left undone.
                 t = max(away, 0.0) if min(low, high) < _AT_A_LIMIT else 0.0
                 found += t**2 / 2 + float(log_ndtr(min(low, high) - t))
             column += 1
-        start += len(effect.parameters)
     return found
 
 
@@ -150,17 +151,17 @@ def _odds(effect: Effect) -> float:
 
 def _priors(fitted: Refitted, plate: EnrichedReducedPlate) -> list[tuple[float, float]]:
     """Ln density and width, as `_prior` has them, of every fitted unknown of the effects."""
-    found, start = [], fitted.stated
-    for effect in fitted.effects:
+    found = []
+    for effect, part in fitted.each():
         lower, upper = effect.limits(plate)
         tied = {tie.other: tie.sigma for tie in effect.ties}
+        u, free = fitted.u[part], fitted.free[part]
         for k, q in enumerate(effect.parameters):
-            if fitted.free[start + k] and k in tied:
+            if free[k] and k in tied:
                 # Normal about another one; how far off it is, is in its row, and so is its width.
                 found.append((-float(np.log(tied[k] * np.sqrt(2 * np.pi))), np.inf))
-            elif fitted.free[start + k]:
-                found.append(_prior(q, float(lower[k]), float(upper[k]), float(fitted.u[start + k])))
-        start += len(effect.parameters)
+            elif free[k]:
+                found.append(_prior(q, float(lower[k]), float(upper[k]), float(u[k])))
     return found
 
 

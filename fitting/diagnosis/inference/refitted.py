@@ -1,5 +1,6 @@
 """Where a fit of a law and some effects ended, and what it knows."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -7,6 +8,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.inference.pace import is_within_reach
+from fitting.diagnosis.response.unknowns import Unknowns
 from fitting.effects.base import Effect
 from fitting.identification.uncertainty import limits_reached
 from fitting.laws import CoreLaw
@@ -61,10 +63,23 @@ class Refitted:
         dof = self.data - self.parameter_count
         return float(np.sum(self.residuals[: self.data] ** 2) / dof) if dof > 0 else float("nan")
 
+    def each(self) -> Iterator[tuple[Effect, slice]]:
+        """Its effects, and where the unknowns of each are among `u`."""
+        yield from zip(self.effects, Unknowns(self.stated, self.effects).slices, strict=True)
+
     def of(self, effect: Effect) -> Array:
         """The unknowns of one of its effects. Shape (parameters,)."""
-        start = self.stated + sum(len(e.parameters) for e in self.effects[: self.effects.index(effect)])
-        return self.u[start : start + len(effect.parameters)]
+        return Unknowns(self.stated, self.effects).of(self.effects.index(effect), self.u)
+
+    def unknown_errors(self, scale: float = 1.0) -> Array:
+        """Standard errors of `u` as they are fitted, of a covariance `scale` times as large. Shape of `u`.
+
+        NaN where a number is not fitted; of the logarithm where it is fitted in that.
+        """
+        found = np.full(len(self.u), np.nan)
+        variance = np.diag(scale * self.covariance)[len(self.law.names) :]
+        found[self.free] = np.sqrt(np.maximum(variance, 0))
+        return found
 
     @property
     def z(self) -> Array:

@@ -9,7 +9,7 @@ from fitting.diagnosis.checks.prediction import over_noise
 from fitting.diagnosis.checks.predictive import TOLERANCES, checks, form_error, most_unrefused, passes, temper
 from fitting.diagnosis.executor import Call, Executor
 from fitting.diagnosis.inference.evidence import Evidence
-from fitting.diagnosis.inference.freer_law import RARE, freedom_of
+from fitting.diagnosis.inference.freer_law import freedom_of
 from fitting.diagnosis.inference.marginal import cost
 from fitting.diagnosis.inference.refit import refit
 from fitting.diagnosis.inference.refitted import Refitted, by_chi2
@@ -140,7 +140,7 @@ class Search:
     def _cost(self, fitted: Refitted, temper: float = 1.0) -> float:
         """`marginal.cost`, and a penalty for each doubling of how far the law may bend: few materials do."""
         doublings = np.log2(freedom_of(fitted.law) / freedom_of(self.stated))
-        return cost(fitted, self.problem.plate, temper) + RARE * float(doublings)
+        return cost(fitted, self.problem.plate, temper) + VERDICT.freer_law_cost * float(doublings)
 
     def tempered(self, scored_fits: Sequence[ScoredFit]) -> tuple[ScoredFit, list[ScoredFit]]:
         """None and the others with what they are worth where the best explains far more than noise."""

@@ -11,7 +11,7 @@ from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.response.response import Response
-from fitting.diagnosis.several.of_files import OfFiles
+from fitting.diagnosis.several.of_files import inner_of
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.thresholds import STARTS
 from fitting.effects.base import Effect
@@ -213,8 +213,7 @@ def _moved(response: Response, law: CoreLaw, u: Array, v: Complex) -> Complex:
 
 def by_adjoint(effect: Effect) -> bool:
     """Whether what an effect moves is found to first order, for all of its places at once."""
-    form = effect.inner if isinstance(effect, OfFiles) else effect
-    return has_place(effect) and type(form).change is not Effect.change
+    return has_place(effect) and type(inner_of(effect)).change is not Effect.change
 
 
 def has_place(effect: Effect) -> bool:

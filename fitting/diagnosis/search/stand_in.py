@@ -5,15 +5,14 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.thresholds import VERDICT
 from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
-_CAUSES = 2
-"""Most that an explanation may suppose at once."""
-_SIZED = 2.0
-"""Standard errors from nothing at which an effect beside another has a size. A choice."""
 _AT = 1e-6
-"""Share of a limit: nearer to it, a fit would go on."""
+"""Share of a limit: nearer to it, a fit would go on. Of the limit itself, unlike in `verdict.kin` and
+`verdict.stage`: only limits away from where the effect is absent are asked, and not all have another beside
+them that is finite."""
 
 
 def stands_in(problem: DiagnosisProblem, fitted: Refitted) -> str:
@@ -32,7 +31,7 @@ def stands_in(problem: DiagnosisProblem, fitted: Refitted) -> str:
 
 def supposes_too_much(fitted: Refitted) -> bool:
     """Whether it is more things at once than can be told from a cause that is in no catalogue."""
-    return sum(e.causes for e in fitted.effects) > _CAUSES
+    return sum(e.causes for e in fitted.effects) > VERDICT.causes
 
 
 def unsized(fitted: Refitted) -> bool:
@@ -40,21 +39,17 @@ def unsized(fitted: Refitted) -> bool:
 
     Alone it would not be there: beside another it may be what that one's formula lacks.
     """
-    if len(fitted.effects) < _CAUSES:
+    if len(fitted.effects) < 2:
         return False
-    inner = np.full(len(fitted.u), np.nan)
-    inner[fitted.free] = np.sqrt(np.maximum(np.diag(fitted.covariance)[len(fitted.law.names) :], 0))
-    start = fitted.stated
-    for effect in fitted.effects:
-        own = slice(start, start + len(effect.parameters))
+    errors = fitted.unknown_errors()
+    for effect, own in fitted.each():
         sized = [
             _is_sized(q, float(value), float(error))
-            for q, value, error in zip(effect.parameters, fitted.u[own], inner[own], strict=True)
+            for q, value, error in zip(effect.parameters, fitted.u[own], errors[own], strict=True)
             if q.neutral is not None and not q.fixed
         ]
         if sized and not any(sized):
             return True
-        start = own.stop
     return False
 
 
@@ -63,7 +58,7 @@ def _is_sized(q: EffectParameter, value: float, error: float) -> bool:
     assert q.neutral is not None
     if not np.isfinite(error):
         return value != q.neutral
-    return error < 1 / _SIZED if q.logarithmic else abs(value - q.neutral) > _SIZED * error
+    return error < 1 / VERDICT.sized if q.logarithmic else abs(value - q.neutral) > VERDICT.sized * error
 
 
 def too_large(fitted: Refitted, plate: EnrichedReducedPlate) -> str:

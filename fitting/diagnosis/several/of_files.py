@@ -205,3 +205,28 @@ class OfFiles(Effect):
         elif self.files == 1:
             where = "at every pickup"
         return f"{where} {self.inner.story(u)}"
+
+
+def inner_of(effect: Effect) -> Effect:
+    """The effect itself, of whichever files its form is."""
+    return effect.inner if isinstance(effect, OfFiles) else effect
+
+
+def own_unknowns(effect: Effect, place: Place) -> NDArray[np.intp] | None:
+    """Which of an effect's unknowns `inner_of` it has at a place; None where that lacks it.
+
+    Shape (parameters of the inner effect,).
+    """
+    if not isinstance(effect, OfFiles):
+        return np.arange(len(effect.parameters))
+    return effect.places(place) if effect.holds(place) else None
+
+
+def copies_of(effect: Effect) -> list[NDArray[np.intp]]:
+    """Which of an effect's unknowns are those of `inner_of` it, once for each size that it has.
+
+    Shape (parameters of the inner effect,) each.
+    """
+    count = len(inner_of(effect).parameters)
+    copies = effect.copies if isinstance(effect, OfFiles) else 1
+    return [k * count + np.arange(count) for k in range(copies)]

@@ -26,7 +26,7 @@ from fitting.diagnosis.several import one_plate
 from fitting.diagnosis.several.joining import joined, joined_points, side_by_side
 from fitting.diagnosis.several.member_laws import by_all, law_at
 from fitting.diagnosis.several.mountings import mountings
-from fitting.diagnosis.several.of_files import OfFiles, Place
+from fitting.diagnosis.several.of_files import Place, inner_of, own_unknowns
 from fitting.diagnosis.several.one_plate import Taken
 from fitting.diagnosis.several.one_rig import alike_rows
 from fitting.diagnosis.several.sharing import Places, shared, with_narrow
@@ -309,11 +309,10 @@ class SeveralResponse:
         for k, m in enumerate(problem.members):
             places, inner, start = [problem.places[k]], [], count
             for e in effects:
-                form = e.inner if isinstance(e, OfFiles) else e
-                if not isinstance(e, OfFiles) or e.holds(problem.belongs[k]):
-                    inner.append(form)
-                    own = e.places(problem.belongs[k]) if isinstance(e, OfFiles) else None
-                    places.append(start + (np.arange(len(form.parameters)) if own is None else own))
+                own = own_unknowns(e, problem.belongs[k])
+                if own is not None:
+                    inner.append(inner_of(e))
+                    places.append(start + own)
                 start += len(e.parameters)
             number = problem.plates[k]
             plate = None

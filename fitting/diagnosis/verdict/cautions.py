@@ -3,7 +3,8 @@
 from fitting.diagnosis.checks.stretches import words_of_stretches
 from fitting.diagnosis.inference.freer_law import freedom_of
 from fitting.diagnosis.search.catalogue_search import Search
-from fitting.diagnosis.verdict.judgement import Judgement, against_by_checks
+from fitting.diagnosis.verdict.judgement import Judgement
+from fitting.diagnosis.verdict.refusing import against_by_checks
 from fitting.identification.result import BIASED
 
 _NO_TIME, _NO_SECONDS = "the points carry no time", "the points' times are all one or no seconds"

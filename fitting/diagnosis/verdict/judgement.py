@@ -6,25 +6,21 @@ test refuses: such data are not what it would leave (`predictive`).
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import permutations
 
 import numpy as np
 
-from fitting.arrays import Array
-from fitting.diagnosis.checks.predictive import weakest
 from fitting.diagnosis.inference.marginal import probabilities
 from fitting.diagnosis.search.catalogue_search import ScoredFit, best_of_each
-from fitting.diagnosis.search.stand_in import supposes_too_much
 from fitting.diagnosis.thresholds import VERDICT
+from fitting.diagnosis.verdict.equivalents import equivalents_of
 from fitting.diagnosis.verdict.kin import UNLISTED, Kin, Unlisted
-from fitting.diagnosis.verdict.names import NONE
+from fitting.diagnosis.verdict.refusing import HeldOut, against
 from fitting.diagnosis.verdict.result import Verdict
-from fitting.digits import seldom, two_digits
+from fitting.diagnosis.verdict.shares import group_of, shares_of
+from fitting.digits import two_digits
 
 _MOST_OF_KIN = 1 - 1e-9
 """Probability: what is listed keeps its order beside it."""
-_HALF_EACH = 0.5
-"""Share of both laws in the band where nothing explains the readings (decision 77)."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +71,7 @@ class Judgement:
         if self.unlisted is None:
             return list(self.group)
         if self.verdict == "unknown":
-            return [(none, _HALF_EACH), (self.unlisted, _HALF_EACH)]
+            return [(none, VERDICT.law_of_none), (self.unlisted, 1 - VERDICT.law_of_none)]
         akin = self.share_of_kin
         listed = [(t, (1 - akin) * share) for t, share in self.group]
         return [*listed, *((t, akin * share) for t, share in self.unlisted.weighing(none))]
@@ -130,7 +126,7 @@ def judge(
     scored_fits: Sequence[ScoredFit],
     *,
     hidden: frozenset[str],
-    held_out: Callable[[ScoredFit], float],
+    held_out: HeldOut,
     kin: Callable[[ScoredFit], Kin | None] = lambda scored: None,
 ) -> Judgement:
     """Weigh explanations.
@@ -142,25 +138,25 @@ def judge(
     p = shares_of(every)
     order = np.argsort(-p, kind="stable")
     ranked = [(every[k], float(p[k])) for k in order]
-    visible = [t for t, _ in _group(ranked) if not hidden & set(t.names)]
+    visible = [t for t, _ in group_of(ranked) if not hidden & set(t.names)]
     named = [t for t in visible if t.names]
     if not named or _may_be_none(ranked, named[0]):
         weighed = _Weighed(ranked, hidden)
         if none.fails or not visible:
             return _unknown(weighed, none)
         return weighed.judgement("none", None)
-    standing = [t for t in named if not _against(none, t, held_out)]
+    standing = [t for t in named if not against(none, t, held_out)]
     weighed = _beside_kin(ranked, hidden, {t: kin(t) for t in standing or named})
     if not standing:
-        return _unknown(weighed, named[0], _against(none, named[0], held_out))
+        return _unknown(weighed, named[0], against(none, named[0], held_out))
     best = standing[0]
     if weighed.share_of_kin > VERDICT.favoured * (1 - weighed.share_of_kin):
         share = two_digits(100 * weighed.share_of_kin)
         why = f"is less likely than something of its kind that is in no catalogue, which has {share} %"
         return _unknown(weighed, best, why)
-    alone = all(set(best.names) <= set(t.names) for t, _ in weighed.group) and not weighed.doubted
+    alone = all(set(best.names) <= set(t.names) for t, _ in weighed.group)
     sure = len(best.names) < 2 or held_out(best) < held_out(none)
-    certain = alone and sure and _is_firm(best)
+    certain = alone and sure and _is_firm(best) and not _is_doubted(weighed.share_of_kin)
     return weighed.judgement("effect" if certain else "ambiguous", best, confirmed=sure)
 
 
@@ -194,12 +190,7 @@ class _Weighed:
 
     @property
     def group(self) -> tuple[tuple[ScoredFit, float], ...]:
-        return _group(self.ranked)
-
-    @property
-    def doubted(self) -> bool:
-        """Whether what is in no catalogue may as well be there."""
-        return _is_doubted(self.share_of_kin)
+        return group_of(self.ranked)
 
     def judgement(
         self,
@@ -210,8 +201,8 @@ class _Weighed:
         refused: tuple[str, ...] = (),
         why: str = "",
     ) -> Judgement:
-        equivalent = _equivalent(accepted, self.group, self.hidden) if accepted is not None else {}
-        if self.doubted:
+        equivalent = equivalents_of(accepted, self.group, self.hidden) if accepted is not None else {}
+        if _is_doubted(self.share_of_kin):
             equivalent = {name: (*group, UNLISTED) for name, group in equivalent.items()}
         return Judgement(
             verdict,
@@ -252,116 +243,6 @@ def _beside_kin(
     )
 
 
-def shares_of(every: Sequence[ScoredFit]) -> Array:
-    """Probabilities, where what no point shows by itself shares with what nothing refuses.
-
-    A cause that is in no catalogue is fitted by what bends most freely, and far better than by the rest. So
-    what may stand in for it keeps `VERDICT.stand_in` of what both have, the others share theirs by their
-    costs; that there is an effect at all is not in doubt. Shape (explanations,).
-    """
-    costs = np.array([t.cost for t in every])
-    p = probabilities(costs)
-    unseen = np.array([bool(t.stands_in) for t in every])
-    others = np.array([bool(t.names) and not t.fails and not t.stands_in for t in every])
-    both = float(p[unseen | others].sum())
-    if not others.any() or p[unseen].sum() <= VERDICT.stand_in * both:
-        return p
-    p[unseen] *= VERDICT.stand_in * both / p[unseen].sum()
-    p[others] = (1 - VERDICT.stand_in) * both * probabilities(costs[others])
-    return p
-
-
 def _unknown(weighed: _Weighed, nearest: ScoredFit, why: str = "") -> Judgement:
     best = nearest if nearest.names else next((t for t, _ in weighed.ranked if t.names), nearest)
     return weighed.judgement("unknown", None, refused=best.names if why else (), why=why)
-
-
-def holding(shares: Sequence[float]) -> int:
-    """How many of the first hold 95 %, the likeliest first."""
-    before = np.cumsum(shares) - shares
-    return int(np.sum(before < VERDICT.credible))
-
-
-def _group(ranked: Sequence[tuple[ScoredFit, float]]) -> tuple[tuple[ScoredFit, float], ...]:
-    """The first of them that hold 95 %, their shares scaled to one."""
-    found = ranked[: holding([share for _, share in ranked])]
-    total = sum(share for _, share in found)
-    return tuple((t, share / total) for t, share in found)
-
-
-def _equivalent(
-    best: ScoredFit, group: Sequence[tuple[ScoredFit, float]], hidden: frozenset[str]
-) -> dict[str, tuple[str, ...]]:
-    """For each effect of the best what stands in its place in others of the group.
-
-    What comes beside another of the group stands in no place of its own: that other one does.
-    """
-    every = [set(t.names) for t, _ in group if t.names and not hidden & set(t.names)]
-    shown = [one for one in every if not one <= set(best.names)]
-    others = [t.names for t, _ in group if not any(one < set(t.names) for one in shown)]
-    alone = {name: _instead_of(name, best.names, others) for name in best.names}
-    beside = {n for t, _ in group if set(best.names) < set(t.names) for n in t.names}
-    found = {}
-    for name in best.names:
-        names = [name]
-        for other in others:
-            if not other:
-                names.append(NONE)
-            elif name not in other:
-                there = [n for n in other if n in _for(name, other, alone) and n not in hidden]
-                names += [n for n in there if n not in beside] or there
-        found[name] = tuple(dict.fromkeys(names))
-    return found
-
-
-def _instead_of(name: str, best: Sequence[str], others: Sequence[Sequence[str]]) -> set[str]:
-    """What stands in the place of one effect in explanations that keep the rest of the best."""
-    rest = set(best) - {name}
-    return {n for one in others if name not in one and rest <= set(one) for n in set(one) - rest}
-
-
-def _for(name: str, other: Sequence[str], alone: Mapping[str, set[str]]) -> set[str]:
-    """What of another explanation, which lacks an effect of the best, stands in its place.
-
-    `alone` says of each effect of the best what stands for it beside the rest. Where both are exchanged at
-    once each stands for what it stands for alone, if that is known; else for either.
-    """
-    best = set(alone)
-    if best & set(other):
-        return set(other) - best if best - {name} <= set(other) else set()
-    if len(other) != len(best):
-        return set(other)
-    known = set[str]().union(*alone.values())
-    pairings = (dict(zip(alone, order, strict=True)) for order in permutations(other))
-    fitting = [p for p in pairings if all(n in alone[e] or n not in known for e, n in p.items())]
-    return {p[name] for p in fitting} or set(other)
-
-
-def against_by_checks(best: ScoredFit) -> str:
-    """What the weakest of its checks says against an explanation, after its name; empty for nothing."""
-    worst = weakest(best.checks)
-    if worst is None or worst[1] >= VERDICT.check_level:
-        return ""
-    return f"would leave such data {seldom(worst[1])} ({worst[0]})"
-
-
-def _against(none: ScoredFit, best: ScoredFit, held_out: Callable[[ScoredFit], float]) -> str:
-    """Why an explanation is none; empty where nothing speaks against it."""
-    if why := against_by_checks(best):
-        return why
-    if best.too_large and len(best.names) > 1:
-        # One of two that goes as far as it may is what a third would be, that is in no catalogue.
-        return f"has more of {best.too_large} than is plausible"
-    if supposes_too_much(best.fitted):
-        return "supposes three things at once, which come near to anything"
-    if _predicts_nothing(none, best, held_out):
-        return "does not predict the segments it has not seen"
-    return ""
-
-
-def _predicts_nothing(none: ScoredFit, best: ScoredFit, held_out: Callable[[ScoredFit], float]) -> bool:
-    """Whether data that were held out speak against an explanation that fits by another law's freedom."""
-    if not none.fails or not any(e.replaces_law for e in best.fitted.effects):
-        return False
-    off = held_out(best)
-    return off > VERDICT.poor and off > VERDICT.hardly_better * held_out(none)

@@ -30,7 +30,7 @@ from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.several.several_problem import SeveralResponse
-from fitting.diagnosis.thresholds import VERDICT
+from fitting.diagnosis.thresholds import KIN, VERDICT
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.nuisances.narrow import NarrowResonance, NarrowResonances
@@ -39,28 +39,17 @@ from fitting.specimen import Kind
 
 UNLISTED = "unlisted"
 """Its name beside those of effects."""
-CHANCE = 0.125
-"""That what an explanation explains is something of its kind that is in no catalogue. A choice: at one in
-twenty effects given 95 % and more were there in 94 of 100, and with the true one left out a sixth of solid
-plates were certain of another; at one in eight in 97, and a fiftieth (docs/evidence/diagnosis.md)."""
-SHARES = (0.03, 0.1, 0.3, 1.0)
-"""Of what is explained, that kin may differ by: one as likely as another. A choice."""
-ANOTHER = 0.3
-"""From this share on, kin counts as a different cause, not as the same one with a slightly different formula.
-A choice: where the base rolls or a piece is missing, a mass explains it nearly, and the law found with it is
-off by 10 to 40 %, the one found without any effect by 4."""
 FREQUENCY, LOSS, _GAIN = 0.01, 0.1, 0.03
 """What a cause does to a resonance, to its loss factor and to the gain of a segment, relative: where effects
 of the catalogue show, these go together. Only their proportions count."""
-_LOOSE = 2.0
-"""Times the error of an effect's own formula: within it kin is the effect itself. A choice."""
 HAVE_MODES: tuple[Kind, ...] = ("plate", "beam")
 """Kinds of specimens with resonances besides the one that the core's modulus places."""
 _STRETCH = np.log(2) / 3
 """In ln f: of a third of an octave, as wide as what a resonance of a fixture or of a mass's rocking disturbs
 where it loses a tenth. A choice."""
 _AT = 1e-6
-"""Share of a number: nearer to its limit it may not move."""
+"""Share of a number: nearer to its limit it may not move. Of the number itself, unlike in `verdict.stage` and
+`search.stand_in`: a small one beside a limit of zero has room for more of its own size."""
 _MOST = 600.0
 """Of a logarithm of odds: numbers end there."""
 _Rows = dict[tuple[int, int], Complex]
@@ -144,10 +133,10 @@ def kin_along(
 
     None where the effects' own formulas are no better than kin.
     """
-    loose = _LOOSE * np.sqrt(
+    loose = KIN.beyond_formula * np.sqrt(
         max((max(VERDICT.formula_share, e.unexplained_share) for e in fitted.effects), default=1.0)
     )
-    shares = [eps for eps in SHARES if eps > loose]
+    shares = [eps for eps in KIN.shares if eps > loose]
     if not shares:
         return None
     kept = _inside(fitted, plate)
@@ -171,14 +160,12 @@ def kin_along(
 
 def _inside(fitted: Refitted, plate: EnrichedReducedPlate) -> Mask:
     """Which columns of a fit are of what may move: not at a limit. Shape (columns,)."""
-    kept, start = fitted.weighted()[1], fitted.stated
+    kept = fitted.weighted()[1]
     inside = np.ones(len(fitted.u), bool)
-    for effect in fitted.effects:
-        own = slice(start, start + len(effect.parameters))
+    for effect, own in fitted.each():
         low, high = effect.limits(plate)
         u, size = fitted.u[own], np.maximum(np.abs(fitted.u[own]), _TINY)
         inside[own] = (u - low > _AT * size) & (high - u > _AT * size)
-        start = own.stop
     of_unknowns = inside[fitted.free]
     kept[len(kept) - len(of_unknowns) :] &= of_unknowns
     return kept
@@ -206,14 +193,14 @@ def weighed(C: Array, by: Array, dd: Array, b: Array, explained: float, shares: 
         more.append(s2 * C @ by @ M @ by.T @ C)
     logs = np.array(every)
     share = np.exp(logs - logs.max())
-    odds = CHANCE / (1 - CHANCE) * float(np.exp(min(logs.max(), _MOST)) * share.mean())
+    odds = KIN.chance / (1 - KIN.chance) * float(np.exp(min(logs.max(), _MOST)) * share.mean())
     share /= share.sum()
     x = np.array(along)
     # What else was fitted makes room for it.
     moved = -x @ by.T @ C
     off = moved - share @ moved
     wider = np.tensordot(share, np.array(more), 1) + (off.T * share) @ off
-    return Kin(odds, share @ moved, wider, share @ x, float(share @ (np.array(shares) >= ANOTHER)))
+    return Kin(odds, share @ moved, wider, share @ x, float(share @ (np.array(shares) >= KIN.another_cause)))
 
 
 def _directions(search: Search, fitted: Refitted) -> Array:

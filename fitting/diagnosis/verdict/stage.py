@@ -23,7 +23,8 @@ from fitting.identification.uncertainty import Uncertainty, limits_reached
 from fitting.identification.validation import Validation
 
 _AT_LIMIT = 1e-6
-"""Of the range between an unknown's limits: nearer to one it sits on it, and its error says nothing."""
+"""Of the range between an unknown's limits: nearer to one it sits on it, and its error says nothing. Of the
+range, unlike in `verdict.kin` and `search.stand_in`: it is what the error is compared with, too."""
 FEW = 9
 """Frequencies at which a candidate's law is listed, and the reference ones."""
 
@@ -150,16 +151,12 @@ def found_effects(
     fitted: Refitted, plate: EnrichedReducedPlate, scale: float = 1.0
 ) -> tuple[FoundEffect, ...]:
     """The effects of a fit with their sizes and standard errors; `scale` multiplies the covariance."""
-    covariance = scale * fitted.covariance
-    n = len(fitted.law.names)
-    inner = np.full(len(fitted.u), np.nan)
-    inner[fitted.free] = np.sqrt(np.maximum(np.diag(covariance)[n:], 0))
-    found, start = [], fitted.stated
-    for effect in fitted.effects:
+    errors, found = fitted.unknown_errors(scale), []
+    for effect, part in fitted.each():
         lower, upper = effect.limits(plate)
         parameters = {}
         for k, q in enumerate(effect.parameters):
-            value, error = float(fitted.u[start + k]), float(inner[start + k])
+            value, error = float(fitted.u[part][k]), float(errors[part][k])
             if q.logarithmic:
                 error *= value
             reach = _AT_LIMIT * (upper[k] - lower[k]) if np.isfinite(upper[k]) else 0.0
@@ -169,11 +166,10 @@ def found_effects(
             parameters[q.key] = ParameterEstimate(value, error, q.unit)
         if effect.replaces_law:
             law = fitted.law.plain
-            errors = np.sqrt(np.diag(covariance)[: len(law.names)]) * law.values
-            for name, value, error in zip(law.names, law.values, errors, strict=True):
+            of_law = np.sqrt(np.diag(scale * fitted.covariance)[: len(law.names)]) * law.values
+            for name, value, error in zip(law.names, law.values, of_law, strict=True):
                 parameters[name] = ParameterEstimate(float(value), float(error), _unit(name))
         found.append(FoundEffect(effect.name, parameters))
-        start += len(effect.parameters)
     return tuple(found)
 
 

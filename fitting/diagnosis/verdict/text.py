@@ -9,9 +9,9 @@ from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.several.parts_with import part_with
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.several.several_problem import SeveralProblem
-from fitting.diagnosis.thresholds import VERDICT
+from fitting.diagnosis.thresholds import KIN, VERDICT
 from fitting.diagnosis.verdict.judgement import Judgement
-from fitting.diagnosis.verdict.kin import CHANCE, UNLISTED
+from fitting.diagnosis.verdict.kin import UNLISTED
 from fitting.diagnosis.verdict.names import NONE
 from fitting.diagnosis.verdict.result import FoundEffect, Stage
 from fitting.digits import all_digits, seldom, two_digits, written_out
@@ -108,7 +108,7 @@ def beside_kin(judgement: Judgement) -> list[str]:
         return []
     share = _percent(judgement.share_of_kin)
     why = "the readings show too little of it to test its own formula"
-    if judgement.share_of_kin > CHANCE:
+    if judgement.share_of_kin > KIN.chance:
         why = "what is left of the readings is more like that than what its own formula leaves"
     return [f"That it is something of its kind, in no catalogue, has {share}: {why}."]
 

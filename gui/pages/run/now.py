@@ -40,7 +40,7 @@ class NowPane(QWidget):
         self.next.setTextFormat(Qt.TextFormat.PlainText)
         self.level = Gauge("level", large=True)
         self.gauges = RunGauges(controller, self, large=True)
-        self.overrule = OverruleRow(controller)
+        self.overrule = OverruleRow(controller.commands)
         self.segments, self.channels = ReadTable(_COLUMNS), ChannelTable()
         self.path = QLabel()
         self.path.setWordWrap(True)

@@ -20,7 +20,7 @@ from fitting.diagnosis.inference.whitening import SHARE
 from fitting.diagnosis.problem.model_error import model_error
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.laws.bent_law import BentLaw
-from instrument.campaign.bench import GRID_HZ, synthetic_sweep
+from instrument.bench.sweeps import GRID_HZ, synthetic_sweep
 from instrument.models.set_up import set_up
 
 NOISE = 0.005

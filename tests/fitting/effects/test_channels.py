@@ -9,7 +9,9 @@ from fitting.effects.phase_offset import PhaseOffsetEffect
 from fitting.effects.phase_scale import continuous_phase
 
 F = np.concatenate([np.linspace(19, 23, 21), np.linspace(92, 106, 31), np.linspace(270, 290, 21)])
-LOWPASS, PHASE = (CATALOGUE[n] for n in ("sensor_lowpass", "phase_scale"))
+LOWPASS, PHASE, GAIN, DELAY = (
+    CATALOGUE[n] for n in ("sensor_lowpass", "phase_scale", "gain_error", "channel_delay")
+)
 HIGHPASS, OFFSET = AcCouplingEffect(), PhaseOffsetEffect()
 
 
@@ -23,6 +25,21 @@ def velocity(f=F, signs=(-1, 1, -1)):
     modes = zip(signs, (21.0, 99.0, 281.0), (0.05, 0.08, 0.06), strict=True)
     x = sum(s / (p**2 * (1 + 1j * eta) - f**2) for s, p, eta in modes)
     return 1j * f * x
+
+
+@pytest.mark.parametrize("tau_s", [2e-4, -2e-4])
+def test_a_delay_lags_in_proportion_to_frequency(tau_s):
+    """Below zero it leads. By less than half a turn up to 290 Hz."""
+    omega = 2 * np.pi * F
+    ratio = DELAY.reading(velocity(), points(), np.array([tau_s])) / velocity()
+    assert np.angle(ratio) == pytest.approx(-omega * tau_s)
+    assert np.abs(ratio) == pytest.approx(np.ones(len(F)))
+    assert DELAY.story({"delay": tau_s}).endswith(f"lags by {1e6 * tau_s:.3g} microseconds")
+
+
+def test_a_gain_is_a_factor_on_every_reading():
+    for factor in (0.8, 1.0, 1.25):
+        assert GAIN.reading(velocity(), points(), np.array([factor])) == pytest.approx(factor * velocity())
 
 
 def test_a_low_pass_lags_and_takes_half_the_power_at_its_corner():
@@ -83,7 +100,7 @@ def test_an_offset_of_phase_is_one_angle_at_every_frequency():
     )
 
 
-@pytest.mark.parametrize("effect", [PHASE, OFFSET])
+@pytest.mark.parametrize("effect", [PHASE, OFFSET, DELAY])
 def test_phases_are_not_judged_by_amplitudes(effect):
     no_phase = Points(2 * np.pi * F, np.ones(len(F)), F, True, False, "relative")
     assert effect.objection(no_phase, None)
@@ -91,7 +108,15 @@ def test_phases_are_not_judged_by_amplitudes(effect):
 
 
 @pytest.mark.parametrize(
-    ("effect", "at"), [(LOWPASS, [2e3]), (HIGHPASS, [0.5]), (PHASE, [1.02, 0.0]), (OFFSET, [0.02])]
+    ("effect", "at"),
+    [
+        (LOWPASS, [2e3]),
+        (HIGHPASS, [0.5]),
+        (PHASE, [1.02, 0.0]),
+        (OFFSET, [0.02]),
+        (DELAY, [1e-4]),
+        (GAIN, [1.02]),
+    ],
 )
 def test_readings_are_smooth_in_their_unknown(effect, at):
     h = 1e-4 * at[0]

@@ -9,6 +9,8 @@ from scipy.optimize import brentq
 
 from fitting.effects import CATALOGUE
 from fitting.effects.along_a_beam import AlongABeam
+from fitting.effects.base import Effect
+from fitting.effects.change import Change
 from fitting.effects.layer_density import SUBSTRATE
 from fitting.effects.number_off import NumberOffEffect, moved
 from fitting.effects.outside_damping import OutsideDampingEffect
@@ -52,14 +54,25 @@ def test_a_mass_at_the_tip_lowers_every_mode_as_it_must():
     assert frequencies(BARE, "added_mass", [3e-3, L]) == pytest.approx(roots(free_with_mass, 3), rel=1e-3)
 
 
+def test_a_plates_effect_on_a_beam_is_called_with_a_place_on_the_axis():
+    class OfPlate(Effect):
+        def change(self, plate, u):
+            return Change(load=u)
+
+    class OfBeam(AlongABeam, OfPlate):
+        pass
+
+    np.testing.assert_array_equal(OfBeam().change(None, np.array([3e-3, L])).load, [3e-3, L, 0.0])
+
+
 @pytest.mark.parametrize(("name", "u"), [("added_mass", [3e-3, L]), ("tether", [70.0, 0.1, L])])
 def test_what_sits_on_a_beam_is_on_its_axis(name, u):
     of_plate, of_beam = CATALOGUE[name], CATALOGUE[name].standing_on(BARE)
     plate = widened_system_of(BARE, BARE.parts())
-    assert isinstance(of_beam, AlongABeam)
+    assert [q.key for q in of_beam.parameters] == [q.key for q in of_plate.parameters if q.key != "y"]
     found, expected = of_beam.change(plate, np.array(u)), of_plate.change(plate, np.array([*u, 0.0]))
-    np.testing.assert_array_equal(found.K, expected.K)
-    np.testing.assert_array_equal(found.M, expected.M)
+    for entry in ("K", "M", "load", "travel_load"):
+        np.testing.assert_array_equal(getattr(found, entry), getattr(expected, entry))
 
 
 def test_a_magnet_s_pull_is_a_negative_spring_and_what_it_loses_is_lost():

@@ -31,7 +31,7 @@ from fitting.plate.element import U_B, V_B, Shape, face_stiffness
 from fitting.plate.plate import Plate
 from fitting.plate.plate_numbers import moved, plate_numbers
 from fitting.stated.tolerances import STATED
-from instrument.campaign.bench import synthetic_sweep
+from instrument.bench.sweeps import synthetic_sweep
 from instrument.cli.main import run
 from instrument.models.identification import identify
 from instrument.models.set_up import bare_of

@@ -25,7 +25,7 @@ from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.laws.generalised_maxwell import GeneralisedMaxwell
 from fitting.laws.isd112 import Isd112
-from instrument.campaign.bench import GRID_HZ, synthetic_sweep
+from instrument.bench.sweeps import GRID_HZ, synthetic_sweep
 
 
 def residuals_of(sweep, models, reads="relative", noise=None):

@@ -20,7 +20,7 @@ from fitting.identification.direct import fit_direct
 from fitting.identification.uncertainty import uncertainty_of
 from fitting.laws.bent_law import BentLaw
 from fitting.laws.fractional_zener import FractionalZener
-from instrument.campaign.bench import GRID_HZ, synthetic_sweep
+from instrument.bench.sweeps import GRID_HZ, synthetic_sweep
 from instrument.models.set_up import set_up
 
 OMEGA = 2 * np.pi * np.array([20.0, 100.0, 280.0])

@@ -13,7 +13,7 @@ from fitting.laws.bent_law import BentLaw
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.generalised_maxwell import GeneralisedMaxwell
 from fitting.laws.smooth import Smooth
-from instrument.campaign.bench import synthetic_sweep
+from instrument.bench.sweeps import synthetic_sweep
 
 LAW = Smooth((14.0, 50.0, 120.0, 300.0), (0.3e6, 0.4e6, 0.6e6, 1e6), (0.25, 0.5, 0.8, 0.9))
 BAND = 2 * np.pi * np.geomspace(14, 300, 500)

@@ -105,6 +105,20 @@ def test_widths_grow_with_the_loss_and_with_the_slope(eta, rising, losing, share
 
 
 @given(st.floats(1e-3, 5.0), st.floats(-0.1, 0.9), st.floats(-0.3, 0.3), st.floats(0.02, 1.0))
-def test_whatever_a_search_comes_by_is_a_number(eta, rising, losing, share):
+def test_whatever_a_search_comes_by_is_a_number_and_with_losses_up_to_one_that_of_a_pole_or_peak(
+    eta, rising, losing, share
+):
+    k = of(eta, rising, losing, share)
     for how in READS:
-        assert np.isfinite(as_read(how, of(eta, rising, losing, share))).all()
+        ln_f, as_eta = as_read(how, k)
+        assert np.isfinite([ln_f, as_eta]).all()
+        if how == "model" or eta > 1 or (ln_f[0], as_eta[0]) == (0.0, k.loss_factor[0]):
+            continue
+        assert as_eta[0] > 0
+        if how == "poles":
+            turned = np.arcsin(as_eta / 2)
+            off = [abs(k.denominator(ln_f + 1j * angle)[0]) for angle in (turned, np.pi - turned)]
+            assert min(off)[0] == pytest.approx(0.0, abs=1e-6)
+        else:
+            # At a peak the amplitude neither rises nor falls.
+            assert k.size(ln_f)[1][0] == pytest.approx(0.0, abs=1e-6)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from beam_tables import BEAM, FACE, begun, read
 
-from fitting.diagnosis.verdict.kin import CHANCE
+from fitting.diagnosis.thresholds import KIN
 from fitting.mode_tables.kin import kin_of_modes
 from fitting.mode_tables.standing import standing
 
@@ -21,7 +21,7 @@ def with_stiffer_face(table):
 
 def test_of_what_is_there_kin_has_no_more_than_its_chance():
     found = kin_of_modes(*with_stiffer_face(TABLE), 1.0)
-    assert 0 < found.odds < CHANCE
+    assert 0 < found.odds < KIN.chance
 
 
 def beside(off):

@@ -25,7 +25,7 @@ from fitting.reduced.rational import rational_sweep
 from fitting.reduced.reduced_plate import reduce_plate
 from fitting.stated.tolerances import OF_FEW, PLATE, STATED
 from fitting.sweep import Sweep
-from instrument.campaign.bench import GRID_HZ, synthetic_sweep
+from instrument.bench.sweeps import GRID_HZ, synthetic_sweep
 
 OMEGA = 2 * np.pi * np.array([19.5, 62.0, 100.0, 281.0])
 G = np.array([0.3e6 * (1 + 0.3j), 0.45e6 * (1 + 0.6j), 0.55e6 * (1 + 0.9j), 1.2e6 * (1 + 1.1j)])

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.several.of_files import EACH, OfFiles
 from fitting.effects import CATALOGUE
 from fitting.planning import forms
@@ -16,7 +17,9 @@ STATED = [0.3, -0.2]
 
 
 def fitted(effect, *u):
-    return SimpleNamespace(effects=(effect,), law=None, u=np.array([*STATED, *u]), stated=len(STATED))
+    each, nothing = np.array([*STATED, *u]), np.empty(0)
+    free = np.ones(len(each), bool)
+    return Refitted((effect,), None, each, nothing, nothing, nothing, 0, free, len(STATED), True)
 
 
 @pytest.fixture

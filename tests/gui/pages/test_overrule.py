@@ -11,7 +11,7 @@ LEFT = Qt.MouseButton.LeftButton
 
 
 class Asked:
-    """A controller that keeps what it is asked."""
+    """Commands that keep what is asked of the run."""
 
     def __init__(self, running=True):
         self.running, self.said = running, []
@@ -47,7 +47,7 @@ def test_each_button_asks_for_what_it_says(qtbot, row):
     row.frequency.setValue(45.2)
     for button in (row.leave_out, row.add, row.end):
         qtbot.mouseClick(button, LEFT)
-    assert row._controller.said == ["leave out", 45.2, "end"]
+    assert row._commands.said == ["leave out", 45.2, "end"]
 
 
 def test_a_step_of_ones_own_lies_in_the_band(row):

@@ -4,7 +4,7 @@ import json
 
 from click.testing import CliRunner
 
-from instrument.campaign.bench import BenchLine
+from instrument.bench.table import BenchLine
 from instrument.cli.bench import bench
 
 LINES = [BenchLine("set-up, cold", 2.0), BenchLine("set-up, cached", 0.5, 4.0, "set-up, cold", 1e-9)]

@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 import pytest
-from campaigns.kill import campaign, write_case
+from by_hand.kill import campaign, write_case
 
 from instrument.cli.main import run
 from instrument.session.storage import SessionFile
@@ -115,7 +115,7 @@ def test_a_full_disk_stops_the_run_and_keeps_what_was_whole(tmp_path):
 
 @pytest.mark.long
 def test_nothing_complete_is_lost_by_kills_at_random_moments(tmp_path):
-    """A short form of `python tests/campaigns/kill.py --kills 100`."""
+    """A short form of `python tests/by_hand/kill.py --kills 100`."""
     experiment = write_case(tmp_path, SEGMENTS)
     report = campaign(experiment, tmp_path / "out", kills=2, seed=7)
     assert report.kills >= 1

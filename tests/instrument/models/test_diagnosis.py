@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from campaign.plant.cases import draw
+from campaign.plates.cases import draw_case
 from fitting.diagnosis.diagnose import seen_in_channels
 from fitting.diagnosis.verdict.kin import UNLISTED
 from fitting.effects import CATALOGUE
@@ -12,8 +14,6 @@ from fitting.effects.treatment_not_gripped import TreatmentEndsShortEffect
 from fitting.errors import OutsideModel
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.stated.patches import Patch
-from instrument.campaign.plant.cases import draw
-from instrument.campaign.plates.cases import draw_case
 from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep

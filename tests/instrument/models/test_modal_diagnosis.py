@@ -10,6 +10,8 @@ from mode_cases import read_off, solid_modes, stated
 from rivals import all_but, among
 from scipy.optimize import root
 
+from campaign.plates.geometry import plate_named
+from campaign.plates.solid import Build, Patch
 from fitting.dynamics.complex_modes import complex_modes
 from fitting.laws import LAWS
 from fitting.mode_tables.table import ModalTable
@@ -17,8 +19,6 @@ from fitting.plate.plate import Plate
 from fitting.stated.layers import Core, Face
 from fitting.structures.beam import Beam
 from fitting.structures.small_modes import small_modes
-from instrument.campaign.plates.geometry import plate_named
-from instrument.campaign.plates.solid import Build, Patch
 from instrument.cli.main import run
 from instrument.models.modal import diagnose_tables
 

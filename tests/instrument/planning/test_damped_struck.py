@@ -9,7 +9,7 @@ from fitting.diagnosis.inference.usual_law import polished
 from fitting.dynamics.damping import viscous_damping
 from fitting.dynamics.direct import displacement_direct
 from fitting.effects import CATALOGUE
-from fitting.planning.further import Expecting
+from fitting.planning.rival_forecasts import RivalForecasts
 from fitting.planning.rivalry import outcome
 from fitting.planning.sensitivity import ReadingNoise
 from fitting.plate.plate import Plate
@@ -31,7 +31,7 @@ def lines(expecting):
 
 
 def struck(rivals):
-    expecting = Expecting(rivals, 6)
+    expecting = RivalForecasts(rivals, 6)
     return expecting, list(damped_struck(expecting, lines(expecting), SETTINGS))
 
 
@@ -66,7 +66,7 @@ def test_nothing_of_the_first_spot_or_the_first_channel_is_known_there(free):
     expecting, one = free
     gain, offset = expecting.forecasts(one.further, NOISE)
     # The offset was the first spot's; of the gain nobody knows in which channel it is.
-    factor = expecting.known[0].fitted.u[-1]
+    factor = expecting.learnt[0].fitted.u[-1]
     v = expecting.velocity_m_s(one.further)
     told = expecting.forecasts(replace(one.further, other_reference=False), NOISE)[0]
     surely = expecting.velocity_m_s(replace(one.further, other_reference=False))
@@ -87,9 +87,9 @@ def test_in_its_clamp_it_is_asked_where_a_base_is_suspected_and_reads_nothing_of
     (one,) = [m for m in found if m.held == "clamped"]
     assert one.spot_m is None
     assert "accelerometer" in one.reason
-    known = expecting.known[1].fitted
+    known = expecting.learnt[1].fitted
     assert [e.name for e in known.effects] == ["base_rocking"]
-    v = np.abs(expecting._raw(expecting.known[1], one.further).v)
+    v = np.abs(expecting._raw(expecting.learnt[1], one.further).v)
     # As a full solve has the stated plate, whose numbers this fit has hardly moved; the twist of free edges
     # and the steep sides of resonances allowed for.
     stated = replace(expecting.member.nuisances.specimen, force_m=one.struck_m)

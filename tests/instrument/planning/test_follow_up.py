@@ -6,12 +6,20 @@ from itertools import groupby
 import numpy as np
 import pytest
 
+from fitting.data.noise import noise_of
+from fitting.diagnosis.inference.begin import begin
+from fitting.diagnosis.inference.refit import evaluated
 from fitting.diagnosis.inference.usual_law import polished
 from fitting.diagnosis.inference.whitening import SHARE
 from fitting.diagnosis.response.sweep_response import SweepResponse
+from fitting.diagnosis.several.of_files import ALIKE, OfFiles
+from fitting.diagnosis.several.responses import response_of
+from fitting.diagnosis.several.several_problem import SeveralProblem
+from fitting.diagnosis.verdict.result import Rivals
 from fitting.effects import CATALOGUE
 from fitting.planning.forms import forms_of
-from fitting.planning.further import Expecting, Further
+from fitting.planning.further_readings import FurtherReadings
+from fitting.planning.rival_forecasts import RivalForecasts
 from fitting.planning.rivalry import outcome
 from fitting.planning.unseen import unseen
 from instrument.models.diagnosis import Diagnosed
@@ -28,11 +36,12 @@ from instrument.stepped_sine.settings import Limits, SweepSettings
 from tests.diagnosis_cases import diagnosed, diagnosis, sweep
 
 EVEN = np.array([0.5, 0.5])
+STIFFER, SCALE = CATALOGUE["substrate_stiffness"], 1.05
 
 
 @pytest.fixture(scope="module")
 def expecting(rivals):
-    return Expecting(rivals, 6)
+    return RivalForecasts(rivals, 6)
 
 
 @pytest.fixture(scope="module")
@@ -64,8 +73,8 @@ def read(expecting, template, measurable):
 def test_the_same_steps_again_are_expected_to_read_the_same(expecting, template):
     at = np.arange(0, 240, 4)
     dwell = dwell_seconds(expecting.member.sweep.frequency_hz[at], SweepSettings())
-    further = Further(expecting.member, at, dwell)
-    measured, v = expecting.evidence.measured_m_s[at], expecting.known[0].fitted.velocity_m_s[at]
+    further = FurtherReadings(expecting.member, at, dwell)
+    measured, v = expecting.evidence.measured_m_s[at], expecting.learnt[0].fitted.velocity_m_s[at]
     sigma = np.hypot(template.noise.std_m_s(v, dwell), SHARE * np.abs(v))
     forecasts = expecting.forecasts(further, template.noise)
     assert len(forecasts) == len(expecting.names)
@@ -86,7 +95,7 @@ def test_another_level_is_expected_in_proportion(expecting, template):
 
 def test_steps_between_those_that_were_made_are_expected_to_err_like_them(expecting, template):
     again = one(template, "frequencies")
-    f, known = np.array(again.frequencies_hz), expecting.known[0].fitted
+    f, known = np.array(again.frequencies_hz), expecting.learnt[0].fitted
     made = expecting.member.sweep.frequency_hz
     assert np.abs(f[:, None] / made - 1).min(axis=1).max() > 1e-5
     mean = expecting.forecasts(again.further, template.noise)[0].mean
@@ -130,7 +139,7 @@ def test_a_clamp_line_is_asked_with_the_spot_measured_from_it_and_not(clamps, ri
 
 
 def test_clamped_anew_each_clamp_is_another_one_by_what_mountings_differ(clamps):
-    asked = Expecting(clamps, 6)
+    asked = RivalForecasts(clamps, 6)
     assert asked.of == [0, 0, 1]
     assert asked.probabilities.sum() == pytest.approx(1.0)
     template = Template.of(asked, SweepSettings())
@@ -139,7 +148,10 @@ def test_clamped_anew_each_clamp_is_another_one_by_what_mountings_differ(clamps)
     anew = replace(one(template, "clamping").further, member=asked.member, at=at, dwell_s=dwell, like=None)
     kept = replace(anew, remounted=False)
     for known, new, same in zip(
-        asked.known, asked.forecasts(anew, template.noise), asked.forecasts(kept, template.noise), strict=True
+        asked.learnt,
+        asked.forecasts(anew, template.noise),
+        asked.forecasts(kept, template.noise),
+        strict=True,
     ):
         (effect,) = known.fitted.effects
         more = new.root @ new.root.T - same.root @ same.root.T
@@ -167,7 +179,7 @@ def uneven(clamps):
 
 @pytest.mark.long
 def test_where_the_plate_twists_a_spot_beside_the_axis_tells_whether_a_clamp_is_uneven(uneven):
-    asked = Expecting(uneven, 6)
+    asked = RivalForecasts(uneven, 6)
     template = Template.of(asked, SweepSettings())
     told = []
     for further, each in groupby(template.measurable(None), key=lambda m: m.further):
@@ -190,7 +202,7 @@ def test_where_the_plate_twists_a_spot_beside_the_axis_tells_whether_a_clamp_is_
 def test_what_the_group_just_leaves_out_is_asked_too(clamps):
     first, second = clamps.each
     alone = replace(clamps, each=((first[0], 1.0),), beyond=((second[0], 0.04),))
-    asked = Expecting(alone, 6)
+    asked = RivalForecasts(alone, 6)
     assert asked.names == ("clamp_line", "clamp_compliance")
     assert asked.probabilities[-1] == pytest.approx(0.04 / 1.04)
 
@@ -229,7 +241,7 @@ def test_between_the_segments_it_is_expected_what_the_fit_reads_there(expecting,
         f = np.array(m.frequencies_hz)
         assert np.abs(f[:, None] / sweep.frequency_hz - 1).min() > 1e-3
         # The law that was fitted, solved there on the same plate: nothing interpolated.
-        known = expecting.known[0].fitted
+        known = expecting.learnt[0].fitted
         here = SweepResponse(m.further.member, known.effects).with_derivatives(known.law, known.u)[0]
         here = here[m.further.at[m.part]]
         assert expecting.velocity_m_s(m.further)[m.part] == pytest.approx(np.abs(here), rel=1e-12)
@@ -319,6 +331,32 @@ def test_a_bare_plate_says_less_of_gain_and_spot_than_another_spot(expecting, ra
     # Not nothing: a wrong explanation has pulled at the metal's numbers.
     found = outcome(expecting.struck(bare_modes_expected(expecting.member)), EVEN)
     assert found.between(0, 1) < 0.5 * of_kind(ranked, "spot").separation
+
+
+@pytest.fixture(scope="module")
+def in_files(rivals):
+    """A stiffer substrate in both files, in the first one and in the second one alone."""
+    one, plate = rivals.problem, rivals.reduced
+    both = SeveralProblem.of_members([one, one], [plate, plate])
+    begun = begin(both, plate, noise_of(both.sweep), None, rivals.each[0][0].law)
+    fits = []
+    for file in (ALIKE, 1, 2):
+        form = OfFiles(STIFFER, 2, file)
+        response = response_of(begun.problem, [form])
+        u = np.concatenate([begun.none.u, [SCALE, file]])
+        fits.append(evaluated(response, begun.evidence, begun.none.law, u))
+    return RivalForecasts(Rivals(begun.problem, begun.evidence, tuple((f, 1 / 3) for f in fits), plate), 6)
+
+
+def test_a_hammer_test_of_the_first_plate_feels_nothing_that_is_in_another_file_alone(in_files):
+    bare = bare_modes_expected(in_files.member)
+    alike, first, second = in_files.struck(bare)
+    np.testing.assert_allclose(first.mean, alike.mean)
+    stiffer = bare.whitened_change(STIFFER.bare_shift(bare, np.array([SCALE])))
+    np.testing.assert_allclose(alike.mean - second.mean, stiffer)
+    assert np.abs(stiffer).max() > 1
+    # Nor does it know the test's frequencies less well for not knowing that stiffness.
+    assert np.linalg.norm(second.root) < np.linalg.norm(first.root)
 
 
 def test_nothing_is_proposed_where_one_explanation_is_left(rivals):

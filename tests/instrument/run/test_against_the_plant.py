@@ -10,7 +10,7 @@ from drivers.simulated.plant.bare import StruckPlate
 from drivers.simulated.plant.effects import Effects
 from drivers.simulated.plant.shaken import ShakenPlate
 from instrument.errors import RigStopped
-from instrument.run import runner
+from instrument.run import striking
 from instrument.run.experiment import run_experiment
 from instrument.run.replay import replay
 from instrument.session.configuration import read_whole_experiment
@@ -24,8 +24,8 @@ pytestmark = pytest.mark.usefixtures("warm")
 RATIOS = np.array([0.29, 0.13, 0.18, 0.21, 0.11, 0.07, 0.09, 0.04]) / 100
 
 
-def no_diagnosis(number, last_step, *_):
-    return DiagnosisFound(number, last_step, None, "not diagnosed")
+def no_diagnosis(asked):
+    return DiagnosisFound(asked.number, asked.last_step, None, "not diagnosed")
 
 
 def thinned_case(folder):
@@ -64,7 +64,7 @@ def steps(run):
 
 
 def test_a_hammer_test_whose_blows_are_all_refused_is_given_up_and_says_why(tmp_path, monkeypatch):
-    monkeypatch.setattr(runner, "HITS_IN_VAIN", 2)
+    monkeypatch.setattr(striking, "HITS_IN_VAIN", 2)
     path = write_case(tmp_path)
     rig = tmp_path / "rig.toml"
     rig.write_text(rig.read_text().replace("= 20.0      # per N", "= 2000.0"))

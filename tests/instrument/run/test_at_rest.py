@@ -12,6 +12,7 @@ from run_at_point import RunAtPoint
 from drivers.errors import Refused, TimedOut, Unreachable
 from drivers.shaker import Alarm, ShakerStatus
 from instrument.errors import RigStopped
+from instrument.run import runner
 from instrument.run.at_rest import bring_to_rest, came_to_rest, silenced
 from instrument.run.control import RunControl
 from instrument.run.experiment import run_experiment
@@ -111,7 +112,7 @@ def run(experiment, folder, **options):
 
 @pytest.fixture
 def quick_watchdog(monkeypatch):
-    monkeypatch.setattr("instrument.run.runner._MARGIN_S", -1.8)
+    monkeypatch.setattr(runner, "_MARGIN_S", -1.8)
 
 
 def test_a_run_whose_shaker_runs_on_at_its_end_does_not_end_well(tmp_path, quick_watchdog):

@@ -173,7 +173,16 @@ def sweep(zn1, monkeypatch):
         recorded, said = [], []
         forecast = Forecast(zn1, np.array([20.0]), np.array([3.0]))
         setup = setup_of(made)
-        part = SweepPart(experiment, zn1, setup, forecast, analysis, list(earlier), recorded.append, Fits())
+        part = SweepPart(
+            experiment,
+            specimen=zn1,
+            setup=setup,
+            forecast=forecast,
+            analysis=analysis,
+            earlier=list(earlier),
+            record=recorded.append,
+            fit=Fits(),
+        )
         return SimpleNamespace(
             part=part, runner=Runner(part, analysis), analysis=analysis, recorded=recorded, said=said
         )

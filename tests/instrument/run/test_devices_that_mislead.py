@@ -13,6 +13,7 @@ from drivers.errors import DriverError
 from drivers.simulated.lan_xi_measurement import Acquired
 from drivers.vibrometer.polytec_vibrometer import PolytecVibrometer
 from instrument.errors import RigStopped, StoppedByUser
+from instrument.run import watching
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl
 from instrument.run.experiment import run_experiment
@@ -53,10 +54,27 @@ def switch_off(rig):
         rig.device.stop(rig.world.clock()[1])
 
 
-def follow_at(rig, factor):
-    """From now on it makes another frequency than it is told, and says so in its status alone."""
+def drive_at(rig, factor):
+    """From now on it makes another frequency than it is told."""
     honest = rig.device.command
     rig.device.command = lambda f, *rest: honest(factor * f, *rest)
+
+
+def say_that_it_runs_at(rig, factor):
+    """From now on its status names another frequency than the one that it makes."""
+    honest = rig.device.status
+
+    def status(*now):
+        told = honest(*now)
+        return replace(told, frequency_hz=factor * told.frequency_hz)
+
+    rig.device.status = status
+
+
+def drive_at_unsaid(rig, factor):
+    """From now on it makes another frequency than it is told, and its status names the one it was told."""
+    drive_at(rig, factor)
+    say_that_it_runs_at(rig, 1 / factor)
 
 
 def loosen_cable(rig):
@@ -75,13 +93,19 @@ def loosen_cable(rig):
 MISLEADS = {
     "its range changed by hand": (change_range, "range is 50mm/s/V, it was set to"),
     "switched off at its panel": (switch_off, "switched off by somebody|output is not allowed"),
-    "another frequency": (lambda rig: follow_at(rig, 1.01), "runs at|clock"),
+    "another frequency by its word alone": (
+        lambda rig: say_that_it_runs_at(rig, 1.01),
+        "says that it runs at",
+    ),
+    "another frequency by the clock alone": (lambda rig: drive_at_unsaid(rig, 1.01), "front-end's clock"),
 }
 
 
 @pytest.mark.parametrize("name", MISLEADS)
-def test_what_misleads_ends_the_run_before_it_counts(tmp_path, name):
+def test_what_misleads_ends_the_run_before_it_counts(tmp_path, monkeypatch, name):
     mislead, said = MISLEADS[name]
+    # The shaker is asked between any two blocks, however fast this computer makes them.
+    monkeypatch.setattr(watching, "BEAT_S", 0.0)
     with formula_rig(tmp_path) as (rig, experiment):
         with pytest.raises(RigStopped, match=said):
             run(experiment, tmp_path, companion=RunAtPoint(3, lambda: mislead(rig)))
@@ -112,7 +136,9 @@ def test_a_dwell_in_which_a_cable_came_loose_is_no_point(tmp_path):
     assert len(points_of(tmp_path)) == 3
 
 
-@pytest.mark.parametrize("took", [lambda drive_v: 0.0, lambda drive_v: 1.5 * drive_v])
+@pytest.mark.parametrize(
+    "took", [lambda drive_v: 0.0, lambda drive_v: 1.01 * drive_v, lambda drive_v: 1.5 * drive_v]
+)
 def test_a_receipt_of_another_drive_ends_the_run(tmp_path, took):
     with formula_rig(tmp_path) as (rig, experiment):
         honest = rig.device.command

@@ -17,17 +17,26 @@ from following_cases import (
 )
 from formula_rig import FREE, HAMMER, SWEEP, formula_rig
 
+from instrument.hammer_test.struck import OVERLOADED
 from instrument.run.companion import Companion
 from instrument.run.experiment import run_experiment
 from instrument.run.operator import SimulatedOperator
 from instrument.run.replay import replay
+from instrument.run.striking import Striking
 from instrument.session.configuration import read_whole_experiment
 from instrument.session.contents import contents_of
 from instrument.session.journal import JOURNAL
 from instrument.session.storage import SessionFile
 from instrument.simulated_case import write_case
 from instrument.stream.derived import DiagnosisFound, HitJudged, StruckFound
-from instrument.stream.raw import ClampedAnew, FollowUpEnded, FollowUpProposed, OperatorDid, StrikingBegan
+from instrument.stream.raw import (
+    ClampedAnew,
+    FollowUpEnded,
+    FollowUpProposed,
+    OperatorDid,
+    RangeSet,
+    StrikingBegan,
+)
 
 FOLLOWS = '[diagnosis]\nfollow_up = "do"\n'
 WHOLE = "whole_length_mm = 310.0\n"
@@ -160,6 +169,22 @@ def test_killed_among_its_blows_it_ends_as_if_it_had_never_been(rig, finished):
     ]
     assert resumed.diagnosis.number == finished.diagnosis.number
     assert again(resumed, STRUCK, BACKWARDS) == []
+
+
+def test_three_overloads_of_the_laser_one_after_the_other_choose_its_next_range(tmp_path, monkeypatch):
+    strike = Striking.treated
+
+    def finely(self, wanted, patience_s, ranges):
+        strike(self, wanted, patience_s, ("5mm/s/V", *ranges))
+
+    monkeypatch.setattr(Striking, "treated", finely)
+    with formula_rig(tmp_path, sweep=SWEEP, hammer=True) as (_, experiment):
+        found = run(that_strikes(experiment), tmp_path, (STRUCK,))
+    events = events_of(found, RangeSet, HitJudged)
+    fine = next(k for k, e in enumerate(events) if isinstance(e, RangeSet) and e.name == "5mm/s/V")
+    after = [e.name if isinstance(e, RangeSet) else OVERLOADED in e.why for e in events[fine:]]
+    assert after == ["5mm/s/V", True, True, True, "1m/s/V", False, False, False]
+    assert [s.hits for s in events_of(found, StruckFound)] == [3]
 
 
 def test_in_its_clamp_it_stays_as_it_is(tmp_path):

@@ -22,7 +22,7 @@ from instrument.files.experiment_file import DiagnosisTable, ExperimentDocument
 from instrument.planning.follow_up import Possible
 from instrument.run.control import RunControl
 from instrument.run.experiment import run_experiment
-from instrument.run.live_diagnosis import able, apart, diagnose_points
+from instrument.run.live_diagnosis import ToDiagnose, able, apart, diagnose_points
 from instrument.run.replay import replay
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
@@ -40,10 +40,11 @@ def a_law(number, last_step, points, damping, specimen):
     return FitUpdated(number, last_step, identification())
 
 
-def times(number, last_step, points, times_s, damping, struck, specimen, possible):
+def times(asked):
     """Says what it was given."""
-    given = {"times_s": list(times_s), "points": sum(p.step <= last_step for p in points)}
-    return DiagnosisFound(number, last_step, None, json.dumps(given))
+    points = sum(p.step <= asked.last_step for p in asked.points)
+    given = {"times_s": list(asked.times_s), "points": points}
+    return DiagnosisFound(asked.number, asked.last_step, None, json.dumps(given))
 
 
 def told(found):
@@ -51,11 +52,11 @@ def told(found):
     return json.loads(found.message)
 
 
-def whole(number, last_step, points, times_s, damping, struck, specimen, possible):
-    return DiagnosisFound(number, last_step, diagnosis())
+def whole(asked):
+    return DiagnosisFound(asked.number, asked.last_step, diagnosis())
 
 
-def refused(*_):
+def refused(_):
     raise AssertionError("called without a law")
 
 
@@ -94,8 +95,8 @@ def test_a_replay_computes_it_again_and_compares(finished):
 
 
 def test_a_replay_notices_another_diagnosis(finished):
-    def another(*given):
-        found = times(*given)
+    def another(asked):
+        found = times(asked)
         return DiagnosisFound(found.number, found.last_step, None, "another")
 
     with SessionFile(finished.session) as file:
@@ -145,7 +146,8 @@ def test_why_none_was_possible_is_the_result(finished):
     damping = DampingFound(DampingResult(modes=[ModeFound(frequency_hz=17.7, damping_ratio=0.33)]))
     points = list(finished.points)
     times_s = [0.0] * len(points)
-    found = diagnose_points(1, points[-1].step, points, times_s, damping, (), specimen, Possible())
+    asked = ToDiagnose(1, points[-1].step, points, times_s, damping, (), specimen, Possible())
+    found = diagnose_points(asked)
     assert found.result is None
     assert "damping_ratio" in found.message
     assert "\n" not in found.message
@@ -173,10 +175,10 @@ def test_a_failure_of_the_thread_is_raised_where_it_is_waited_for():
 def test_ctrl_c_does_not_wait_for_it_and_keeps_the_session(tmp_path):
     over = threading.Event()
 
-    def endless(*given):
+    def endless(asked):
         os.kill(os.getpid(), signal.SIGINT)
         over.wait(60)
-        return times(*given)
+        return times(asked)
 
     with formula_rig(tmp_path) as (_, experiment):
         try:

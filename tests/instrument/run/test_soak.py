@@ -1,6 +1,6 @@
-"""A short form of `python tests/campaigns/soak.py --million 50`."""
+"""A short form of `python tests/by_hand/soak.py --million 50`."""
 
-from campaigns.soak import soak
+from by_hand.soak import soak
 
 
 def test_a_million_samples_pass_without_loss_faster_than_real_time(tmp_path):

@@ -8,7 +8,8 @@ from station import BASE_V, RANGE, RATE, Station, began, of_kind
 
 from instrument.stepped_sine.calibration import Calibration
 from instrument.stepped_sine.settings import Limits, Settle, SweepSettings
-from instrument.stepped_sine.step import StepAnalysis, StepContext
+from instrument.stepped_sine.step import StepAnalysis
+from instrument.stepped_sine.step_context import StepContext
 from instrument.stream.derived import (
     DriveRequested,
     LimitExceeded,
@@ -109,6 +110,14 @@ def test_what_may_be_left_of_a_transient_is_in_the_readings_error():
     assert moving.velocity_std_m_s > 20 * at_rest.velocity_std_m_s
 
 
+def test_a_third_of_what_may_be_left_of_a_transient_is_a_standard_deviation():
+    hasty = replace(SETTINGS, settle=Settle(tolerance=0.1))
+    events = follow(Station(stirred=1.0, gain_m_s2_v=9.81 / 1.9), settings=hasty)
+    (settled,) = of_kind(events, StepSettled)
+    share = point_of(events).velocity_std_m_s / abs(point_of(events).velocity_m_s)
+    assert share == pytest.approx(settled.remaining_percent / 100 / 3, rel=0.1)
+
+
 def test_a_recorded_step_is_read_when_it_was_though_it_would_be_waited_for_now():
     """Later samples may not be there: an earlier version read sooner."""
     hasty = replace(SETTINGS, settle=Settle(0.1))
@@ -128,6 +137,12 @@ def test_the_level_is_corrected_from_a_drive_that_is_far_off():
 
 def test_a_level_within_tolerance_is_left_alone():
     assert not of_kind(follow(Station(gain_m_s2_v=9.81 / 1.9 * 1.003)), DriveRequested)
+
+
+def test_a_level_more_than_half_its_tolerance_off_is_corrected():
+    events = follow(Station(gain_m_s2_v=9.81 / 1.9 * 1.007))
+    assert len(of_kind(events, DriveRequested)) == 1
+    assert abs(point_of(events).control_error_percent) < 0.1
 
 
 def test_without_an_echo_of_the_sample_the_latency_is_waited_out():
@@ -167,6 +182,15 @@ def test_an_overload_asks_for_the_next_coarser_range():
     station = Station(response_s=0.03, gain_m_s2_v=9.81 / 1.9)
     (request,) = of_kind(follow(station, wider=("50mm/s/V", "100mm/s/V")), RangeRequested)
     assert request.name == "50mm/s/V"
+
+
+@pytest.mark.parametrize(("share", "clipped"), [(0.97, False), (0.99, True)])
+def test_an_output_at_the_lasers_full_scale_is_an_overload_though_no_input_says_so(share, clipped):
+    full_m_s = RANGE.full_scale_v * RANGE.scale_m_s_v
+    station = Station(response_s=share * full_m_s / 9.81, stirred=0.0, gain_m_s2_v=9.81 / 1.9)
+    events = follow(station, wider=("50mm/s/V",))
+    assert [e.name for e in of_kind(events, RangeRequested)] == (["50mm/s/V"] if clipped else [])
+    assert len(of_kind(events, PointMeasured)) == (not clipped)
 
 
 def test_what_still_rings_beyond_a_range_just_set_is_waited_for():

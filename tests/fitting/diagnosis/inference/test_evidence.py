@@ -26,9 +26,21 @@ def test_with_another_noise_readings_are_worth_what_they_are_with_that_from_the_
     found, expected = evidence(noise).with_noise(other), evidence(other)
     np.testing.assert_allclose(found.sigma_m_s, expected.sigma_m_s)
     np.testing.assert_allclose(found.B, expected.B)
-    assert found.noise_m_s is other
-    v = V * (1 + 0.01 * np.cos(F))
+    np.testing.assert_array_equal(found.noise_m_s, expected.noise_m_s)
+    v, dv = V * (1 + 0.01 * np.cos(F)), 0.3j * V
     np.testing.assert_allclose(found.residuals(v), expected.residuals(v))
+    np.testing.assert_allclose(found.jacobian(v, dv[None]), expected.jacobian(v, dv[None]))
+
+
+def test_ten_times_the_noise_makes_readings_worth_a_hundredth_and_leaves_the_models_error():
+    quiet = evidence(np.full(8, 0.01))
+    loud = quiet.with_noise(np.full(8, 0.1))
+    off = V + 0.05j * np.cos(3 * F)
+    assert np.sum(loud.residuals(off) ** 2) == pytest.approx(np.sum(quiet.residuals(off) ** 2) / 100, rel=0.1)
+    # In m/s, as it was.
+    np.testing.assert_allclose(
+        loud.B * np.tile(loud.sigma_m_s, 2)[:, None], quiet.B * np.tile(quiet.sigma_m_s, 2)[:, None]
+    )
 
 
 def test_the_models_white_error_stays_where_noise_vanishes():

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from fitting.diagnosis.inference.refitted import Refitted
+from fitting.effects import CATALOGUE
 from fitting.laws.fractional_zener import FractionalZener
 
 OMEGA = 2 * np.pi * np.geomspace(20, 2000, 12)
@@ -44,3 +45,22 @@ def test_what_sits_at_an_upper_limit_is_taken_as_fixed_there():
     fitted = Refitted((), law, none, np.ones(4), np.ones(8), J, 8, none.astype(bool), 0, True)
     assert fitted.covariance[3].tolist() == [0.0] * 4
     assert np.all(np.diag(fitted.covariance)[:3] > 0)
+
+
+def test_each_effect_has_its_unknowns_behind_the_stated_numbers_and_errors_where_they_are_fitted():
+    law, spot = FractionalZener(1e5, 1e9, 1e-5, 0.5), CATALOGUE["spot_offset"]
+    effects = (CATALOGUE["gain_error"], spot)
+    free = np.array([True, True, *(not q.fixed for e in effects for q in e.parameters)])
+    J = np.eye(20, 4 + free.sum())
+    J[5, 5] = 4.0
+    u = np.arange(float(len(free)))
+    fitted = Refitted(effects, law, u, np.ones(10), np.ones(20), J, 20, free, 2, True)
+    assert [(e.name, part) for e, part in fitted.each()] == [
+        ("gain_error", slice(2, 3)),
+        ("spot_offset", slice(3, 3 + len(spot.parameters))),
+    ]
+    assert fitted.of(spot).tolist() == u[3:].tolist()
+    errors = fitted.unknown_errors()
+    assert np.isnan(errors).tolist() == (~free).tolist()
+    assert errors[1] == pytest.approx(errors[0] / 4)
+    np.testing.assert_allclose(fitted.unknown_errors(4.0), 2 * errors)

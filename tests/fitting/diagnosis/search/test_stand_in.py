@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from fitted_by_hand import FittedByHand
 
 from fitting.diagnosis.search.stand_in import asks_for_more, stands_in, too_large, unsized
 from fitting.effects import CATALOGUE
@@ -57,7 +58,7 @@ def test_of_two_effects_each_is_of_a_size_or_one_may_be_what_the_other_lacks(
     mass, gain = CATALOGUE["added_mass"], CATALOGUE["gain_error"]
     # A place that is well known says nothing of what is there.
     errors = np.array([mass_error, 1e-3, 1e-3, factor_error])
-    both = SimpleNamespace(
+    both = FittedByHand(
         effects=(mass, gain),
         u=np.array([0.3, 5e-3, 0.1, 0.1, 1.04]),
         stated=1,
@@ -66,7 +67,7 @@ def test_of_two_effects_each_is_of_a_size_or_one_may_be_what_the_other_lacks(
         covariance=np.diag(np.concatenate([[1e8, 1e-4], errors**2])),
     )
     assert unsized(both) == nothing
-    alone = SimpleNamespace(**vars(both) | {"effects": (gain,)})
+    alone = FittedByHand(**vars(both) | {"effects": (gain,)})
     assert not unsized(alone)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fitting.diagnosis.several.among import among
-from fitting.diagnosis.several.of_files import EACH, OfFiles, Place
+from fitting.diagnosis.several.of_files import EACH, OfFiles, Place, copies_of, inner_of, own_unknowns
 from fitting.effects import CATALOGUE
 
 CLAMP, GAIN, STIFFNESS = (CATALOGUE[n] for n in ("clamp_compliance", "gain_error", "substrate_stiffness"))
@@ -189,3 +189,17 @@ def test_a_part_that_swings_between_the_points_of_all_files_is_not_shown_by_itse
     assert not common.shows(points, poles, np.append(unseen, 0.0))
     each = OfFiles(part, 2, EACH)
     assert each.shows(points, poles, np.array([*unseen, *seen, EACH]))
+
+
+def test_an_effect_s_own_unknowns_are_those_of_its_place_or_none():
+    each, second = OfFiles(CLAMP, 2, EACH), OfFiles(CLAMP, 2, 2)
+    assert own_unknowns(each, Place(2)).tolist() == [1]
+    assert own_unknowns(second, Place(1)) is None
+    assert own_unknowns(CLAMP, Place(2)).tolist() == [0]
+    assert inner_of(second) is inner_of(CLAMP) is CLAMP
+
+
+def test_an_effect_has_the_unknowns_of_the_inner_one_once_for_each_size():
+    assert [own.tolist() for own in copies_of(OfFiles(LINE, 2, EACH))] == [[0, 1], [2, 3]]
+    assert [own.tolist() for own in copies_of(OfFiles(LINE, 2, 2))] == [[0, 1]]
+    assert [own.tolist() for own in copies_of(LINE)] == [[0, 1]]

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from fitted_by_hand import FittedByHand
 
 from fitting.diagnosis.checks.prediction import over_noise
 from fitting.diagnosis.executor import ALONE
@@ -94,7 +95,7 @@ def test_effects_are_told_with_errors_unless_they_end_at_a_limit():
     size = len(gain_error.parameters)
     u = np.array([*[q.typical for q in gain_error.parameters], 60.0, 2.0, 0.2, 0.2])
     errors = np.array([0.01] * size + [5.0, 0.1, 0.01, 0.02])
-    fitted = SimpleNamespace(
+    fitted = FittedByHand(
         law=SimpleNamespace(names=["g_pa"]),
         covariance=np.diag(np.append(1.0, errors**2)),
         u=u,
@@ -104,7 +105,7 @@ def test_effects_are_told_with_errors_unless_they_end_at_a_limit():
     )
     first, second = found_effects(fitted, plate, scale=4.0)
     # An error wider than where it may be at all says nothing either.
-    wide = SimpleNamespace(**{**vars(fitted), "covariance": np.diag(np.append(1.0, (1e4 * errors) ** 2))})
+    wide = FittedByHand(**{**vars(fitted), "covariance": np.diag(np.append(1.0, (1e4 * errors) ** 2))})
     assert np.isnan(found_effects(wide, plate)[1].parameters["x"].standard_error)
     assert (first.name, second.name) == (gain_error.name, "tether")
     assert second.parameters["k"].standard_error == pytest.approx(10.0)

@@ -6,9 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from fitting.diagnosis.verdict.kin import CHANCE, SHARES, weighed
+from fitting.diagnosis.thresholds import KIN
+from fitting.diagnosis.verdict.kin import weighed
 
-ODDS = CHANCE / (1 - CHANCE)
+ODDS = KIN.chance / (1 - KIN.chance)
 DATA, COLUMNS, DIRECTIONS = 30, 3, 5
 
 
@@ -62,7 +63,7 @@ def test_what_hardly_shows_has_kin_as_likely_as_its_chance_and_what_fits_at_a_th
     J, d, prior, _ = drawn(seed)
     # An explanation that fits to the last digit.
     C, by, dd, b = at_its_end(J, d, prior, np.zeros(DATA))
-    odds = [weighed(C, by, dd, b, S, SHARES).odds / ODDS for S in (0.01, 1.0, 30.0, 1e3, 1e5)]
+    odds = [weighed(C, by, dd, b, S, KIN.shares).odds / ODDS for S in (0.01, 1.0, 30.0, 1e3, 1e5)]
     assert odds == sorted(odds, reverse=True)
     assert odds[0] == pytest.approx(1, abs=0.02)
     assert odds[-1] < 0.05
@@ -74,7 +75,7 @@ def test_what_an_explanation_leaves_in_the_directions_of_its_kin_speaks_for_them
     y = d @ along
     asked = at_its_end(J, d, prior, y)
     fits = at_its_end(J, d, prior, np.zeros(DATA))
-    assert weighed(*asked, 100.0, SHARES).odds >= weighed(*fits, 100.0, SHARES).odds * (1 - 1e-9)
+    assert weighed(*asked, 100.0, KIN.shares).odds >= weighed(*fits, 100.0, KIN.shares).odds * (1 - 1e-9)
 
 
 def test_the_law_of_several_shares_is_their_mixture():

@@ -12,7 +12,8 @@ from fitting.diagnosis.inference.refit import refit
 from fitting.diagnosis.search.catalogue_search import Search
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.several.several_problem import SeveralProblem
-from fitting.diagnosis.verdict.kin import CHANCE, kin_of
+from fitting.diagnosis.thresholds import KIN
+from fitting.diagnosis.verdict.kin import kin_of
 from fitting.effects import CATALOGUE
 from fitting.laws import LAWS
 from fitting.sweep import Sweep
@@ -21,7 +22,7 @@ from instrument.models.set_up import set_up
 LAW = LAWS["fractional-zener"](0.4e6, 4e6, 1.4e-4, 0.9)
 PLATE = supported(LAW, (8, 6))
 NOISE, DELAY_S = 0.003, 4e-5
-ODDS = CHANCE / (1 - CHANCE)
+ODDS = KIN.chance / (1 - KIN.chance)
 GAIN = CATALOGUE["channel_delay"]
 
 

@@ -1,1 +1,0 @@
-"""Does a diagnosis find what is there? Simulated cases that hide effects, diagnosed and scored; and speed."""

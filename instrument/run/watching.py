@@ -1,0 +1,80 @@
+"""Between two blocks of a run: is it to end, is the shaker well, do devices do what they were told."""
+
+from dataclasses import dataclass
+from time import monotonic
+
+from drivers.shaker import Alarm, ShakerStatus
+from drivers.vibrometer import Range
+from instrument.errors import RigStopped
+from instrument.run.control import RunControl
+from instrument.run.rig import Rig
+from instrument.stepped_sine.soundness import MOST_OFF
+
+BEAT_S = 0.2
+"""A tenth of the heartbeat's usual limit: a few may come late."""
+
+
+@dataclass
+class Told:
+    """What the runner has told shaker and vibrometer last."""
+
+    frequency_hz: float = 0.0
+    drive_v: float = 0.0
+    range: Range | None = None
+    """The vibrometer's; None until it has been set."""
+
+
+class Watching:
+    """Beats the heartbeat of one rig, and compares what its devices say with what they were told."""
+
+    def __init__(self, rig: Rig, control: RunControl, told: Told) -> None:
+        """`told` is kept up to date by whoever commands the devices."""
+        self._rig, self._control, self._told = rig, control, told
+        self._beaten = -1e9
+
+    def look(self) -> None:
+        """Beat the heartbeat where it is time to, and ask the shaker how it is.
+
+        Raises `RigStopped` where the run is to end, `KeyboardInterrupt` where its user has stopped it.
+        """
+        if self._control.interrupted:
+            raise KeyboardInterrupt
+        if self._control.aborted is not None:
+            raise RigStopped(self._control.aborted)
+        if monotonic() - self._beaten < BEAT_S:
+            return
+        self._rig.shaker.beat()
+        self._beaten = monotonic()
+        status = self._rig.shaker.status()
+        if status.alarm != Alarm.NONE:
+            raise RigStopped(
+                f"shaker alarm: {status.alarm.name.lower()}: remove its cause, then reset the alarm"
+            )
+        if status.interlock_open:
+            raise RigStopped("shaker interlock open: close it, then begin again")
+        self._question(status)
+
+    def _question(self, status: ShakerStatus) -> None:
+        """Whether the shaker does what it was told. Raises `RigStopped`."""
+        told = self._told
+        if told.drive_v == 0:
+            return
+        if not status.running:
+            raise RigStopped("the shaker was switched off by somebody else: begin again when it is free")
+        if abs(status.frequency_hz / told.frequency_hz - 1) > MOST_OFF:
+            raise RigStopped(
+                f"the shaker says that it runs at {status.frequency_hz:g} Hz, "
+                f"it was told {told.frequency_hz:g} Hz"
+            )
+
+    def confirm_range(self) -> None:
+        """Before a reading counts: the range is still the one it is scaled by. Raises `RigStopped`.
+
+        Somebody at its panel, or a mains plug, changes it, and every velocity is wrong by the ratio.
+        """
+        found, wanted = self._rig.vibrometer.range(), self._told.range
+        if wanted is not None and found.name != wanted.name:
+            raise RigStopped(
+                f"the vibrometer's range is {found.name}, it was set to {wanted.name}: "
+                "was it changed at its panel, or switched off and on? this step does not count"
+            )

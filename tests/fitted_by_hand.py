@@ -1,0 +1,11 @@
+"""A fit of which only what a test says of it is there, its covariance among it."""
+
+from types import SimpleNamespace
+
+from fitting.diagnosis.inference.refitted import Refitted
+
+
+class FittedByHand(SimpleNamespace):
+    """Says of its unknowns what a fit does."""
+
+    each, of, unknown_errors = Refitted.each, Refitted.of, Refitted.unknown_errors
