@@ -14,7 +14,8 @@ from fitting.arrays import Array
 from fitting.nuisances.nuisance import Nuisance
 from fitting.nuisances.sums import Kept
 from fitting.plate.part_counts import PartCounts
-from fitting.plate.parts import coefficients, names_of
+from fitting.plate.part_names import names_of
+from fitting.plate.parts import coefficients
 from fitting.plate.plate_numbers import moved
 from fitting.specimen import Specimen
 from fitting.stated.tolerances import PLATE

@@ -25,7 +25,7 @@ from fitting.plate.element import (
     slip_stiffness,
 )
 from fitting.plate.mesh import SHIFT_M, Cell, cells_of, is_turned, mesh_of
-from fitting.plate.parts import (
+from fitting.plate.part_names import (
     GLUE,
     MASS,
     OFF_AXIS,
@@ -36,9 +36,9 @@ from fitting.plate.parts import (
     STIFFNESS,
     W_TREATED,
     Names,
-    coefficients,
     names_of,
 )
+from fitting.plate.parts import coefficients
 from fitting.plate.plate import Plate
 from fitting.plate.plate_numbers import moved
 from fitting.specimen import Specimen

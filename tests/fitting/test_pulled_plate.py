@@ -12,7 +12,9 @@ from fitting.effects import CATALOGUE
 from fitting.effects.axial_stress import AxialStressEffect
 from fitting.identification.adjusted import stated_number
 from fitting.nuisances.nuisance import Nuisance
-from fitting.plate.parts import coefficients, layers_of, names_of, specimen_of
+from fitting.plate.layers_array import layers_of, specimen_of
+from fitting.plate.part_names import names_of
+from fitting.plate.parts import coefficients
 from fitting.plate.plate import Plate
 from fitting.plate.plate_numbers import moved, plate_numbers
 from fitting.specimen import Specimen
