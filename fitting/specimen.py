@@ -127,7 +127,7 @@ class Driven(Generic[Point]):
         return () if self.pickup_m is None else (self.pickup_m, *self.further_pickups_m)
 
     def at_pickup(self, number: int) -> Self:
-        """This specimen, read at one of its spots."""
+        """Itself as one of its spots reads it: `pickup_m` alone is left."""
         if not self.further_pickups_m:
             return self
         return replace(self, pickup_m=self.pickups_m[number], further_pickups_m=())
