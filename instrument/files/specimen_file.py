@@ -146,6 +146,8 @@ _MOST_PERCENT = 50.0
 """A number that uncertain is not known: it should be left to the fit, not stated."""
 _MOST_PICKUPS = 20
 """A bound on what one file asks for."""
+_TO_SI = {said.ending: said.to_si for said in IN_FILES.values()}
+"""By the ending of a key: pads have tolerances that no plate has."""
 MOST_MASSES = 10
 """Largest number of `[[mass]]` tables."""
 
@@ -284,12 +286,12 @@ def typical_tolerances(kind: Kind) -> dict[str, float | None]:
     """
     found: dict[str, float | None] = {}
     for key in TolerancesSection.model_fields:
-        name = key.rpartition("_")[0]
+        name, _, ending = key.rpartition("_")
         if key == "exact" or name in _NOT_OF[kind]:
             continue
         own = OF_PAIR.get(name) if kind == "shear-pair" else None
         typical = own if own is not None else STATED[name].typical
-        found[key] = None if name in OF_TEMPERATURE else typical / IN_FILES[STATED[name].unit].to_si
+        found[key] = None if name in OF_TEMPERATURE else typical / _TO_SI[ending]
     return found
 
 
@@ -307,7 +309,7 @@ def tolerances_of(table: TolerancesSection | None, kind: Kind = "plate") -> dict
             raise OutsideModel(
                 f"tolerances.{key} = {value:g}, expected a standard deviation of at most {_MOST_PERCENT:g} %"
             )
-        found[name] = value * IN_FILES[STATED[name].unit].to_si
+        found[name] = value * _TO_SI[ending]
     return found
 
 
