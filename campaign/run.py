@@ -75,7 +75,7 @@ def why_not(raised: Exception) -> str:
 
 
 def keep_summary(text: str, folder: Path) -> str:
-    """The same text, kept in the folder."""
+    """Keep a summary in the folder, and give its text back."""
     (folder / SUMMARY).write_text(text, encoding="utf-8")
     return text
 

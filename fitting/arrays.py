@@ -1,4 +1,4 @@
-"""Types of arrays, and of places in them."""
+"""Types of arrays, of places in them, and of places on a plate."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +12,11 @@ Integers = NDArray[np.intp]
 Indices = NDArray[np.intp]
 """Places in another array."""
 Places = Indices | slice
+Place = tuple[float, float]
+"""A place on a plate: x and y in m."""
 
 
 def as_slice(places: Indices) -> Places:
-    """The same places; as a slice, which copies nothing, where they follow one another. Shape (any,)."""
+    """Indices as a slice, which copies nothing, where they follow one another. Shape (any,)."""
     together = len(places) and np.all(np.diff(places) == 1)
     return slice(int(places[0]), int(places[-1]) + 1) if together else places

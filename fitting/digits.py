@@ -19,7 +19,7 @@ def all_digits(value: float, digits: int) -> str:
 
 
 def two_digits(value: float) -> str:
-    """The same of two: 630 and not 6.3e+02; a share of 99.8 is 100."""
+    """Two significant digits as `written_out` has them: 630 and not 6.3e+02; a share of 99.8 is 100."""
     return written_out(value, 2)
 
 

@@ -167,6 +167,9 @@ def derived_from(base: type[T], name: str, found: Any, called: str) -> type[T]:
     if not (isinstance(found, type) and issubclass(found, base)) or found is base:
         raise NoPlugin(f"{found!r:.80} is no class derived from {base.__module__}.{base.__name__}")
     own = getattr(found, called, None)
+    if isinstance(own, property):
+        # That of the base, which names nothing.
+        own = None
     if own != name:
         raise NoPlugin(f"its {called} is {own!r}, expected the entry point's name")
     return found

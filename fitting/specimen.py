@@ -5,22 +5,24 @@ Frozen data only. Files and their units are translated at the border (`instrumen
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar, Literal, Protocol, get_args
+from typing import Any, ClassVar, Generic, Literal, Protocol, Self, TypeVar, get_args
 
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
 from fitting.stated.edges import Edges, edges_of, named
 from fitting.stated.layers import Core, Face, Glue, Orthotropy
 from fitting.stated.patches import OF_PATCHES, Patch, shift_of
-from fitting.stated.tolerances import OF_OWN_AXES, StatedNumber, StatedValue, number_of
+from fitting.stated.tolerances import OF_OWN_AXES, StatedNumber, StatedValue, number_of, of_scope
 
 Kind = Literal["plate", "beam", "shear-pair"]
 """Which structure a specimen is. What another one needs: CONTRIBUTING.md."""
 KINDS: tuple[Kind, ...] = get_args(Kind)
 Reading = Literal["relative", "absolute"]
 Drive = Literal["base", "force"]
+Point = TypeVar("Point")
+"""A point in m: of a plate x and y, of a beam x."""
 
-OF_DRIVE_AND_READING = ("pickup", "force", "gain", "delay", "phase")
+OF_DRIVE_AND_READING = of_scope("file", "spot", "channel", "chain")
 """Tolerances that are not of the plate itself."""
 DEFAULT_ELEMENTS = 1040
 """Elements of the default mesh: 40 x 26 on a plate of aspect 1.5."""
@@ -97,13 +99,17 @@ class BaseDriven:
         return self.base_acceleration_m_s2
 
 
-class Driven:
-    """What a structure says that its base drives, or a force at a point."""
+class Driven(Generic[Point]):
+    """What a structure says that its base drives, or a force at a point, and that is read at spots."""
 
-    force_m: Any
+    force_m: Point | None
     """Where; None: the base does."""
     base_acceleration_m_s2: float
     carried_kg: ClassVar[None] = None
+    pickup_m: Point | None
+    further_pickups_m: tuple[Point, ...]
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+    """Those who derive from it are dataclasses."""
 
     @property
     def drive(self) -> Drive:
@@ -115,9 +121,20 @@ class Driven:
         """Of the base in m/s^2, or one newton."""
         return self.base_acceleration_m_s2 if self.force_m is None else 1.0
 
+    @property
+    def pickups_m(self) -> tuple[Point, ...]:
+        """All spots, in the order of their numbers from 0."""
+        return () if self.pickup_m is None else (self.pickup_m, *self.further_pickups_m)
+
+    def at_pickup(self, number: int) -> Self:
+        """Itself as one of its spots reads it: `pickup_m` alone is left."""
+        if not self.further_pickups_m:
+            return self
+        return replace(self, pickup_m=self.pickups_m[number], further_pickups_m=())
+
 
 @dataclass(frozen=True)
-class Specimen(Driven):
+class Specimen(Driven[tuple[float, float]]):
     """A rectangular plate, bare (`core` and `constraining` None) or with a constrained core.
 
     x runs from the clamped edge, y from a long edge.
@@ -165,24 +182,13 @@ class Specimen(Driven):
         pulled = tuple(0.0 if stress is None and a and b else stress for stress, a, b in between)
         object.__setattr__(self, "axial_pa", pulled)
         if self.force_m is not None:
-            # Its edges are at rest: one reading is the other.
+            # A force leaves the edges at rest: relative and absolute readings agree.
             object.__setattr__(self, "reads", "relative")
 
     @property
     def kind(self) -> Kind:
         """Which structure it is."""
         return "plate"
-
-    @property
-    def pickups_m(self) -> tuple[tuple[float, float], ...]:
-        """All spots, in the order of their numbers from 0."""
-        return () if self.pickup_m is None else (self.pickup_m, *self.further_pickups_m)
-
-    def at_pickup(self, number: int) -> "Specimen":
-        """The same plate read at one of its spots."""
-        if not self.further_pickups_m:
-            return self
-        return replace(self, pickup_m=self.pickups_m[number], further_pickups_m=())
 
     @property
     def offers(self) -> frozenset[str]:
@@ -295,12 +301,12 @@ class Specimen(Driven):
 
     @property
     def bare(self) -> "Specimen":
-        """The same plate before its damping treatment."""
+        """The plate before its damping treatment."""
         without = replace(self, constraining=None, core=None, patches=(), both_sides=False, masses=())
         return replace(without, faces_shear=False)
 
     def with_law(self, law: CoreLaw) -> "Specimen":
-        """The same plate with another core law. Raises `ValueError` for a bare one."""
+        """The plate with another core law. Raises `ValueError` for a bare one."""
         if self.core is None:
             raise ValueError("a bare plate has no core to give a law to")
         return replace(self, core=replace(self.core, law=law))

@@ -29,7 +29,7 @@ def role_of(channel: ChannelNow, clipped: bool) -> Role:
 
 
 def words_of(channel: ChannelNow, clipped: bool) -> str:
-    """The same in words: no meaning is carried by colour alone."""
+    """What `role_of` shows by colour, in words: no meaning is carried by colour alone."""
     if channel.cable_fault:
         return "cable fault"
     if channel.overload or clipped:

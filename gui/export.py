@@ -39,7 +39,7 @@ class Export(Writing):
         self._ask_report("Save report", ".html", "Page (*.html)")
 
     def report_to_print(self) -> None:
-        """The same on sheets of A4."""
+        """The page of `report` on sheets of A4."""
         self._ask_report("Save report as PDF", ".pdf", "Sheets of A4 (*.pdf)")
 
     def data(self) -> None:

@@ -33,13 +33,13 @@ class PageSet:
         for name in [n for n in self.kinds if not PAGES.is_own(n)]:
             try:
                 self.page(name)
-            except Exception as error:
+            except Exception as error:  # whatever another package's page raises, the window opens without it
                 PAGES.leave_out(name, error)
                 del self.kinds[name]
         self._fed = set(self.kinds)
 
     def page(self, name: str) -> Page:
-        """Of this name; made now where it was not. Raises `KeyError`."""
+        """The page of a name, made now where there is none yet. Raises `KeyError`."""
         if name not in self.made:
             page = self.kinds[name](self._controller)
             page.setObjectName(name)
@@ -49,20 +49,20 @@ class PageSet:
         return self.made[name]
 
     def redraw(self) -> None:
-        """All there are, in the units that count now."""
+        """Draw every page that there is again, in the units that are set now."""
         for name, page in self.made.items():
             if name in self._fed:
                 page.redraw()
 
     def show_state(self, state: SessionState | None) -> None:
-        """To every page there is. Another package's that fails is told nothing any more."""
+        """Show a state on every page that there is. Another package's that fails is told nothing any more."""
         self._state = state
         for name, page in list(self.made.items()):
             if name not in self._fed:
                 continue
             try:
                 page.show_state(state)
-            except Exception as error:
+            except Exception as error:  # whatever another package's page raises, the others are shown
                 if PAGES.is_own(name):
                     raise
                 PAGES.leave_out(name, error)

@@ -130,11 +130,11 @@ class Together(QObject):
         self._choose(files)
 
     def remove(self, row: int) -> None:
-        """One of them."""
+        """Take the file at a row out of the list."""
         self._choose((*self.files[:row], *self.files[row + 1 :]))
 
     def move(self, row: int, by: int) -> None:
-        """One of them up (-1) or down (1)."""
+        """Move the file at a row up (-1) or down (1)."""
         files, to = list(self.files), row + by
         if 0 <= to < len(files):
             files[row], files[to] = files[to], files[row]

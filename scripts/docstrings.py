@@ -6,8 +6,8 @@ A public function that takes or returns an array states a shape, one that raises
 documented method of the project needs neither, nor does what a Protocol of the project asks for; a class may
 state the shapes of its methods. A named number of `fitting` has a line with its reason below it, and shapes
 there call an element's degrees of freedom 4 dofs. A public docstring begins with a sentence that can be read
-by itself, not with a fragment such as "Of one search." or "It goes on.". Exits 1 where something is missing,
-a line each.
+by itself, not with a fragment such as "Of one search." or "It goes on."; one that leans on another ("The same
+of beams.") names it in backticks in that sentence. Exits 1 where something is missing, a line each.
 """
 
 import ast
@@ -33,6 +33,10 @@ _OPENS = {"Of", "As", "What", "The", "By", "It"}
 """Words that a fragment begins with: it leans on the name below it."""
 _FEW = 4
 """Words up to which a sentence that begins so says nothing by itself."""
+_LEANING = re.compile(r"(The same|Itself|Those|Whose|That|One of|As)\b")
+"""Beginnings that lean on another docstring, which stands elsewhere where this one is shown."""
+LEAVE = "scripts/leaning_docstrings.txt"
+"""Those that lean and may stay so: a line `path:name` each. This list may only get shorter."""
 _FIRST = re.compile(r"(?<!Eq\.)(?<!Fig\.)(?<=\.)\s|\n\n")
 
 _ARRAY = re.compile(r"\b(Array|Complex|Mask|Indices|Integers|Names|NDArray|ndarray)\b")
@@ -99,7 +103,26 @@ def missing(root: Path) -> list[str]:
         for line, text in _texts(tree)
         if _OF_AN_ELEMENT.search(text)
     ]
-    return functions + numbers + literal + _fragments(trees)
+    return functions + numbers + literal + _fragments(trees) + _leaning(trees, root / LEAVE)
+
+
+def _leaning(trees: dict[str, ast.Module], leave: Path) -> list[str]:
+    """Public classes and functions whose docstring leans on one that it does not name, and needless leave."""
+    said = "leans on what it does not name"
+    found = {
+        f"{file}:{name}": f"{file}:{node.lineno}: {name} {said}: {text.splitlines()[0]}"
+        for file, tree in trees.items()
+        if file not in KEPT
+        for node, name in _named(tree.body)
+        if _leans(text := ast.get_docstring(node) or "")
+    }
+    kept = leave.read_text("utf-8").splitlines() if leave.is_file() else []
+    gone = [f"{key} leans on nothing any more: take it off {LEAVE}" for key in kept if key not in found]
+    return [line for key, line in found.items() if key not in kept] + gone
+
+
+def _leans(text: str) -> bool:
+    return bool(_LEANING.match(text)) and "`" not in _FIRST.split(text, maxsplit=1)[0]
 
 
 def _fragments(trees: dict[str, ast.Module]) -> list[str]:

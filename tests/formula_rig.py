@@ -11,6 +11,7 @@ from drivers.simulated.drive import DrivePiece
 from drivers.simulated.rig import SimulatedRig
 from drivers.simulated.sensors import SimulatedSensor
 from drivers.simulated.world import Laser, Wiring, World
+from drivers.vibrometer.polytec_simulated import simulated_polytec
 from instrument.session.configuration import Experiment, read_whole_experiment
 from instrument.simulated_case import case_file
 
@@ -166,7 +167,13 @@ def formula_rig(
     world = World(
         {"damped": FormulaPlate(), "bare": FormulaBare()}, Wiring(inputs), Laser(5e-3, 10.0, 1.1e-3), virtual
     )
-    rig = SimulatedRig(world, model="OFV-5000", signal_level=0.8, delay_s={}, limit_v=5.0, **options)
+
+    @contextmanager
+    def polytec(optics):
+        with simulated_polytec(optics) as rig.vibrometer:
+            yield rig.vibrometer.path
+
+    rig = SimulatedRig(world, vibrometer=polytec, signal_level=0.8, limit_v=5.0, **options)
     with rig as addresses:
         yield rig, write_experiment(folder, addresses, sweep, hammer, virtual, temperature)
 

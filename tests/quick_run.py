@@ -16,9 +16,14 @@ def no_fit(number, last_step, points, damping, specimen):
     return FitUpdated(number, last_step, None, f"{sum(p.step <= last_step for p in points)} points")
 
 
-def run(experiment: Path, out: Path, resume: Path | None = None) -> None:
-    run_experiment(read_whole_experiment(experiment), out, ("sweep",), resume=resume, fit=no_fit)
+def run(experiment, out: Path, **options):
+    """The sweep alone of an experiment that was read."""
+    return run_experiment(experiment, out, ("sweep",), fit=no_fit, **options)
+
+
+def main(experiment: Path, out: Path, resume: Path | None = None) -> None:
+    run(read_whole_experiment(experiment), out, resume=resume)
 
 
 if __name__ == "__main__":
-    run(*map(Path, sys.argv[1:]))
+    main(*map(Path, sys.argv[1:]))

@@ -7,6 +7,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
+import pytest
 from conftest import TABLE_4
 from impact_cases import TABLE_3, clean_hit
 
@@ -273,3 +274,8 @@ def _whole_session() -> bytes:
     synthetic.end()
     with TemporaryDirectory() as folder:
         return synthetic.save(Path(folder)).read_bytes()
+
+
+@pytest.fixture(scope="session")
+def session_path(tmp_path_factory):
+    return whole_session(tmp_path_factory.mktemp("session"))

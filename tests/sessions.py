@@ -10,7 +10,10 @@ from instrument.files.specimen_file import SpecimenDocument
 from instrument.files.toml import read_document
 from instrument.paper_case import case_file
 from instrument.session.configuration import Configuration
+from instrument.session.contents import Contents, contents_of
+from instrument.session.storage import SessionFile
 from instrument.stream.derived import PointMeasured
+from instrument.stream.event import Event
 from instrument.stream.raw import BlockAcquired
 
 RIG = {
@@ -76,3 +79,17 @@ def point(step: int = 1, frequency_hz: float = 20.0, **changes) -> PointMeasured
         "remarks": (),
     }
     return PointMeasured(**{**facts, **changes})
+
+
+def contents_in(path: Path, **how) -> Contents:
+    with SessionFile(path) as file:
+        return contents_of(file, **how)
+
+
+def events_of(path: Path, *, with_samples: bool = False) -> list[Event]:
+    with SessionFile(path) as file:
+        return list(file.events(with_samples=with_samples))
+
+
+def points_of(path: Path) -> list[PointMeasured]:
+    return [e for e in events_of(path) if isinstance(e, PointMeasured)]

@@ -49,7 +49,7 @@ class Hit:
     name: str = "hit"
 
     def record(self) -> Record:
-        """As records are read from files. Raises `BadInput` without a motion, or where lengths differ."""
+        """A record as files have them. Raises `BadInput` without a motion, or where lengths differ."""
         force = numbers(f"{self.name}: force_n", self.force_n, float)
         channels = tuple(
             ResponseChannel(column, motion, numbers(f"{self.name}: {column}", samples, float, len(force)))

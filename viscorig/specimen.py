@@ -68,7 +68,7 @@ class Specimen(Shown):
             self._tables["core"]["law"] = dict(to_jsonable(document.core.law))
 
     def of(self, model: Model) -> "Specimen":
-        """The same tables, computed with another model: read at one of its spots."""
+        """The specimen's tables, computed with another model: read at one of its spots."""
         made = Specimen.__new__(Specimen)
         made.model, made._tables = model, self._tables
         return made

@@ -111,10 +111,10 @@ def load_sweep(path: str | Path, specimen: Specimen) -> Sweep:
 
 
 def as_sweep(points: Points) -> Sweep:
-    """The same points as an object of this package."""
+    """Points as an object of this package."""
     return Sweep(**{f.name: getattr(points, f.name) for f in fields(points)})
 
 
 def points_of(sweep: Sweep) -> Points:
-    """The same points as the fits take them."""
+    """Points as the fits take them."""
     return Points(**{f.name: getattr(sweep, f.name) for f in fields(sweep)})

@@ -56,7 +56,7 @@ class TrueBeam:
 
     @property
     def solid(self) -> BeamStated:
-        """As the solid takes it."""
+        """Dimensions, layers and ends as `SolidBeam` takes them."""
         c = self.core
         core = Sheet(c.thickness_m, 2 * (1 + c.poisson), c.poisson, c.density_kg_m3)
         above = [core, *([_sheet(self.constraining)] if self.constraining else [])]

@@ -1,6 +1,6 @@
 """A campaign on beams: cases identified and diagnosed in processes, a line kept of each.
 
-It goes on after a kill: `viscorig campaign beams FOLDER`, or `run_beams` with functions of one's own.
+It goes on after a kill: `python -m campaign beams FOLDER`, or `run_beams` with functions of one's own.
 """
 
 from collections.abc import Sequence

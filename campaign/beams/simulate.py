@@ -156,7 +156,7 @@ def _strains(beam: BuiltBeam, q: Complex) -> Array:
 
 @one_thread
 def resonances(beam: BuiltBeam, law: TrueLaw, below_hz: float = np.inf) -> list[Resonance]:
-    """Those that the drive excites, in ascending order, the core's modulus taken at each frequency."""
+    """Resonances that the drive excites, in ascending order, the core's modulus taken at each frequency."""
     basis, whole = beam.basis, beam.basis.K_core.sum(axis=0)
     push = basis.w[_FORCE] if beam.true.force_m is not None else beam.load[:, 0]
     M, found = beam.M, []

@@ -1,6 +1,6 @@
 """The campaign on the published plate: cases diagnosed in processes, a line kept of each.
 
-It goes on after a kill: `viscorig campaign plant FOLDER`.
+It goes on after a kill: `python -m campaign plant FOLDER`.
 """
 
 from collections.abc import Callable, Sequence

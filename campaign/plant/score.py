@@ -104,7 +104,7 @@ def right(outcome: Outcome, said: Said) -> bool:
 
 
 def in_group(outcome: Outcome, said: Said) -> bool:
-    """The same, a declared group of at most three standing for each of its names."""
+    """Whether it was named, as by `right`, a group of at most three standing for each of its names."""
     if right(outcome, said):
         return True
     groups = [said.group_of(name) for name in said.effects]

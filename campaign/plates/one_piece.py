@@ -27,7 +27,7 @@ _FLOOR = (3e-4, 2e-3)
 def in_one_piece(
     rng: np.random.Generator, every: list[Resonance], known_to_hz: float = np.inf
 ) -> list[Resonance]:
-    """Those of a band, from the first on; five or six. Raises `ArithmeticError` if fewer.
+    """Resonances of a band, from the first on; five or six. Raises `ArithmeticError` if fewer.
 
     The sweep ends below `known_to_hz`: what is simulated is no plate beyond.
     """
@@ -53,6 +53,6 @@ def draw_whole(rng: np.random.Generator, chosen: list[Resonance], levels_g: tupl
 
 
 def of_one_range(rng: np.random.Generator, noise: PlateNoise) -> PlateNoise:
-    """The same drifts, over a floor that the largest peak alone decides."""
+    """Drifts as `noise` has them, over a floor that the largest peak alone decides."""
     floor = log_uniform(rng, *_FLOOR)
     return replace(noise, white=NoiseFigures(floor, noise.white.repeat_scatter))

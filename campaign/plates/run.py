@@ -1,6 +1,6 @@
 """A campaign on many plates: cases identified and diagnosed in processes, a line kept of each.
 
-It goes on after a kill: `viscorig campaign plates FOLDER`, or `run_plates` with functions of one's own.
+It goes on after a kill: `python -m campaign plates FOLDER`, or `run_plates` with functions of one's own.
 """
 
 from collections.abc import Sequence

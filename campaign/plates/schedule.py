@@ -100,7 +100,7 @@ def measured_resonances(plate: ReducedSolid, spot_m: tuple[float, float], law: T
 
 
 def seen_apart(every: list[Resonance]) -> list[Resonance]:
-    """Those that show at the spot and stand apart, in ascending order."""
+    """Resonances that show at the spot and stand apart, in ascending order."""
     largest = max((r.seen for r in every), default=0.0)
     chosen: list[Resonance] = []
     for r in every:

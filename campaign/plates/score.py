@@ -166,7 +166,7 @@ def first_right(outcome: PlateOutcome) -> bool:
 
 
 def in_group(outcome: PlateOutcome) -> bool:
-    """The same, the group of the first named standing for each of its names."""
+    """Whether `first_right` holds with the group of the first named standing for each of its names."""
     if first_right(outcome):
         return True
     names = named(outcome)

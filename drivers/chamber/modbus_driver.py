@@ -45,7 +45,7 @@ class ModbusChamberOptions(ChamberOptions):
 
     @property
     def registers(self) -> TemperatureRegisters:
-        """As the driver and the simulated device take them."""
+        """Registers as the driver and the simulated device take them."""
         return TemperatureRegisters(
             self.temperature_register, self.set_point_register, self.type, self.scale_c or 1.0
         )

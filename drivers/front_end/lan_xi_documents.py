@@ -90,7 +90,7 @@ def read_module_info(document: Any) -> ModuleInfo:
 
 
 def write_module_info(info: ModuleInfo) -> dict[str, Any]:
-    """The same the other way."""
+    """The document that a module answers with, of what it says."""
     return {
         "module": {"type": {"number": info.type}, "serial": info.serial},
         "numberOfInputChannels": info.inputs,

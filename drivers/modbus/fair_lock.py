@@ -10,7 +10,7 @@ from types import TracebackType
 
 
 class FairLock:
-    """As a context manager: wait for one's turn, give it on at the end."""
+    """A lock given on in turn: a context manager that waits for one's turn and gives it on at the end."""
 
     def __init__(self) -> None:
         self._guard = threading.Lock()

@@ -102,7 +102,7 @@ class RegisterMap:
         return next(r for r in self.registers if r.name == name)
 
     def with_addresses(self, addresses: Mapping[str, int]) -> "RegisterMap":
-        """The same quantities at other addresses; those not named stay.
+        """Quantities at other addresses; those not named stay.
 
         Raises
         ------

@@ -147,7 +147,7 @@ class DampedPlate(OnShaker):
         self._hand.strike(self._struck, now_s)
 
     def at(self, output: str, first_s: float, step_s: float, count: int) -> Array:
-        """As on the shaker; while it is struck the base rests. Shape (count,)."""
+        """An output as on the shaker; while the plate is struck the base rests. Shape (count,)."""
         if self._struck is None or output == "temperature":
             return super().at(output, first_s, step_s, count)
         if output not in ("velocity", "force"):

@@ -1,8 +1,6 @@
 """The simulated rig: one world behind a Modbus shaker, a serial vibrometer and a LAN-XI front-end.
 
-A chamber on Modbus stands around it where there is one.
-
-The vibrometer speaks Polytec's language, unless another driver's own simulated one takes its place.
+A chamber on Modbus stands around it where there is one. The vibrometer is its driver's own simulated one.
 """
 
 import json
@@ -23,14 +21,11 @@ from drivers.simulated.lan_xi_server import LanXiServer
 from drivers.simulated.modbus_server import ModbusServer
 from drivers.simulated.shaker_device import LogEntry, ShakerDevice
 from drivers.simulated.shaker_registers import DeviceRegisters
-from drivers.simulated.vibrometer_server import Head, VibrometerServer
 from drivers.simulated.world import World
 from drivers.vibrometer.driver import Optics
 from drivers.vibrometer.interface import Range
 
 SAMPLE_RATES_HZ = tuple(131072.0 / 2**k for k in range(10))
-OWN_MODEL = "OFV-5000"
-"""What the vibrometer is where nothing is said."""
 _TICK_S = 0.02
 _LONGEST_RAMP_S = 60.0
 _GRACE_S = 1.0
@@ -55,7 +50,7 @@ class SimulatedChamber:
 
 
 VibrometerPeer = Callable[[Optics], AbstractContextManager[str]]
-"""Another simulated vibrometer: entered it answers at the address it gives."""
+"""A simulated vibrometer: entered it answers at the address it gives."""
 
 
 class RigOptics:
@@ -77,22 +72,20 @@ class RigOptics:
 
 
 class SimulatedRig:
-    """Stands from entering to leaving the context. `vibrometer` takes the place of the one with `model`."""
+    """Stands from entering to leaving the context."""
 
     def __init__(
         self,
         world: World,
         *,
-        model: str = OWN_MODEL,
+        vibrometer: VibrometerPeer,
         signal_level: float,
-        delay_s: dict[str, float],
         limit_v: float,
         registers: RegisterMap = DEFAULT,
         unit: int = 1,
         heartbeat_timeout_s: float = 2.0,
         ports: Ports = Ports(),
         log: Path | None = None,
-        vibrometer: VibrometerPeer | None = None,
         chamber: SimulatedChamber | None = None,
         transducers: Mapping[int, dict[str, Any]] = MappingProxyType({}),
     ) -> None:
@@ -109,9 +102,6 @@ class SimulatedRig:
         )
         world.advance = self.device.advance
         self._optics = RigOptics(world, signal_level)
-        self._head = Head(
-            model=model, signal_level=signal_level, delay_s=delay_s, on_range=self._optics.choose
-        )
         self._peer, self._chamber = vibrometer, chamber
         self._ending = threading.Event()
         self._stack = ExitStack()
@@ -120,7 +110,7 @@ class SimulatedRig:
         """Addresses by the names `viscorig simulate` prints."""
         world = self.world
         with ExitStack() as stack:
-            vibrometer_tty = self._stand_up_vibrometer(stack)
+            vibrometer_tty = stack.enter_context(self._peer(self._optics))
             inputs = max(8, *world.wiring.inputs)
             front_end = stack.enter_context(
                 LanXiServer(
@@ -173,14 +163,6 @@ class SimulatedRig:
     def _running(self) -> bool:
         with self.world.lock:
             return self.device.status(self.world.clock()[1]).running
-
-    def _stand_up_vibrometer(self, stack: ExitStack) -> str:
-        """Where it answers."""
-        if self._peer is not None:
-            return stack.enter_context(self._peer(self._optics))
-        self._optics.choose(self._head.range)
-        self.vibrometer = stack.enter_context(VibrometerServer(self._head, lock=self.world.lock))
-        return self.vibrometer.path
 
     def _stand_up_chamber(self, stack: ExitStack) -> str:
         """Where it answers; empty where there is none."""

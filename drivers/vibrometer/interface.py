@@ -52,7 +52,7 @@ class Vibrometer(Protocol):
         ...
 
     def signal_delay_s(self) -> float | None:
-        """As the device states it; None where it states none."""
+        """Delay of the velocity signal as the device states it; None where it states none."""
         ...
 
     def close(self) -> None:

@@ -113,7 +113,7 @@ def parse_quantity(reply: str, unit: str) -> float:
 
 
 def parse_optional_quantity(reply: str, unit: str) -> float | None:
-    """The same, or None where the device states none."""
+    """A number as `parse_quantity` reads it, or None where the device states none."""
     return None if is_missing(reply) else parse_quantity(reply, unit)
 
 

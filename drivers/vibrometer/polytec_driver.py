@@ -1,10 +1,12 @@
 """Vibrometers of the kind `polytec`."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from drivers.vibrometer.driver import VibrometerDriver, VibrometerOptions
+from drivers.vibrometer.driver import Optics, VibrometerDriver, VibrometerOptions
 from drivers.vibrometer.interface import Range, Vibrometer
 from drivers.vibrometer.polytec_models import model_named
 
@@ -25,7 +27,7 @@ class PolytecOptions(VibrometerOptions):
 
 
 class PolytecDriver(VibrometerDriver[PolytecOptions]):
-    """Polytec's serial language. The simulated rig's own vibrometer speaks it (`drivers.simulated`)."""
+    """Polytec's serial language, and a simulated vibrometer that speaks it."""
 
     options = PolytecOptions
 
@@ -38,3 +40,11 @@ class PolytecDriver(VibrometerDriver[PolytecOptions]):
         from drivers.vibrometer.polytec_vibrometer import PolytecVibrometer
 
         return PolytecVibrometer(options.address, model=options.model, baud=options.baud)
+
+    @contextmanager
+    def simulated(self, options: PolytecOptions, optics: Optics) -> Iterator[str]:
+        """On a pseudo-terminal."""
+        from drivers.vibrometer.polytec_simulated import simulated_polytec
+
+        with simulated_polytec(optics, options.model) as server:
+            yield server.path

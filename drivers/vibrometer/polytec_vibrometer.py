@@ -113,7 +113,7 @@ class PolytecVibrometer:
         return min(max(level / self._model.signal_level_full, 0.0), 1.0)
 
     def signal_delay_s(self) -> float | None:
-        """As the device states it; None where it states none."""
+        """Delay of the velocity signal as the device states it; None where it states none."""
         return self._ask(
             polytec.get("VeloDec", self._decoder, "SignalDelay"),
             lambda reply: polytec.parse_optional_quantity(reply, "s"),

@@ -9,7 +9,7 @@ Matrices = Complex
 
 
 def stacked(K_0: Complex, K_1: Array, M: Array, C_1: Array) -> Matrices:
-    """They as one: a stack is multiplied at once. Shape (k, k) each."""
+    """K_0, K_1, M and C_1 as one array, which is multiplied at once. Shape (k, k) each."""
     return np.array([K_0, K_1, M, C_1], dtype=complex)
 
 

@@ -9,7 +9,7 @@ from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import Points
-from fitting.effects.number_off import moved
+from fitting.effects.number_off import changed_by_numbers
 from fitting.effects.other_plates import changed_to, forces
 from fitting.effects.span import Span
 from fitting.plate.plate_numbers import moved as restated
@@ -85,7 +85,7 @@ class AxialStressOfBeamEffect(AxialStressEffect):
         return None
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
-        return moved(plate, {"axial": 1e6 * float(u[0])})
+        return changed_by_numbers(plate, {"axial": 1e6 * float(u[0])})
 
     def story(self, u: Mapping[str, float]) -> str:
         return _story("the beam along", u["stress"])

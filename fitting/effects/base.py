@@ -213,7 +213,7 @@ class Effect:
         return (self,)
 
     def forms(self, points: Points, plate: EnrichedReducedPlate) -> tuple[Effect, ...]:
-        """Those of its variants that nothing speaks against there."""
+        """Variants to which these data raise no objection."""
         return tuple(form for form in self.variants() if form.objection(points, plate) is None)
 
     def laws(self, stated: CoreLaw, points: Points) -> list[CoreLaw]:
@@ -225,7 +225,7 @@ class Effect:
         return []
 
     def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
-        """Simpler effects that this one contains, each with the unknowns it would have here.
+        """Simpler effects contained in this one, each with its unknowns at `u`.
 
         A fit may end where only one part of this effect acts: that part is then fitted alone, from there.
         Shapes (parameters,) each.
@@ -233,7 +233,10 @@ class Effect:
         return ()
 
     def elsewhere(self, plate: EnrichedReducedPlate, u: Array) -> list[Array]:
-        """The same in other places, each tried once where it explains most. Shape (parameters,) each."""
+        """Alternative positions for the same effect, each tried once where it explains most.
+
+        Shape (parameters,) each.
+        """
         return []
 
     @property

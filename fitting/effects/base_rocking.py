@@ -7,19 +7,16 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.effects.base import BASE, PLATE_AND_BEAM, Effect, EffectParameter
 from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.effects.span import UNIT_RESPONSE, Span
+from fitting.effects.span import UnitSpan
 
 
-class Pitch(Span):
+class Pitch(UnitSpan):
     """Responses to a turning base."""
 
     name = "pitch"
 
     def forces(self, full: FullPlate, at: Snapshot) -> Array:
         return -(full.loose.M @ full.pitching)[:, None]
-
-    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
-        return UNIT_RESPONSE * full.unit(answers)
 
 
 class BaseRockingEffect(Effect):

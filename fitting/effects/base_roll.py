@@ -4,13 +4,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array
 from fitting.effects.base import BASE, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import Points
-from fitting.effects.span import UNIT_RESPONSE, Span
+from fitting.effects.span import UnitSpan
 from fitting.plate.element import THETA_X, V_C, W
 
 _MOST_RAD_M = 10.0
@@ -19,7 +19,7 @@ _ON_AXIS_M = 1e-4
 """A pickup so near to the axis hardly sees a roll."""
 
 
-class Roll(Span):
+class Roll(UnitSpan):
     """Responses to a base that turns about x."""
 
     name = "roll"
@@ -31,9 +31,6 @@ class Roll(Span):
 
     def forces(self, full: FullPlate, at: Snapshot) -> Array:
         return -(full.loose.M @ rolling(full))[:, None]
-
-    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
-        return UNIT_RESPONSE * full.unit(answers)
 
 
 def rolling(full: FullPlate) -> Array:

@@ -119,6 +119,22 @@ class ClampComplianceEffect(Effect):
         return f"the clamp is elastic ({u['k']:.2g} N/m^3 of clamped face)"
 
 
+class BesideCompliance(Effect):
+    """Mixin of an effect of elastic clamps whose first unknown is their springs, and that has one more.
+
+    The catalogue has direct subclasses of `Effect`: name that as a base, too.
+    """
+
+    extends = "clamp_compliance"
+    unexplained_share = ClampComplianceEffect.unexplained_share
+
+    def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
+        return ((ClampComplianceEffect(), u[:1]),)
+
+    def scaled(self, u: Array, a: float) -> Array:
+        return np.array([u[0] / a, u[1]])
+
+
 def springs(plate: EnrichedReducedPlate, u: Array) -> Array:
     """The root's stiffness with springs of `u[0]`. Shape (k, k)."""
     return np.asarray(u[0] * (plate.matrix("root.x") + plate.matrix("root.z")))

@@ -7,12 +7,12 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.effects.base import CLAMP, PLATE_AND_BEAM, Effect, EffectParameter
 from fitting.effects.change import Change
-from fitting.effects.clamp_compliance import STARTS_N_M3, ClampComplianceEffect, springs
+from fitting.effects.clamp_compliance import STARTS_N_M3, BesideCompliance, ClampComplianceEffect, springs
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
 
 
-class ClampFrictionEffect(Effect):
+class ClampFrictionEffect(BesideCompliance, Effect):
     """Springs at the root, k (1 + i loss)."""
 
     name = "clamp_friction"
@@ -25,8 +25,6 @@ class ClampFrictionEffect(Effect):
         EffectParameter("loss_factor", "1", 0.0, 1.0, 0.1, spread=0.3, mounting=0.1),
     )
     spans = ClampComplianceEffect.spans
-    extends = "clamp_compliance"
-    unexplained_share = ClampComplianceEffect.unexplained_share
     chance = 0.03
     discriminating_test = (
         "the hammer test repeated with the clamp tightened: its losses change, the core's do not"
@@ -37,12 +35,6 @@ class ClampFrictionEffect(Effect):
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.array([k, self.parameters[1].typical]) for k in STARTS_N_M3]
-
-    def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
-        return ((ClampComplianceEffect(), u[:1]),)
-
-    def scaled(self, u: Array, a: float) -> Array:
-        return np.array([u[0] / a, u[1]])
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         return Change(K=(1 + 1j * u[1]) * springs(plate, u))

@@ -11,7 +11,7 @@ from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import Points
-from fitting.effects.number_off import moved
+from fitting.effects.number_off import changed_by_numbers
 from fitting.effects.other_plates import changed_to, forces
 from fitting.effects.span import UNIT_RESPONSE, Span
 from fitting.specimen import Specimen
@@ -121,7 +121,7 @@ class ClampLineOfBeamEffect(ClampLineEffect):
         x, y = plate.pickup
         place = (x + float(u[0] * u[1])) * plate.length_m / length
         observe = plate.row(place, y) - plate.pickup_row
-        return replace(moved(plate, {"span": float(u[0])}), observe=observe)
+        return replace(changed_by_numbers(plate, {"span": float(u[0])}), observe=observe)
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"the beam is free over {_beside_stated(u)}"

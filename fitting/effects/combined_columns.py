@@ -23,11 +23,11 @@ class AllCombined:
     """Shape (columns, fewer)."""
 
     def along(self, rows: Any) -> Any:
-        """Of what has a last axis of columns."""
+        """Transform the last axis (columns)."""
         return rows @ self.T
 
     def square(self, A: Any) -> Any:
-        """Of what has two of them."""
+        """Transform the last two axes (matrices)."""
         return self.T.T @ A @ self.T
 
 
@@ -41,11 +41,11 @@ class OwnCombined:
     rest: slice | NDArray[np.intp]
 
     def along(self, rows: Any) -> Any:
-        """Of what has a last axis of columns."""
+        """Transform the last axis (columns)."""
         return np.concatenate([rows[..., self.own] @ self.V, rows[..., self.rest]], axis=-1)
 
     def square(self, A: Any) -> Any:
-        """Of what has two of them."""
+        """Transform the last two axes (matrices)."""
         half = self.along(A)
         return np.concatenate([self.V.T @ half[..., self.own, :], half[..., self.rest, :]], axis=-2)
 

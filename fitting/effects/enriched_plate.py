@@ -13,17 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, as_slice
-from fitting.dynamics.dynamic_stiffness import dynamic_stiffness, stacked
-from fitting.effects.change import Change
 from fitting.effects.combined_columns import AllCombined, OwnCombined, own_and_beside
+from fitting.effects.plate_rows import RowReader
 from fitting.effects.span import Span
-from fitting.plate.element import Shape
+from fitting.plate.layers_array import specimen_of
 from fitting.plate.mesh import Mesh
-from fitting.plate.parts import (
-    Coefficients,
-    coefficients,
-    specimen_of,
-)
+from fitting.plate.parts import Coefficients, coefficients
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
 
@@ -31,10 +26,9 @@ Names = NDArray[np.str_]
 Place = tuple[float, float]
 """On the plate, in m."""
 
-CONDENSED = 1e-4
-"""Of the largest singular value, what a condensed plate may leave out; its reading is then off by 1e-5."""
 ROUGHLY = 1e-3
-"""The same of a plate to choose between starts: off by 3e-4 with stated numbers two tolerances off."""
+"""Of the largest singular value, what a plate to choose between starts leaves out: it is off by 3e-4 with
+stated numbers two tolerances off."""
 _LEADING = 0.7
 """Of the motions that an effect adds, which come the largest first, those that such a plate keeps: its nodes
 are too few to tell what the rest does. A choice."""
@@ -44,9 +38,7 @@ _PART = "part"
 """Group of the motion of a part on the plate."""
 _MOST_TAKEN = 12
 """Plates with some spans' columns that are kept. A bound on memory: one takes up to 6 MB."""
-_MOST_ROWS = 32
-"""Rows that are kept: those of one evaluation. A choice."""
-_MADE_ANEW = ("_taken", "_stacks", "_rows", "roughly", "with_part")
+_MADE_ANEW = ("_taken", "_stacks", "_reader", "roughly", "with_part")
 """Another process makes these anew."""
 
 
@@ -95,7 +87,7 @@ class EnrichedReducedPlate:
     load_part: Array
     """Shape (k,); of a small structure, and of a plate not treated all over, (parts, k)."""
     layers: Array
-    """What is stated of them (`fitting.plate.parts.layers_of`), zero for a plate that carries no effects."""
+    """What is stated of them (`layers_array.layers_of`), zero for a plate that carries no effects."""
     shares: Array = field(default_factory=lambda: np.empty(0))
     """Singular values of its own columns, which are the first then. Shape (own,); empty if not condensed."""
 
@@ -213,53 +205,6 @@ class EnrichedReducedPlate:
             layers=np.zeros((3, 5)),
         )
 
-    def condensed(
-        self,
-        omega: Array,
-        G: Complex,
-        changes: Sequence[Change] = (),
-        changed_omega: Array | None = None,
-        changed_G: Complex | None = None,
-        sides: Sequence[Array] = (),
-        left_out: float = CONDENSED,
-    ) -> "EnrichedReducedPlate":
-        """Its own even columns as far as they answer at some frequencies and moduli; others as they are.
-
-        `changes` are of the plate, on its columns: answers with each of them at `changed_omega` and
-        `changed_G` are kept too. Shape (points,) for `omega` and `G`, and for the changed ones. `sides` are
-        further loads to be answered, or rows that read it. Shape (k,) each. `left_out`: of the largest
-        singular value.
-        """
-        own = np.flatnonzero(self.group == "plate")
-        found = [self._answers(own, omega, G, Change(), sides)]
-        if changed_omega is not None and changed_G is not None:
-            found += [self._answers(own, changed_omega, changed_G, c, sides) for c in changes]
-        X = np.concatenate(found, axis=1)
-        V, size, _ = np.linalg.svd(np.hstack([X.real, X.imag]), full_matrices=False)
-        # Motions that effects stir are of several sides more of its own and less beside them.
-        kept = size > left_out / max(1.0, len(sides) / 2) * size[0]
-        V = V[:, kept]
-        rest = np.flatnonzero(self.group != "plate")
-        on = OwnCombined(V, as_slice(own), as_slice(rest))
-        group = np.concatenate([np.full(V.shape[1], "plate"), self.group[rest]])
-        return replace(self._with(on, group), shares=size[kept])
-
-    def _answers(
-        self, own: NDArray[np.intp], omega: Array, G: Complex, change: Change, further: Sequence[Array]
-    ) -> Complex:
-        """Of its own columns to base, pickup and pitch, of unit size. Shape (k, any)."""
-        square = np.ix_(own, own)
-        K_0, K_1, M = (
-            (getattr(self, a) + getattr(change, b))[square]
-            for a, b in (("K_0", "K"), ("K_1", "K_1"), ("M", "M"))
-        )
-        C_1 = (self.viscous(change.damping) + change.C)[square]
-        A = dynamic_stiffness(stacked(K_0, K_1, M, C_1), omega, G)
-        given = [self.load + change.load, self.observe + change.observe, self.pitch, *further]
-        sides = np.stack([side[own] for side in given if np.any(side)], axis=1).astype(complex)
-        X = np.linalg.solve(A, np.broadcast_to(sides, (len(omega), *sides.shape)))
-        return np.concatenate(X / np.linalg.norm(X, axis=1, keepdims=True), axis=1)
-
     def _independent(self) -> "EnrichedReducedPlate":
         """Its own columns, and an orthonormal basis of what is beside them: two spans may share some."""
         own = self.group == "plate"
@@ -270,10 +215,10 @@ class EnrichedReducedPlate:
 
     def _on(self, T: Array, group: Names) -> "EnrichedReducedPlate":
         """On the combinations T of its columns. Shape (k, fewer)."""
-        return self._with(AllCombined(T), group)
+        return self.combined(AllCombined(T), group)
 
-    def _with(self, on: AllCombined | OwnCombined, group: Names) -> "EnrichedReducedPlate":
-        """On some combinations of its columns."""
+    def combined(self, on: AllCombined | OwnCombined, group: Names) -> "EnrichedReducedPlate":
+        """On some combinations of its columns, which `group` names. Shape (fewer,)."""
         square, along = on.square, on.along
         return replace(
             self,
@@ -351,36 +296,12 @@ class EnrichedReducedPlate:
         return float(self.size[1])
 
     def row(self, x_m: float, y_m: float, dx: int = 0, dy: int = 0) -> Array:
-        """Reads w, or its derivative, at a point of the plate; beyond an edge the nearest one. Shape (k,).
-
-        The latest are kept: a step along one unknown of an effect leaves its other places where they are.
-        """
-        key, known = (float(x_m), float(y_m), dx, dy), self._rows
-        if key not in known:
-            while len(known) >= _MOST_ROWS:
-                del known[next(iter(known))]
-            known[key] = self._row(*key)
-        return known[key]
+        """Reads w, or its derivative, at a point of the plate; beyond an edge the nearest one. Shape (k,)."""
+        return self._reader.row(x_m, y_m, dx, dy)
 
     @cached_property
-    def _rows(self) -> dict[tuple[float, float, int, int], Array]:
-        return {}
-
-    def _row(self, x_m: float, y_m: float, dx: int, dy: int) -> Array:
-        mesh = self._mesh
-        a, b = mesh.sides_m
-        x, y = min(max(x_m, 0.0), mesh.length_m), min(max(y_m, 0.0), mesh.width_m)
-        i, j = min(int(x / a), mesh.n_x - 1), min(int(y / b), mesh.n_y - 1)
-        first = i * (mesh.n_y + 1) + j
-        corners = [first, first + mesh.n_y + 1, first + mesh.n_y + 2, first + 1]
-        shape = Shape(a, b).deflection_by_corners(x - i * a, y - j * b, dx, dy)
-        found = np.asarray(shape.ravel() @ self.deflection[corners].reshape(shape.size, -1))
-        found.setflags(write=False)
-        return found
-
-    @cached_property
-    def _mesh(self) -> Mesh:
-        return Mesh(self.length_m, self.width_m, int(self.size[2]), int(self.size[3]))
+    def _reader(self) -> RowReader:
+        return RowReader(self.deflection, self.size)
 
 
 def _squares(stack: Array, columns: NDArray[np.intp]) -> Array:

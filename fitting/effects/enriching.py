@@ -16,8 +16,10 @@ from fitting.effects.leading import Motions, Stirred
 from fitting.effects.span import Span
 from fitting.numerics.linear import times
 from fitting.plate.element import THETA_X, THETA_Y, W
+from fitting.plate.layers_array import layers_of
 from fitting.plate.part_matrices import moving_part, on_motions, projected_parts
-from fitting.plate.parts import coefficients, layers_of, loaded, names_of
+from fitting.plate.part_names import names_of
+from fitting.plate.parts import coefficients, loaded
 from fitting.progress import Report, unheard
 
 SNAPSHOTS = 12

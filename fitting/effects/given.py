@@ -92,7 +92,7 @@ class BarePlateModes(Protocol):
 
     @property
     def stiffness(self) -> Complex:
-        """phi^T P_p phi for the parts of K_0 (`fitting.plate.parts.STIFFNESS`). Shape (modes, parts)."""
+        """phi^T P_p phi for the parts of K_0 (`fitting.plate.part_names.STIFFNESS`). Shape (modes, parts)."""
 
     @property
     def substrate(self) -> Face:

@@ -24,7 +24,7 @@ class KnowsItsNumbers(Protocol):
         """What it becomes with some numbers moved, relative ones in the logarithm."""
 
 
-def moved(plate: EnrichedReducedPlate, by: Mapping[str, float]) -> Change:
+def changed_by_numbers(plate: EnrichedReducedPlate, by: Mapping[str, float]) -> Change:
     """What a structure becomes with some stated numbers moved."""
     assert isinstance(plate, KnowsItsNumbers)
     return plate.moved(by)
@@ -50,7 +50,7 @@ class NumberOffEffect(Effect):
         )
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
-        return moved(plate, {self.number: float(np.log(u[0]))})
+        return changed_by_numbers(plate, {self.number: float(np.log(u[0]))})
 
     def story(self, u: Mapping[str, float]) -> str:
         return self.inner.story(u)

@@ -14,7 +14,8 @@ from fitting.effects.given import BarePlateModes, Points
 from fitting.effects.other_plates import mixed
 from fitting.effects.span import Span
 from fitting.plate.element import U_B, V_B, face_stiffness
-from fitting.plate.parts import STIFFNESS, substrate_coefficients
+from fitting.plate.part_names import STIFFNESS
+from fitting.plate.parts import substrate_coefficients
 from fitting.stated.layers import Face, Orthotropy
 
 _RATIOS = (0.85, 1.15)

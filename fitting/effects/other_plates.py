@@ -11,7 +11,8 @@ from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.plate.element import CORNERS, DOFS
 from fitting.plate.element_matrices import element_matrices
 from fitting.plate.mesh import Mesh
-from fitting.plate.parts import coefficients, loaded, names_of, stretched
+from fitting.plate.part_names import names_of
+from fitting.plate.parts import coefficients, loaded, stretched
 from fitting.specimen import Specimen
 
 

@@ -47,3 +47,11 @@ class Span:
         Shape (n, any).
         """
         return answers
+
+
+class UnitSpan(Span):
+    """Motions of forces that do not say how large an effect makes them: all of one usual size."""
+
+    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
+        """The answers, each of the size `UNIT_RESPONSE`. Shape (n, any)."""
+        return UNIT_RESPONSE * full.unit(answers)

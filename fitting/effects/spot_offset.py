@@ -4,14 +4,14 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array
 from fitting.effects.along_a_beam import AlongABeam
 from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import Points
-from fitting.effects.span import UNIT_RESPONSE, Span
+from fitting.effects.span import Span, UnitSpan
 
 _AROUND_M = ((8e-3, 0.0), (-8e-3, 0.0), (0.0, 8e-3), (0.0, -8e-3))
 """Pushes about the pickup: between them the answer at a shifted spot is nearly linear. A choice."""
@@ -19,7 +19,7 @@ _DIRECTIONS = np.arange(0, np.pi, np.pi / 6)
 """Of the spot from where it is thought to be, to begin with: over half a turn. A choice."""
 
 
-class Spot(Span):
+class Spot(UnitSpan):
     """Responses to a push beside the pickup: what a shifted reading needs."""
 
     name = "spot"
@@ -35,9 +35,6 @@ class Spot(Span):
                 for dx, dy in _AROUND_M
             ]
         )
-
-    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
-        return UNIT_RESPONSE * full.unit(answers)
 
 
 class SpotOffsetEffect(Effect):

@@ -17,7 +17,7 @@ from fitting.effects.clamp_span import ClampSpan, on_a_rim
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.given import Points
-from fitting.effects.number_off import moved
+from fitting.effects.number_off import changed_by_numbers
 from fitting.effects.released_rim import clamped_edges, on_edge
 from fitting.effects.released_root import along_root, on_root
 from fitting.effects.span import Span
@@ -151,7 +151,7 @@ class TreatmentEndsShortEffect(TreatmentOfBeamEffect):
         lift = g * plate.vector("root.strip_lift_1") + g**2 * plate.vector("root.strip_lift_2") / shorter
         x, y = plate.pickup
         observe = plate.row((x - g) / shorter, y) - plate.pickup_row
-        own = moved(plate, {"span": -self.clamps * g})
+        own = changed_by_numbers(plate, {"span": -self.clamps * g})
         return own.and_then(Change(K=spring + of("slide") / g, M=mass, load=lift, observe=observe))
 
     def story(self, u: Mapping[str, float]) -> str:

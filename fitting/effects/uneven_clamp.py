@@ -8,7 +8,12 @@ import scipy.sparse as sp
 from fitting.arrays import Array
 from fitting.effects.base import ROOT, Effect, EffectParameter
 from fitting.effects.change import Change
-from fitting.effects.clamp_compliance import STARTS_N_M3, ClampComplianceEffect, root_springs
+from fitting.effects.clamp_compliance import (
+    STARTS_N_M3,
+    BesideCompliance,
+    ClampComplianceEffect,
+    root_springs,
+)
 from fitting.effects.clamp_span import RootSpan
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
@@ -54,7 +59,7 @@ def uneven_springs(full: FullPlate) -> tuple[sp.csc_array, sp.csc_array]:
     return full.once("uneven springs", make)
 
 
-class UnevenClampEffect(Effect):
+class UnevenClampEffect(BesideCompliance, Effect):
     """Springs k (1 + slope (2 y / width - 1)) per area of the root face, slope = (ratio - 1) / (ratio + 1).
 
     `ratio` is of the far edge's springs to the near one's: slopes end where an edge is free, and fits of
@@ -70,8 +75,6 @@ class UnevenClampEffect(Effect):
         EffectParameter("ratio", "1", 1 / _MOST, _MOST, 2.0, logarithmic=True, neutral=1.0, mounting=0.6),
     )
     spans = (UnevenRoot(),)
-    extends = "clamp_compliance"
-    unexplained_share = ClampComplianceEffect.unexplained_share
     chance = 0.015
     discriminating_test = (
         "two spots at the same x, one on either side of the axis; the screws tightened by torque"
@@ -82,12 +85,6 @@ class UnevenClampEffect(Effect):
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.array([k, ratio]) for k in STARTS_N_M3 for ratio in _RATIOS]
-
-    def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
-        return ((ClampComplianceEffect(), u[:1]),)
-
-    def scaled(self, u: Array, a: float) -> Array:
-        return np.array([u[0] / a, u[1]])
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         k, ratio = u

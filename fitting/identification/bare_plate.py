@@ -18,7 +18,8 @@ from fitting.dynamics.air import air_lowering
 from fitting.dynamics.bare_modes import CarriedSensor, bare_modes, clamp_softness
 from fitting.errors import TooFewPoints
 from fitting.plate.part_matrices import projected_parts
-from fitting.plate.parts import coefficients, names_of
+from fitting.plate.part_names import names_of
+from fitting.plate.parts import coefficients
 from fitting.plate.plate import Plate
 from fitting.plate.plate_numbers import moved, tolerance
 from fitting.specimen import Specimen

@@ -13,6 +13,7 @@ from fitting.identification.adjusted import Adjusted
 from fitting.identification.as_stated import is_unlikely, pulled_together
 from fitting.identification.fit import Fit
 from fitting.identification.known_curve import KnownCurve, known_curve
+from fitting.identification.law_remarks import beyond_cores, gain_of_energy, hardly_known
 from fitting.identification.quoted import REFERENCE_FREQUENCIES_HZ
 from fitting.identification.uncertainty import Uncertainty, uncertainty_of
 from fitting.identification.validation import Validation, rms
@@ -28,12 +29,6 @@ _STRONG_CORRELATION = 0.99
 """Beyond, a pair's own errors are seven times what one has with the other known: a warning."""
 LOST_PERCENT = 30.0
 """Difference in amplitude beyond which a fit has not followed the data at all."""
-CORE_PA = (1e4, 2e8)
-"""G' of what is used as a core: soft gels and foams have 10 kPa, rubbers 0.3 to 10 MPa, damping polymers to
-some 100 MPa in their transition, where they damp; a glass of 1 GPa does not (the data sheets in Nashif, Jones
-and Henderson, Vibration Damping, 1985). What lies outside is nearly always a wrong unit."""
-_LARGE, _MOST = 0.3, 9.0
-"""Of a value, from which its standard error is one of its logarithm alone: 1.3 up is not 0.3 down."""
 _PULLED = 3.0
 """Tolerances that a stated number may be moved without a word."""
 _NAMED = 3
@@ -134,8 +129,8 @@ def summarise(
         validation=validation,
         band=band,
         warnings=(
-            *_gain_of_energy(band),
-            *_beyond_cores(band),
+            *gain_of_energy(band.frequency_hz, band.loss_factor),
+            *beyond_cores(band.storage_modulus_pa),
             *_hardly_known(band),
             *_warnings(sweep, fit, uncertainty, known),
             *further_warnings,
@@ -248,44 +243,12 @@ def _law_warnings(fitted: CoreLaw, uncertainty: Uncertainty) -> list[str]:
     return [*said, *law.objections()]
 
 
-def _gain_of_energy(band: LawBand) -> list[str]:
-    k = int(np.argmin(band.loss_factor))
-    if not band.loss_factor[k] < 0:
-        return []
-    return [
-        f"the loss factor is negative ({band.loss_factor[k]:.2g} at {band.frequency_hz[k]:.3g} Hz), which no "
-        "material has by itself: are phases those of e^{+i omega t}, and do both channels read alike?"
-    ]
-
-
-def _beyond_cores(band: LawBand) -> list[str]:
-    (low, high), storage = CORE_PA, band.storage_modulus_pa
-    if low <= np.median(storage) <= high:
-        return []
-    return [
-        f"G' is {1e-6 * storage.min():.3g} to {1e-6 * storage.max():.3g} MPa; cores have {1e-6 * low:g} to "
-        f"{1e-6 * high:g} MPa: are frequencies in Hz, accelerations in m/s^2, masses in kg, thicknesses in "
-        "mm, areas in mm^2, and all discs counted?"
-    ]
-
-
 def _hardly_known(band: LawBand) -> list[str]:
-    """Where the data say next to nothing of the core: errors are no longer small parts of it."""
-    said = []
-    each = (
-        ("G'", band.storage_modulus_pa, band.storage_modulus_standard_error_pa),
-        ("the loss factor", band.loss_factor, band.loss_factor_standard_error),
-    )
-    for name, value, error in each:
-        share = np.nan_to_num(error / np.abs(value))
-        k = int(np.argmax(share))
-        if share[k] > _LARGE:
-            said.append(
-                f"{name} is known within a factor of {np.exp(min(share[k], _MOST)):.2g} only at "
-                f"{band.frequency_hz[k]:.3g} Hz: an error as large is one of its logarithm, take the "
-                "interval by --uncertainty profile; the readings hardly feel the core there"
-            )
-    return said
+    G, eta = band.storage_modulus_pa, band.loss_factor
+    return [
+        *hardly_known("G'", band.frequency_hz, G, band.storage_modulus_standard_error_pa),
+        *hardly_known("the loss factor", band.frequency_hz, eta, band.loss_factor_standard_error),
+    ]
 
 
 def _looseness_warnings(law: CoreLaw, uncertainty: Uncertainty) -> list[str]:

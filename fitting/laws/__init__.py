@@ -15,13 +15,18 @@ def _judge(name: str, found: Any) -> type[CoreLaw]:
     return derived_from(CoreLaw, name, found, "kind")
 
 
+def _kind_of(law: type[CoreLaw]) -> str | None:
+    """Its name in files; None for a bent law, which has the kind of the law that it bends."""
+    found = vars(law).get("kind")
+    return found if isinstance(found, str) else None
+
+
 LAWS: Registry[type[CoreLaw]] = Registry(
     "viscorig.laws",
     {
-        law.kind: law
+        kind: law
         for law in CoreLaw.__subclasses__()
-        # A bent law has the kind of the law that it bends.
-        if law.__module__.startswith(f"{__name__}.") and isinstance(law.kind, str)
+        if law.__module__.startswith(f"{__name__}.") and (kind := _kind_of(law)) is not None
     },
     _judge,
 )

@@ -65,8 +65,12 @@ def fixed(file_key: str, *, to_si: float = 1.0) -> Any:
 class CoreLaw:
     """Complex shear modulus G*(omega) = G'(omega) (1 + i eta(omega)) of the core, in Pa."""
 
-    kind: ClassVar[str]
     source: ClassVar[str]
+
+    @property
+    def kind(self) -> str:
+        """The name of the law in files; a law of files has it as a class variable."""
+        raise NotImplementedError
 
     def __post_init__(self) -> None:
         for k, (value, limits) in enumerate(zip(self.values, self.limits, strict=True)):
@@ -174,7 +178,7 @@ class CoreLaw:
         return replace(self, **changed)
 
     def lifted(self) -> Self:
-        """The same law with zeros raised to where a search begins: a fit in logarithms cannot leave zero."""
+        """Parameters of zero raised to where a search begins: a fit in logarithms cannot leave zero."""
         return self.with_values(
             np.array(
                 [v if v >= q.lower else q.search[0] for v, q in zip(self.values, self.limits, strict=True)]

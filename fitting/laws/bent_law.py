@@ -66,7 +66,7 @@ class BentLaw(CoreLaw):
         return cls(law, knots, (1.0,) * (2 * count), freedom, slow, slow_reach)
 
     def freer(self, times: float) -> Self:
-        """The same modulus of a law that may bend so many times as far."""
+        """A law of this modulus that may bend so many times as far."""
         bend = tuple(float(b ** (1 / times)) for b in self.bend)
         return replace(self, bend=bend, freedom=self.freedom * times)
 
@@ -76,7 +76,7 @@ class BentLaw(CoreLaw):
         return self.law
 
     @property
-    def kind(self) -> str:  # type: ignore[override]
+    def kind(self) -> str:
         """Of the law that is bent."""
         return self.law.kind
 
@@ -106,7 +106,7 @@ class BentLaw(CoreLaw):
         return len({k % half for k in range(2 * half) if f"bend_{k + 1}" in at_limit})
 
     def with_values(self, values: Array) -> Self:
-        """The same law with other parameters and another bend. Shape (names,)."""
+        """Formula and knots kept, with other parameters and another bend. Shape (names,)."""
         n = len(self.law.names)
         bend = tuple(float(v) for v in values[n:])
         return replace(self, law=self.law.with_values(values[:n]), bend=bend)
@@ -120,7 +120,7 @@ class BentLaw(CoreLaw):
         return self.law.breaches()
 
     def breaches_by_logs(self) -> Array:
-        """The same of its derivatives: the bend does not enter. Shape (rows, names)."""
+        """Derivatives as the law without a bend has them: the bend does not enter. Shape (rows, names)."""
         own = self.law.breaches_by_logs()
         return np.hstack([own, np.zeros((len(own), len(self.bend)))])
 

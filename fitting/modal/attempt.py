@@ -16,7 +16,7 @@ _LONGEST = 80
 
 
 def refusing(fit: Callable[P, R]) -> Callable[P, R | Refusal]:
-    """The same, which refuses where the numbers are beyond what can be computed with."""
+    """Make a fit refuse where its numbers are beyond what can be computed with."""
 
     @wraps(fit)
     def attempt(*args: P.args, **kwargs: P.kwargs) -> R | Refusal:

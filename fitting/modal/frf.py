@@ -47,7 +47,7 @@ class DampingEstimate:
     """Standard error of the frequency; NaN where the method does not say."""
 
     def off_by(self, other: "DampingEstimate") -> "DampingEstimate":
-        """The same, known so much worse as another way of reading it differs."""
+        """The estimate known so much worse as another way of reading it differs."""
         return self.wider(abs(other.ratio - self.ratio), abs(other.frequency_hz - self.frequency_hz))
 
     def wider(self, ratio: float, frequency_hz: float) -> "DampingEstimate":

@@ -17,8 +17,8 @@ from fitting.mode_tables.member import Member
 from fitting.mode_tables.table import ModalTable
 from fitting.nuisances.nuisances import Nuisances, nuisances_of
 from fitting.plate.element import THETA_X, THETA_Y, W
+from fitting.plate.layers_array import layers_of
 from fitting.plate.part_matrices import load_part, on_motions, projected_parts
-from fitting.plate.parts import layers_of
 from fitting.plate.plate import Plate
 from fitting.specimen import Specimen
 from fitting.stated.tolerances import PLATE

@@ -110,7 +110,17 @@ def _of_mode(beam: Beam, method: str, n: int, f: float, eta: float, bare_hz: flo
     young = young_of_bare(n, bare_hz, beam.length_m, face.thickness_m, face.density_kg_m3)
     D = core.density_kg_m3 / face.density_kg_m3
     if method == _SANDWICH:
-        return sandwich(young, face.thickness_m, core.thickness_m, D, beam.length_m, n, bare_hz, f, eta)
+        return sandwich(
+            young_pa=young,
+            face_thickness_m=face.thickness_m,
+            core_thickness_m=core.thickness_m,
+            density_ratio=D,
+            length_m=beam.length_m,
+            mode=n,
+            bare_hz=bare_hz,
+            treated_hz=f,
+            loss_factor=eta,
+        )
     formula = oberst if method == "oberst" else van_oort
     return formula(young, core.thickness_m / face.thickness_m, D, f / bare_hz, eta, n)
 

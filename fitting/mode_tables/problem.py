@@ -14,7 +14,6 @@ from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.response.unknowns import Unknowns
 from fitting.diagnosis.several.member_laws import by_all, law_at
 from fitting.diagnosis.several.of_files import Place, inner_of, own_unknowns
-from fitting.diagnosis.several.sharing import OF_EACH_KELVIN
 from fitting.effects.base import Effect
 from fitting.effects.given import Points
 from fitting.identification.adjusted import Adjusted, adjusted
@@ -23,9 +22,13 @@ from fitting.mode_tables.build import with_own_error
 from fitting.mode_tables.member import Member
 from fitting.nuisances.nuisance import Nuisance
 from fitting.nuisances.nuisances import Nuisances
+from fitting.stated.tolerances import of_scope
 
-OF_EACH_TABLE = ("mass", "length", "width", "damping")
-"""Kinds of stated numbers that are another one in every specimen's table, though they are stated alike."""
+OF_EACH_TABLE = frozenset(of_scope("specimen", "mounting")) - {"place"}
+"""Kinds of stated numbers that are another one in every specimen's table, though they are stated alike.
+
+Where a mass sits is one number of all tables, as far as it is stated alike.
+"""
 _STEP = 1e-4
 """Of differences, of an unknown's typical size."""
 
@@ -56,7 +59,7 @@ class ModalProblem:
                 whose = None
                 if n.kind in OF_EACH_TABLE and len(set(numbers)) > 1:
                     whose = specimen
-                elif n.kind in OF_EACH_KELVIN and len(members) > 1:
+                elif n.kind in of_scope("temperature") and len(members) > 1:
                     whose = table
                 alike = (n.name, n.sigma, _as_stated(m, n).stated)
                 key = alike if whose is None else (n.name, whose)

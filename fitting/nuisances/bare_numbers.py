@@ -10,16 +10,17 @@ from fitting.nuisances.stated_coefficients import PlateCoefficients
 from fitting.nuisances.sums import Kept
 from fitting.plate.parts import coefficients
 from fitting.stated.patches import OF_PATCHES
+from fitting.stated.tolerances import of_scope
 
 _MOST_BARE = 512
 """Sets of a bare plate's few coefficients kept: derivatives about some twenty places of its numbers."""
 _TREATMENT = ("constraining", "core", "glue", *OF_PATCHES)
-_OF_A_MOUNTING = ("length", "axial")
+_OF_A_MOUNTING = of_scope("mounting", "temperature")
 
 
 @dataclass(frozen=True)
 class BareNumbers:
-    """Those of one treated plate's numbers that its bare plate has too."""
+    """Numbers of one treated plate that its bare plate has too."""
 
     stated: PlateCoefficients
 

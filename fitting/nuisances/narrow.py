@@ -14,7 +14,10 @@ from fitting.arrays import Array, Complex
 from fitting.nuisances.nuisance import Nuisance
 
 THEORY = "theory"
-"""Name of the one cause by which all of them are off, each in the sense that exact elasticity says."""
+"""Name of the theory-error nuisance shared by all narrow resonances.
+
+Each is off in the sense that exact elasticity says.
+"""
 NARROW = 0.03
 """Shift by one standard deviation over half the width, from which its square matters (0.1 % of a peak)."""
 

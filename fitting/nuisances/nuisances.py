@@ -51,9 +51,9 @@ class Nuisances:
     specimen: Specimen
     each: tuple[Nuisance, ...] = ()
     like: Specimen | None = None
-    """Whose parts and row the plate has, where they are not the specimen's own: one as long in elements."""
+    """Specimen whose mesh, parts and row the reduced plate uses; None: this one."""
     narrow: NarrowResonances = field(default_factory=NarrowResonances, kw_only=True)
-    """Whose places are numbers of the fit; the last of `each` are theirs."""
+    """Narrow resonances fitted as unknowns; their numbers are the last of `each`."""
 
     def __len__(self) -> int:
         return len(self.each)
@@ -70,7 +70,7 @@ class Nuisances:
 
     @property
     def reference(self) -> Specimen:
-        """Specimen whose mesh, parts and row the reduced plate uses."""
+        """Specimen that the reduced plate was built for."""
         return self.like or self.specimen
 
     @cached_property
@@ -119,7 +119,7 @@ class Nuisances:
         return [(k, int(n.name.split("_")[1]) - 1) for k, n in enumerate(self.each) if n.kind == "damping"]
 
     @cached_property
-    def _kept_parts(self) -> "SideBySide":
+    def _kept_parts(self) -> SideBySide:
         return SideBySide()
 
     def change(self, plate: EnrichedReducedPlate, z: Array) -> Change:

@@ -14,7 +14,8 @@ from fitting.arrays import Array
 from fitting.nuisances.nuisance import Nuisance
 from fitting.nuisances.sums import Kept
 from fitting.plate.part_counts import PartCounts
-from fitting.plate.parts import coefficients, names_of
+from fitting.plate.part_names import names_of
+from fitting.plate.parts import coefficients
 from fitting.plate.plate_numbers import moved
 from fitting.specimen import Specimen
 from fitting.stated.tolerances import PLATE
@@ -27,7 +28,7 @@ _FELT = 0.3
 
 @dataclass(frozen=True)
 class StatedCoefficients(ABC):
-    """Those of K_0, K_1, M and the load, one after another."""
+    """Coefficients of K_0, K_1, M and the load, one after another."""
 
     each: tuple[Nuisance, ...]
     """All numbers of the fit."""
@@ -51,7 +52,7 @@ class StatedCoefficients(ABC):
     @cached_property
     @abstractmethod
     def as_stated(self) -> Array:
-        """The same of the structure whose parts they multiply. Shape (parts + loads,)."""
+        """Coefficients of the structure whose parts they multiply. Shape (parts + loads,)."""
 
     @abstractmethod
     def by(self, z: Array) -> Array:
@@ -84,7 +85,7 @@ class StatedCoefficients(ABC):
 
 @dataclass(frozen=True)
 class PlateCoefficients(StatedCoefficients):
-    """Those of a plate on the mesh and the parts of another one like it."""
+    """Coefficients of a plate on the mesh and the parts of another one like it."""
 
     specimen: Specimen
     reference: Specimen

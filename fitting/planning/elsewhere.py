@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Place
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances.nuisance import Nuisance
 from fitting.nuisances.nuisances import Nuisances
@@ -12,8 +12,6 @@ from fitting.plate.mesh import Mesh
 from fitting.plate.plate_numbers import tolerance
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
-
-Place = tuple[float, float]
 
 
 def read_elsewhere(

@@ -99,7 +99,7 @@ def effects_at(
 def unknowns_of(
     fitted: Refitted, further: FurtherReadings, place: Place, names: Mapping[str, int]
 ) -> UnknownsOfReadings:
-    """Those of readings at a place, at the fit's values where the fit has them.
+    """Unknowns of readings at a place, at the fit's values where the fit has them.
 
     `names`: the first sweep's stated numbers, and where each is among those fitted.
     """

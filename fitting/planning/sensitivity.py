@@ -90,6 +90,7 @@ def sensitivity(
     problem: DiagnosisProblem,
     reduced: ReducedPlate,
     law: CoreLaw,
+    *,
     z: Array,
     noise: ReadingNoise | Array,
     dwell_s: Array,

@@ -25,7 +25,7 @@ from fitting.plate.element import (
     slip_stiffness,
 )
 from fitting.plate.mesh import SHIFT_M, Cell, cells_of, is_turned, mesh_of
-from fitting.plate.parts import (
+from fitting.plate.part_names import (
     GLUE,
     MASS,
     OFF_AXIS,
@@ -36,9 +36,9 @@ from fitting.plate.parts import (
     STIFFNESS,
     W_TREATED,
     Names,
-    coefficients,
     names_of,
 )
+from fitting.plate.parts import coefficients
 from fitting.plate.plate import Plate
 from fitting.plate.plate_numbers import moved
 from fitting.specimen import Specimen
@@ -143,9 +143,10 @@ def _shifted(
             for to, more in zip((K_0, K_1, M), _treated(shape, names, rectangle), strict=True):
                 to += sign / (2 * SHIFT_M) * more
     c = coefficients(reference, reference)
-    return tuple(
+    dK_0, dK_1, dM = (
         np.tensordot(f.real, P, axes=1) for f, P in zip((c.K_0, c.K_1, c.M), (K_0, K_1, M), strict=True)
-    )  # type: ignore[return-value]
+    )
+    return dK_0, dK_1, dM
 
 
 def load_part(reference: Specimen) -> Array:

@@ -8,99 +8,19 @@ another modulus, thickness, density, Poisson's ratio, length or width has the sa
 once serves all of them exactly on its basis. Where a patch lies enters to first order.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
-from fitting.laws.constant import ConstantModulus
 from fitting.plate.element import DOFS, GLUE_TURNS, THETA_X, THETA_Y, face_plane_stress
 from fitting.plate.face_shear import slip_of
 from fitting.plate.mesh import is_turned
-from fitting.plate.part_counts import PartCounts
+from fitting.plate.part_names import CORE, MASS, MEMBRANE, SHEARED, TURNED
 from fitting.specimen import Specimen
-from fitting.stated.layers import Core, Face, Glue, Orthotropy
-from fitting.stated.patches import Patch, shifts_of
-
-_LAYER = ("thickness_m", "young_pa", "poisson", "density_kg_m3", "loss_factor")
-_MEMBRANE = ("11", "22", "12", "66 yy", "66 xx", "66 xy")
-_BENDING = ("11", "22", "12", "66")
-STIFFNESS = (
-    *(f"stretch b {t}" for t in _MEMBRANE),
-    *(f"stretch c {t}" for t in _MEMBRANE),
-    *(f"bend {t}" for t in _BENDING),
-)
-CORE = ("slip x", "slip y", "slip bend x", "slip bend y", "bend x", "bend y", "stretch")
-MASS = ("w", "u b", "u c", "core u", "core u bend x", "core u bend y", "core bend x", "core bend y")
-_TURNED = ("16 y", "16 x", "26 y", "26 x")
-_BENDING_TURNED = ("16", "26")
-OFF_AXIS = (
-    *(f"stretch b {t}" for t in _TURNED),
-    *(f"stretch c {t}" for t in _TURNED),
-    *(f"bend {t}" for t in _BENDING_TURNED),
-)
-"""Of faces whose own axes are not the plate's, behind `STIFFNESS`."""
-PATCHED = tuple(f"bend c {t}" for t in _BENDING)
-PATCHED_OFF_AXIS = tuple(f"bend c {t}" for t in _BENDING_TURNED)
-"""Where not all of the plate is treated: `bend` is then the substrate's alone."""
-W_TREATED, GLUE = "w treated", "glue"
-"""Behind those: inertia of the treatment up and down; the slip beside the core, of glue or of faces that
-shear, in inertia the glue's alone."""
-SHEARED = (
-    *(f"turn {t}" for t in ("11", "22", "12 x", "12 y", "66 x", "66 y")),
-    *(f"section {t}" for t in _MEMBRANE),
-)
-"""Of faces that the core shears, behind `GLUE`: curvatures times the slip's derivatives, then these alone."""
-PULLED = {"x": "pull x", "y": "pull y"}
-"""Along clamps on opposite edges."""
-_AXES = ("young_y_pa", "shear_pa", "angle_rad")
-_GLUE = ("thickness_m", "shear_pa", "density_kg_m3", "loss_factor")
-_PATCH = ("from_x_m", "to_x_m", "from_y_m", "to_y_m")
-_SUBSTRATE, _CONSTRAINING, _CORE, _GLUES, _WHOLE, _PATCHES = 0, 1, 2, 3, 5, 6
-"""Rows of `layers_of`: each layer's, the first of glue, that of the plate as a whole, the first patch's."""
-_OF_WHOLE: dict[str, Callable[[Specimen], float]] = {
-    "both_sides": lambda s: s.both_sides,
-    "pulled_x": lambda s: "x" in s.pulled_along,
-    "pulled_y": lambda s: "y" in s.pulled_along,
-    "axial_x_pa": lambda s: s.axial_pa[0] or 0.0,
-    "axial_y_pa": lambda s: s.axial_pa[1] or 0.0,
-    "faces_shear": lambda s: s.faces_shear,
-}
-"""The numbers of row `_WHOLE` in their order, each with where it is read; a model's cached file has it so."""
-
-
-@dataclass(frozen=True)
-class Names:
-    """Of the parts of one plate."""
-
-    K_0: tuple[str, ...]
-    K_1: tuple[str, ...]
-    M: tuple[str, ...]
-
-    @property
-    def counts(self) -> PartCounts:
-        """How many of each."""
-        return PartCounts(len(self.K_0), len(self.K_1), len(self.M))
-
-
-def names_of(specimen: Specimen) -> Names:
-    """`STIFFNESS`, `CORE`, `MASS`, then what few have: turned axes, patches, slip, pull, shifts; no shape."""
-    K_0: tuple[str, ...] = STIFFNESS
-    M: tuple[str, ...] = MASS
-    turned = is_turned(specimen)
-    if turned:
-        K_0 += OFF_AXIS
-    if specimen.patches:
-        K_0 += PATCHED + (PATCHED_OFF_AXIS if turned else ())
-        M += (W_TREATED,)
-    if specimen.slips:
-        K_0 += (GLUE, *SHEARED) if specimen.faces_shear else (GLUE,)
-        M += (GLUE,)
-    K_0 += tuple(PULLED[a] for a in specimen.pulled_along)
-    shifts = tuple(shift.name for shift in shifts_of(specimen))
-    return Names(K_0 + shifts, CORE + shifts, M + shifts)
+from fitting.stated.layers import Face
+from fitting.stated.patches import shifts_of
 
 
 @dataclass(frozen=True)
@@ -287,71 +207,6 @@ def substrate_coefficients(face: Face) -> Complex:
     return np.concatenate([_stretch(face, 1.0, 1.0), _stretch(None, 1.0, 1.0), _bend(face)])
 
 
-def layers_of(specimen: Specimen) -> Array:
-    """What `coefficients` asks of substrate, constraining layer and core, in the order of `_LAYER`.
-
-    Zero where a layer is missing or has no such number. Shape (3, 5). What few plates have besides is behind:
-    own axes of a face in three columns more (`_AXES`), then rows of two layers of glue (`_GLUE`), of the
-    plate as a whole (`_OF_WHOLE`), and of patches (`_PATCH`). Shape (6 + patches, 8).
-    """
-    s = specimen
-    each = (s.substrate, s.constraining, s.core)
-    plain = np.array([[getattr(layer, name, 0.0) for name in _LAYER] for layer in each])
-    axes = [face.rolled for face in (s.substrate, s.constraining) if face is not None]
-    if not (any(axes) or s.patches or s.both_sides or s.slips or s.pulled_along):
-        return plain
-    found = np.zeros((_PATCHES + len(s.patches), len(_LAYER) + len(_AXES)))
-    found[: len(each), : len(_LAYER)] = plain
-    for row, face in ((_SUBSTRATE, s.substrate), (_CONSTRAINING, s.constraining)):
-        if face is not None and face.rolled is not None:
-            found[row, len(_LAYER) :] = [getattr(face.rolled, name) for name in _AXES]
-    for row, glue in enumerate(s.core.glue if s.core is not None else (), _GLUES):
-        found[row, : len(_GLUE)] = [getattr(glue, name) for name in _GLUE]
-    found[_WHOLE, : len(_OF_WHOLE)] = [read(s) for read in _OF_WHOLE.values()]
-    for row, patch in enumerate(s.patches, _PATCHES):
-        found[row, : len(_PATCH)] = [getattr(patch, name) for name in _PATCH]
-    return found
-
-
-def specimen_of(size: Array, layers: Array) -> Specimen:
-    """As far as `coefficients` asks: `size` gives length and width in m and elements along each.
-
-    Shapes (4,) and (3, 5) or more, see `layers_of`.
-    """
-    n = len(_LAYER)
-    substrate, constraining = (
-        replace(Face(*row[:n]), rolled=Orthotropy(*row[n:]) if any(row[n:]) else None)
-        for row in layers[[_SUBSTRATE, _CONSTRAINING]].tolist()
-    )
-    core_numbers = dict(zip(_LAYER, layers[_CORE, :n].tolist(), strict=True))
-    length, width, n_x, n_y = size.tolist()
-    whole = dict.fromkeys(_OF_WHOLE, 0.0)
-    if len(layers) > _WHOLE:
-        whole = dict(zip(_OF_WHOLE, layers[_WHOLE, : len(_OF_WHOLE)].tolist(), strict=True))
-    axial = (
-        whole["axial_x_pa"] if whole["pulled_x"] else None,
-        whole["axial_y_pa"] if whole["pulled_y"] else None,
-    )
-    plain = Specimen(length, width, "free", substrate, elements=(int(n_x), int(n_y)), axial_pa=axial)
-    if not core_numbers["thickness_m"]:
-        return plain
-    core = Core(
-        core_numbers["thickness_m"],
-        core_numbers["poisson"],
-        core_numbers["density_kg_m3"],
-        law=ConstantModulus(1e6, 0.0),
-        glue=tuple(Glue(*row[: len(_GLUE)]) for row in layers[_GLUES:_WHOLE].tolist() if row[0]),
-    )
-    return replace(
-        plain,
-        constraining=constraining,
-        core=core,
-        both_sides=bool(whole["both_sides"]),
-        faces_shear=bool(whole["faces_shear"]),
-        patches=tuple(Patch(*row[: len(_PATCH)]) for row in layers[_PATCHES:].tolist()),
-    )
-
-
 def stretched(specimen: Specimen, reference: Specimen) -> Array:
     """Factors on a node's motions in the reference's shapes, on a stretched plate. Shape (DOFS,)."""
     found = np.ones(DOFS)
@@ -378,7 +233,7 @@ def _bend(face: Face | None, *, turned: bool = False) -> Complex:
 
 def _stretch(face: Face | None, rx: float, ry: float) -> NDArray[np.complex128]:
     if face is None:
-        return np.zeros(len(_MEMBRANE), complex)
+        return np.zeros(len(MEMBRANE), complex)
     Q_11, Q_22, Q_12, Q_66 = _plane_stress(face)
     parts = np.array([Q_11 * rx**2, Q_22 * ry**2, Q_12 * rx * ry, Q_66 * ry**2, Q_66 * rx**2, Q_66 * rx * ry])
     return np.asarray((1 + 1j * face.loss_factor) * face.thickness_m * parts)
@@ -400,7 +255,7 @@ def _turn(face: Face | None, turn: complex, sides: _Sides) -> Complex:
 
 def _stretch_turned(face: Face | None, rx: float, ry: float) -> NDArray[np.complex128]:
     if face is None:
-        return np.zeros(len(_TURNED), complex)
+        return np.zeros(len(TURNED), complex)
     Q_16, Q_26 = face_plane_stress(face)[:2, 2]
     parts = np.array([Q_16 * rx * ry, Q_16 * rx**2, Q_26 * ry**2, Q_26 * rx * ry])
     return np.asarray((1 + 1j * face.loss_factor) * face.thickness_m * parts)

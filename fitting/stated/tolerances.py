@@ -1,4 +1,4 @@
-"""What is stated is not known: every kind of stated number with its tolerance.
+"""Every kind of stated number and its tolerance.
 
 A tolerance is the standard deviation of a stated number about the truth: relative, in the number's
 logarithm, or in its SI unit. Where a specimen names none, a careful laboratory's typical one stands
@@ -10,6 +10,18 @@ from math import pi, radians
 from typing import Literal, NamedTuple
 
 Unit = Literal["1", "m", "s", "rad", "1/K", "Pa"]
+Scope = Literal["alike", "specimen", "mounting", "temperature", "file", "spot", "channel", "chain"]
+"""What has a number of its own, however alike it is stated:
+
+* `alike`: nothing; all that is stated alike is the same, as sheets that specimens are cut from.
+* `specimen`: each specimen.
+* `mounting`: each time that one is mounted.
+* `temperature`: each file of one mounting, as what clamps pull goes with the temperature.
+* `file`: each file; its spots share it.
+* `spot`: each spot, but not again where the specimen stays and is read there once more.
+* `channel`: each spot of each file, as channels are calibrated anew or drift.
+* `chain`: each pair of accelerometer, or hammer, and laser: alike in all files that are driven alike.
+"""
 
 
 class Shown(NamedTuple):
@@ -25,6 +37,32 @@ MM, MM2, HZ = Shown("mm", 1e3), Shown("mm^2", 1e6), Shown("Hz", 1.0)
 US, DEG = Shown("us", 1e6), Shown("deg", 180 / pi)
 GPA, MPA = Shown("GPa", 1e-9), Shown("MPa", 1e-6)
 KG_M3, GRAM, KG = Shown("kg/m^3", 1.0), Shown("g", 1e3), Shown("kg", 1.0)
+
+
+class InFiles(NamedTuple):
+    """How files and tables of tolerances say a standard deviation."""
+
+    ending: str
+    """Of the file's key."""
+    unit: str
+    """For people."""
+    to_si: float
+
+    @property
+    def from_si(self) -> float:
+        """Times what is kept, what files and tables say."""
+        return 1 / self.to_si
+
+
+IN_FILES: dict[Unit, InFiles] = {
+    "1": InFiles("percent", "%", 1e-2),
+    "m": InFiles("mm", "mm", 1e-3),
+    "s": InFiles("us", "µs", 1e-6),
+    "rad": InFiles("deg", "°", pi / 180),
+    "1/K": InFiles("percent", "%/K", 1e-2),
+    "Pa": InFiles("mpa", "MPa", 1e6),
+}
+"""By the unit that a tolerance is kept in."""
 
 
 class StatedValue(NamedTuple):
@@ -52,6 +90,8 @@ class StatedNumber:
     """Where a specimen, or its layer, keeps it in SI; empty where that is a matter of several numbers."""
     unstated: float | None = None
     """In SI, what it is by itself: no specimen states it. None: one does."""
+    scope: Scope = "alike"
+    """What has one of its own."""
 
     @property
     def layer(self) -> str:
@@ -98,8 +138,8 @@ _STATED = (
     _of_layer("core_thickness", 0.03, "the difference of two thicknesses, or a data sheet"),
     _of_layer("core_density", 0.02, "data sheets of polymers"),
     _of_layer("core_poisson", 0.01, "rubbery: between 0.48 and 0.5"),
-    StatedNumber("length", "m", 3e-4, "where the clamp's edge bites", MM, "length_m"),
-    StatedNumber("width", "m", 1e-4, "a caliper", MM, "width_m"),
+    StatedNumber("length", "m", 3e-4, "where the clamp's edge bites", MM, "length_m", scope="mounting"),
+    StatedNumber("width", "m", 1e-4, "a caliper", MM, "width_m", scope="specimen"),
     StatedNumber(
         "pickup",
         "m",
@@ -107,20 +147,55 @@ _STATED = (
         "a laser's spot of half a millimetre, placed by a rule; each coordinate",
         MM,
         "pickup_m",
-    ),
-    StatedNumber("force", "m", 1e-3, "a hammer aimed by hand at a mark; each coordinate", MM, "force_m"),
-    StatedNumber(
-        "damping", "1", 0.1, "a bare plate's ratios from one mounting to the next; each mode", PERCENT
-    ),
-    StatedNumber("gain", "1", 0.003, "two calibrated channels", PLAIN, unstated=1.0),
-    StatedNumber(
-        "delay", "s", 2e-6, "decoder against accelerometer, a known delay taken out", US, unstated=0.0
+        scope="spot",
     ),
     StatedNumber(
-        "phase", "rad", radians(0.1), "decoder against accelerometer, what a delay leaves", DEG, unstated=0.0
+        "force",
+        "m",
+        1e-3,
+        "a hammer aimed by hand at a mark; each coordinate",
+        MM,
+        "force_m",
+        scope="file",
     ),
-    StatedNumber("mass", "1", 0.02, "what sits on the plate, on a letter balance", GRAM, "mass_kg"),
-    StatedNumber("place", "m", 5e-4, "where a mass sits, by a rule from the free end; each coordinate", MM),
+    StatedNumber(
+        "damping",
+        "1",
+        0.1,
+        "a bare plate's ratios from one mounting to the next; each mode",
+        PERCENT,
+        scope="mounting",
+    ),
+    StatedNumber("gain", "1", 0.003, "two calibrated channels", PLAIN, unstated=1.0, scope="channel"),
+    StatedNumber(
+        "delay",
+        "s",
+        2e-6,
+        "decoder against accelerometer, a known delay taken out",
+        US,
+        unstated=0.0,
+        scope="channel",
+    ),
+    StatedNumber(
+        "phase",
+        "rad",
+        radians(0.1),
+        "decoder against accelerometer, what a delay leaves",
+        DEG,
+        unstated=0.0,
+        scope="chain",
+    ),
+    StatedNumber(
+        "mass", "1", 0.02, "what sits on the plate, on a letter balance", GRAM, "mass_kg", scope="specimen"
+    ),
+    StatedNumber(
+        "place",
+        "m",
+        5e-4,
+        "where a mass sits, by a rule from the free end; each coordinate",
+        MM,
+        scope="mounting",
+    ),
     StatedNumber("area", "1", 0.01, "a disc's diameters by caliper", MM2, "area_m2"),
     StatedNumber(
         "axial",
@@ -130,6 +205,7 @@ _STATED = (
         "millimetre as they are tightened",
         MPA,
         "axial_pa",
+        scope="temperature",
     ),
     _of_layer("substrate_young_per_k", 2e-4, "from steel to aluminium; stated, half of it"),
     _of_layer("constraining_young_per_k", 2e-4, "as the substrate's"),
@@ -171,6 +247,13 @@ OF_THEORY = {
 """Numbers that a theory leaves open: nobody states them, and no file names them."""
 NUMBERS = STATED | OF_THEORY
 """Every kind of either."""
+
+
+def of_scope(*scopes: Scope) -> tuple[str, ...]:
+    """Kinds of numbers that these have of their own, in the order of `NUMBERS`."""
+    return tuple(name for name, number in NUMBERS.items() if number.scope in scopes)
+
+
 OF_NARROW = ("resonance", "loss", "theory")
 """Those of narrow resonances (`fitting.nuisances.narrow`)."""
 ADDED = ("gain", "metal_loss", "loss", "theory")

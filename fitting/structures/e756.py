@@ -79,6 +79,7 @@ def van_oort(
 
 
 def sandwich(
+    *,
     young_pa: float,
     face_thickness_m: float,
     core_thickness_m: float,

@@ -103,7 +103,7 @@ class SmallSpecimen(StatedSpecimen, Protocol):
 
 @dataclass(frozen=True)
 class SmallCoefficients(StatedCoefficients):
-    """Those of a small structure's parts, as functions of its stated numbers."""
+    """Coefficients of a small structure's parts, as functions of its stated numbers."""
 
     specimen: SmallSpecimen
     parts: Parts
@@ -223,7 +223,7 @@ def system_of(
 def widened_system_of(
     specimen: SmallSpecimen, parts: Parts, by: Mapping[str, float] | None = None
 ) -> SmallSystem:
-    """The same with the unknowns that effects need."""
+    """System with the additional unknowns that effects need."""
     counts = parts.counts
     c = specimen.coefficients(by or {})
     k = parts.unknowns

@@ -17,7 +17,7 @@ _HELD_ENDS = {"clamped-free": 1, "free-free": 0, "clamped-clamped": 2, "centre-d
 
 
 @dataclass(frozen=True)
-class StatedBeam(Driven):
+class StatedBeam(Driven[float]):
     """What is stated of it, in SI units; x from a clamped end, or from the centre where that is driven."""
 
     length_m: float
@@ -76,17 +76,6 @@ class StatedBeam(Driven):
         """Where it is read, and where a force drives it, in m: stated numbers too."""
         stated = {"pickup": self.pickup_m, "force": self.force_m}
         return {name: x for name, x in stated.items() if x is not None}
-
-    @property
-    def pickups_m(self) -> tuple[float, ...]:
-        """All spots, in the order of their numbers from 0."""
-        return () if self.pickup_m is None else (self.pickup_m, *self.further_pickups_m)
-
-    def at_pickup(self, number: int) -> Self:
-        """The same beam read at one of its spots."""
-        if not self.further_pickups_m:
-            return self
-        return replace(self, pickup_m=self.pickups_m[number], further_pickups_m=())
 
     def at_temperature(self, temperature_c: float) -> Self:
         """The same beam warmer or colder; an exact one that states nothing of its metal is as stated."""

@@ -61,7 +61,7 @@ def explains(fit: ShiftedFit) -> bool:
 
 
 def common(effects: Sequence[Effect]) -> list[Effect]:
-    """Those that a plate and its rig may have at every temperature alike."""
+    """Effects that a plate and its rig may have at every temperature alike."""
     return [e for e in effects if e.enters in _ENTRIES and not e.replaces_law and e.parameters]
 
 

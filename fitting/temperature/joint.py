@@ -69,12 +69,12 @@ class TemperatureProblem:
         return self.joined.bands_hz
 
     def near(self, laws: Sequence[CoreLaw]) -> "TemperatureProblem":
-        """The same, what the model gets wrong asked where one law through the laws of each lies."""
+        """The problem, the model's error asked where one law through the laws of each lies."""
         begin = self.one_law(laws)
         return replace(self, joined=self.joined.erring_at(begin), begin=begin)
 
     def erring_at(self, law: OneLaw) -> "TemperatureProblem | None":
-        """The same, what the model gets wrong asked at a law found; None of sweeps, not asked again."""
+        """The problem, the model's error asked at a law found; None of sweeps, not asked again."""
         joined = self.joined.erring_at(law)
         return replace(self, joined=joined, begin=law) if joined is not self.joined else None
 
@@ -111,7 +111,7 @@ class TemperatureProblem:
         return found
 
     def freer(self, fit: ShiftedFit) -> ShiftedFit | None:
-        """The same fit of one law that may bend further; None where it may not bend."""
+        """A fit of one law that may bend further than in `fit`; None where it may not bend."""
         joint = fit.joint
         if not isinstance(joint.law, BentLaw):
             return None

@@ -94,10 +94,10 @@ class Joined(Protocol):
         """What effects may ask of the specimen."""
 
     def around(self, law: CoreLaw) -> Self:
-        """The same, ready to answer near a law."""
+        """These members, ready to answer near a law."""
 
     def erring_at(self, law: CoreLaw) -> Self:
-        """The same, what the model gets wrong asked at a law."""
+        """These members, the model's error asked at a law."""
 
     def response(self, effects: Sequence[Effect]) -> Response:
         """What all members read under some effects."""

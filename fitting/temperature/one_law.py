@@ -43,7 +43,7 @@ class OneLaw(MemberLaws):
     """Of each sweep, e to the power of standard deviations; none where temperatures are as stated."""
 
     @property
-    def kind(self) -> str:  # type: ignore[override]
+    def kind(self) -> str:
         """Of the law that is shifted."""
         return self.law.kind
 
@@ -90,7 +90,7 @@ class OneLaw(MemberLaws):
         return np.asarray((high - low) / np.sqrt(12.0))
 
     def with_values(self, values: Array) -> Self:
-        """The same with other parameters. Shape (names,)."""
+        """Law, shift and temperatures with other parameters, in the order of `names`. Shape (names,)."""
         n, m, v, bend = self._own, len(self.theta), len(self.b), self.law.bend_count
         own, theta, b, bent, warmer = np.split(values, np.cumsum([n, m, v, bend]))
         law = self.law.with_values(np.concatenate([own, bent]))
@@ -159,7 +159,7 @@ class OwnLaws(MemberLaws):
     points: tuple[int, ...]
 
     @property
-    def kind(self) -> str:  # type: ignore[override]
+    def kind(self) -> str:
         """Of every one of them."""
         return self.laws[0].kind
 
@@ -218,7 +218,7 @@ class OwnLaws(MemberLaws):
         return np.concatenate([law.search_widths for law in self.laws])
 
     def with_values(self, values: Array) -> Self:
-        """The same with other parameters. Shape (names,)."""
+        """Every law with other parameters, in the order of `names`. Shape (names,)."""
         laws = [
             law.with_values(np.concatenate([values[own], values[bend]]))
             for (own, bend), law in zip(self._places(), self.laws, strict=True)

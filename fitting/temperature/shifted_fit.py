@@ -182,7 +182,7 @@ class ShiftedFit:
 
     @property
     def temperature_chance(self) -> float:
-        """That temperatures are so far off by what is said of their error; 1 where they are exact."""
+        """Chance that temperatures are so far off by what is said of their error; 1 where they are exact."""
         if self.thermometers < _TOLD:
             return 1.0
         return float(chi2_above(float(self.joint.off @ self.joint.off), self.thermometers))

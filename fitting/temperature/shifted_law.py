@@ -26,7 +26,7 @@ class ShiftedLaw(CoreLaw):
     b: float = 1.0
 
     @property
-    def kind(self) -> str:  # type: ignore[override]
+    def kind(self) -> str:
         """Of the law that is shifted."""
         return self.law.kind
 
@@ -46,7 +46,7 @@ class ShiftedLaw(CoreLaw):
         return [*self.law.limits, _FACTOR, _FACTOR]
 
     def with_values(self, values: Array) -> Self:
-        """The same with other parameters. Shape (names,)."""
+        """The shifted law with other parameters, in the order of `names`. Shape (names,)."""
         return replace(self, law=self.law.with_values(values[:-2]), a=float(values[-2]), b=float(values[-1]))
 
     def modulus(self, omega: Array) -> Complex:

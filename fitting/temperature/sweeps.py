@@ -126,7 +126,7 @@ class Sweeps:
         return replace(self, problem=self.problem.around(law))
 
     def erring_at(self, law: CoreLaw) -> Self:
-        """Itself: each has its model's error from its own law, which a sweep tells well."""
+        """These members: each has its model's error from its own law, which a sweep tells well."""
         return self
 
     def response(self, effects: Sequence[Effect]) -> Response:

@@ -181,7 +181,7 @@ class Tables:
         return self.problem.members[0].wide
 
     def around(self, law: CoreLaw) -> Self:
-        """Itself: its matrices answer under any law."""
+        """These members: their matrices answer under any law."""
         return self
 
     def erring_at(self, law: CoreLaw) -> Self:

@@ -24,7 +24,9 @@ _ADDRESS = re.compile(r"(?:\w+://)?[^\s/]+:\d+/?")
 """Asked of anything else, Dask waits, and says so by a traceback."""
 
 
-def on_cluster(address: str, tasks: Sequence[BatchTask], keep: Callable[[BatchTask, Outcome], None]) -> None:
+def run_on_cluster(
+    address: str, tasks: Sequence[BatchTask], keep: Callable[[BatchTask, Outcome], None]
+) -> None:
     """`keep` every task with its outcome, in the order in which they end. Raises `BadInput`."""
     try:
         from distributed import Client

@@ -162,7 +162,7 @@ def _text(found: Mapping[str, Cell], key: str, scale: float) -> str:
 
 
 def short_names(paths: Sequence[str]) -> list[str]:
-    """As much of the end of each path as tells it from the others: the table in CSV has them whole."""
+    """The end of each path, as much of it as tells it from the others: the table in CSV has them whole."""
     parts = [PurePath(path).parts for path in paths]
     for depth in range(1, max((len(p) for p in parts), default=1)):
         names = ["/".join(p[-depth:]) for p in parts]

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from instrument.batch.cluster import on_cluster
+from instrument.batch.cluster import run_on_cluster
 from instrument.batch.families import with_families
 from instrument.batch.journal import OutcomeJournal
 from instrument.batch.keys import Keys
@@ -25,9 +25,9 @@ def here(workers: int) -> Runner:
     return lambda tasks, keep: in_processes(outcome_of, tasks, workers, keep, lost)
 
 
-def there(address: str) -> Runner:
+def on_cluster(address: str) -> Runner:
     """On a Dask scheduler."""
-    return partial(on_cluster, address)
+    return partial(run_on_cluster, address)
 
 
 @dataclass(frozen=True)

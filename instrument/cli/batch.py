@@ -9,7 +9,7 @@ from instrument.batch.between import between_rows, marks_of
 from instrument.batch.counted import Counted
 from instrument.batch.no_band import without_spread
 from instrument.batch.page import write_page
-from instrument.batch.run import here, run_batch, there
+from instrument.batch.run import here, on_cluster, run_batch
 from instrument.batch.table import CSV, write_tables
 from instrument.batch.taking_part import repeats_among
 from instrument.cli.options import force_option, json_option
@@ -80,7 +80,7 @@ def batch(
     if any(path.absolute() == (folder / CSV).absolute() for path in files):
         raise BadInput(f"{folder / CSV}: both given and to be written, expected another --out")
     tasks = tasks_of(files, specimen, hammer, diagnose=diagnose, insist=insist)
-    runner = there(scheduler) if scheduler is not None else here(workers or wanted())
+    runner = on_cluster(scheduler) if scheduler is not None else here(workers or wanted())
     with run_batch(tasks, folder, runner, bar) as rows:
         counted = Counted.of(rows)
         repeats = repeats_among(rows)

@@ -9,7 +9,7 @@ import numpy as np
 from fitting.errors import OutsideModel
 from fitting.mode_tables.table import ModalTable
 from fitting.structures import AnySpecimen
-from fitting.temperature.shifts import Kind
+from instrument.cli.identify_asked import Asked
 from instrument.cli.output import Output
 from instrument.cli.reading import read_tables_at, sweeps_at
 from instrument.errors import BadInput
@@ -35,12 +35,8 @@ def identify_shifted(
     out: Output,
     data: Sequence[Path],
     given: Sequence[Given],
-    kind: Kind,
-    reference_c: float | None,
-    figures: Path | None,
+    asked: Asked,
     *,
-    vertical: bool,
-    temperature_k: float | None = None,
     specimens: Sequence[Path] = (),
     insist: bool = False,
 ) -> None:
@@ -55,8 +51,8 @@ def identify_shifted(
         out.say(f"the hammer test is that of {tested[1]}\n")
     modes = tested[0] if tested is not None else None
     if not insist:
-        question_reference(reference_c, [one.temperature_c for one in sweeps], data)
-    found = _fitted(out, sweeps, stated, kind, reference_c, figures, vertical, temperature_k, modes)
+        question_reference(asked.reference_c, [one.temperature_c for one in sweeps], data)
+    found = _fitted(out, sweeps, stated, asked, modes)
     if not insist:
         question_shift(found, data)
     _tell(out, found, sweeps)
@@ -66,21 +62,20 @@ def identify_tables_shifted(
     out: Output,
     data: Sequence[Path],
     specimens: Sequence[Path],
-    kind: Kind,
-    reference_c: float | None,
-    figures: Path | None,
+    asked: Asked,
     *,
-    vertical: bool,
-    temperature_k: float | None = None,
     insist: bool = False,
 ) -> None:
-    """The same of tables of modes. What no core comes near is refused unless someone insists."""
+    """Fit tables of modes as `identify_shifted` does sweeps.
+
+    What no core comes near is refused unless someone insists.
+    """
     every, stated = read_tables_at(data, specimens, insist=insist)
     tables = [one.data for one in every if isinstance(one.data, ModalTable)]
     if not insist:
         question_tables(tables, data)
-        question_reference(reference_c, [one.temperature_c for one in every], data)
-    found = _fitted(out, every, stated, kind, reference_c, figures, vertical, temperature_k)
+        question_reference(asked.reference_c, [one.temperature_c for one in every], data)
+    found = _fitted(out, every, stated, asked)
     if not insist:
         question_modes_at(tables, np.exp(found.fit.one.velocity_m_s.real), data)
         question_shift(found, data)
@@ -91,27 +86,24 @@ def _fitted(
     out: Output,
     every: Sequence[AtTemperature],
     stated: Sequence[AnySpecimen],
-    kind: Kind,
-    reference_c: float | None,
-    figures: Path | None,
-    vertical: bool,
-    temperature_k: float | None,
+    asked: Asked,
     hammer: HammerModes | None = None,
 ) -> Shifted:
+    assert asked.shift is not None
     found = identify_at_temperatures(
         every,
         stated,
-        kind,
-        reference_c,
+        asked.shift,
+        asked.reference_c,
         bar,
-        vertical=vertical,
+        vertical=asked.vertical,
         hammer=hammer,
-        temperature_k=temperature_k,
+        temperature_k=asked.temperature_k,
     )
-    if figures is not None:
+    if asked.figures is not None:
         from instrument.results.shifted_figures import save_shifted_figures
 
-        for path in save_shifted_figures(found, figures):
+        for path in save_shifted_figures(found, asked.figures):
             out.say(f"saved {path}")
     return found
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from instrument.cli.output import Output
 from instrument.facts.budget import BudgetRow, BudgetSource
 
-_LEAST = 0.02
+_LEAST_SHARE = 0.02
 """Share of the total below which a source is only in the JSON."""
 
 
@@ -17,8 +17,8 @@ def print_budget(out: Output, budget: Sequence[BudgetRow]) -> None:
     for row in budget:
         for s in row.sources:
             if (
-                s.storage_modulus_percent > _LEAST * row.storage_modulus_standard_error_percent
-                or s.loss_factor > _LEAST * row.loss_factor_standard_error
+                s.storage_modulus_percent > _LEAST_SHARE * row.storage_modulus_standard_error_percent
+                or s.loss_factor > _LEAST_SHARE * row.loss_factor_standard_error
             ):
                 names[s.source] = None
     columns = [c for row in budget for c in (f"G' / % {row.frequency_hz:.4g} Hz", "eta")]

@@ -86,7 +86,7 @@ class Host(Companion):
 
     @contextmanager
     def with_rig(self, rig: Rig) -> Iterator[Rig]:
-        """The same rig; its shaker can be stopped past the run, its operator is the client."""
+        """A rig whose shaker can be stopped past the run, and whose operator is the client."""
         operator: Operator = self._operator
         if isinstance(rig.operator, SimulatedOperator):
             operator = HelpedOperator(rig.operator, self._operator, in_virtual_time=rig.in_virtual_time)

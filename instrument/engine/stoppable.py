@@ -25,7 +25,7 @@ class StoppableShaker:
         bring_to_rest(self._shaker)
 
     def identity(self) -> str:
-        """As the device states it."""
+        """What the device states itself to be."""
         return self._shaker.identity()
 
     def start(self) -> None:

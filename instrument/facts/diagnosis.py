@@ -195,11 +195,11 @@ class DiagnosisResult(Result):
 
     @property
     def stages(self) -> tuple[StageFitted, StageFitted]:
-        """Before and after."""
+        """The fit without effects, and the one with those found."""
         return self.before, self.after
 
     def stage(self, name: StageName) -> StageFitted:
-        """One of the two."""
+        """The fit without effects (`before`) or with those found (`after`)."""
         return self.before if name == "before" else self.after
 
     @property

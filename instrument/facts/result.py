@@ -29,7 +29,7 @@ class Result(BaseModel):
         return type(self)(**{**self._given, **changes})
 
     def without(self, *keys: str) -> Self:
-        """The same with some keys not given."""
+        """A copy of this result with some keys not given."""
         return type(self)(**{key: value for key, value in self._given.items() if key not in keys})
 
     @property

@@ -69,7 +69,13 @@ DEVICES: dict[str, Registry[Any]] = {
 """Drivers by the table of RIG.toml that names them."""
 
 
-_USUAL = {"shaker": "modbus-tcp", "vibrometer": "polytec", "front_end": "lan-xi", "chamber": "modbus-tcp"}
+_OPTIONS: dict[str, type[DeviceOptions]] = {
+    "shaker": ShakerOptions,
+    "vibrometer": VibrometerOptions,
+    "front_end": FrontEndOptions,
+    "chamber": ChamberOptions,
+}
+_USUAL = {device: options.model_fields["kind"].default for device, options in _OPTIONS.items()}
 
 
 def ranges_of(table: VibrometerOptions) -> tuple[Range, ...]:

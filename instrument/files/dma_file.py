@@ -26,7 +26,7 @@ _SOFTEST_PA, _LOSSIEST = 10.0, 10.0
 
 @dataclass(frozen=True)
 class DmaTable:
-    """As shear, whatever was measured. Arrays have shape (rows,)."""
+    """Moduli in shear, whatever was measured. Arrays have shape (rows,)."""
 
     path: Path
     kind: str
@@ -43,7 +43,7 @@ class DmaTable:
     loss_factor_std: Array
 
     def temperatures(self) -> list[float]:
-        """Those that occur, ascending; one NaN where none is stated."""
+        """Temperatures that occur, ascending; one NaN where none is stated."""
         stated = np.unique(self.temperature_c)
         return [float(t) for t in stated] or [float("nan")]
 

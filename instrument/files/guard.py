@@ -37,7 +37,7 @@ def said_of(path: Path) -> Iterator[None]:
 
 
 def checked_hits(path: Path, hits: list[Hit]) -> list[Hit]:
-    """The same, each of real finite samples, all channels equally long. Raises `BadInput`."""
+    """Hits as given, if each has real finite samples, all channels equally long. Raises `BadInput`."""
     for hit in hits:
         if not _RATES_HZ[0] <= hit.sample_rate_hz <= _RATES_HZ[1]:
             raise BadInput(
@@ -53,7 +53,7 @@ def checked_hits(path: Path, hits: list[Hit]) -> list[Hit]:
 
 
 def checked_frf(path: Path, name: str, frf: Frf) -> Frf:
-    """The same, of ascending frequencies and as many finite values. Raises `BadInput`."""
+    """An FRF as it is given, if of ascending frequencies and as many finite values. Raises `BadInput`."""
     f = np.asarray(frf.frequency_hz)
     said = _fault(f, np.size(f)) or _fault(frf.H, np.size(f), complex_too=True)
     if not said and (len(f) < 2 or np.any(np.diff(f) <= 0) or f[0] < 0):

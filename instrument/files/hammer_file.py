@@ -73,7 +73,7 @@ def _words(kind: str, message: str) -> str:
 
 
 def hammer_modes(found: DampingResult) -> HammerModes:
-    """The same from the result itself. Raises `ValidationError`, `TooFewPoints`."""
+    """Modes that a hammer test has accepted, from its result. Raises `ValidationError`, `TooFewPoints`."""
     return _modes(_Document.model_validate(found.as_json()))
 
 
@@ -88,5 +88,5 @@ def _modes(document: _Document) -> HammerModes:
 
 
 def accepted_modes(found: DampingResult) -> HammerModes | None:
-    """The same of a test that may have none. Raises `ValidationError`."""
+    """Modes as `hammer_modes` has them, of a test that may have none. Raises `ValidationError`."""
     return hammer_modes(found) if found.accepted else None

@@ -31,7 +31,7 @@ _OF_LOSS = frozenset(("loss", "eta", "damping", "tan"))
 _WARM = frozenset(("temp", "temperature"))
 _ONE_K = 0.5
 """Rows so near the coldest of them are of one temperature: a chamber holds it, a thermometer reads it so."""
-_MOST = 1000
+_MOST_MODES = 1000
 """No test numbers so many modes. A choice."""
 
 
@@ -154,9 +154,9 @@ def _columns(path: Path) -> dict[str, Array]:
         values = []
         for line, row in rows:
             value = number(path, line, name, row[k])
-            whole = name != "mode" or (value == int(value) and value <= _MOST)
+            whole = name != "mode" or (value == int(value) and value <= _MOST_MODES)
             if (value <= 0 and name != "temperature_c") or not whole:
-                expected = f"a whole number from 1 to {_MOST}" if name == "mode" else "more than 0"
+                expected = f"a whole number from 1 to {_MOST_MODES}" if name == "mode" else "more than 0"
                 raise BadInput(f"{path}: line {line}: {name} = {row[k]}, expected {expected}")
             if name == "temperature_c" and value <= _ABSOLUTE_ZERO_C:
                 expected = f"degrees Celsius above {_ABSOLUTE_ZERO_C}"

@@ -37,7 +37,7 @@ _BEHIND = {
 
 
 def near_columns(header: Sequence[str]) -> dict[str, str]:
-    """Those of a header by their names, with the column of ours that each is like and that is not there."""
+    """Columns by name, each with the one of ours that it is like and that the header lacks."""
     found = {}
     for name in header:
         words = [word for word in re.split(r"[^a-z]+", name.lower()) if word]

@@ -36,7 +36,7 @@ _FEBRUARY = 2
 
 
 def year_after(day: date) -> date:
-    """The same day of the next year."""
+    """The day a year later; for the 29th of February the 28th."""
     return date(day.year + 1, day.month, min(day.day, 28) if day.month == _FEBRUARY else day.day)
 
 
@@ -94,7 +94,7 @@ class Channels(TomlTable):
         return self
 
     def named(self) -> dict[str, SensorSection]:
-        """Those there are, by name."""
+        """Sensors there are, by name."""
         return {n: s for n in type(self).model_fields if (s := getattr(self, n)) is not None}
 
 
@@ -186,12 +186,12 @@ class RigDocument(TomlTable):
         return self.shaker.address == SIMULATED
 
     def devices(self) -> dict[str, DeviceOptions]:
-        """Those there are, by the name of their table."""
+        """Devices there are, by the name of their table."""
         found = {"shaker": self.shaker, "vibrometer": self.vibrometer, "front_end": self.front_end}
         return found | ({"chamber": self.chamber} if self.chamber is not None else {})
 
     def anywhere(self) -> "RigDocument":
-        """The same rig wherever its instruments answer: to compare two."""
+        """The rig without where its instruments answer: to compare two."""
         kept = {n: device.model_copy(update={"address": NOT_KEPT}) for n, device in self.devices().items()}
         return self.model_copy(update={**kept, "simulation": None})
 

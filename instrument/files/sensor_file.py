@@ -28,7 +28,7 @@ _SAME = 1e-6
 
 
 class Sensor(TomlTable):
-    """One of them, as its calibration sheet has it."""
+    """A sensor as its calibration sheet has it."""
 
     serial: Annotated[str, Field(min_length=1, max_length=60)]
     kind: SensorKind

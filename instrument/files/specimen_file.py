@@ -1,6 +1,5 @@
 """SPECIMEN.toml: its keys, units and limits, and the `Specimen` it describes."""
 
-from math import pi
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -14,7 +13,7 @@ from fitting.laws.table import Tabulated
 from fitting.specimen import Drive, Kind, PlacedMass, Reading, Specimen
 from fitting.stated.edges import named
 from fitting.stated.layers import Core
-from fitting.stated.tolerances import OF_FEW, OF_TEMPERATURE, STATED
+from fitting.stated.tolerances import IN_FILES, OF_FEW, OF_TEMPERATURE, STATED
 from fitting.structures.shear_pair import TYPICAL as OF_PAIR
 from instrument.errors import BadInput
 from instrument.files.law_table import with_rows
@@ -143,16 +142,14 @@ _NOT_OF: dict[Kind, tuple[str, ...]] = {
     "shear-pair": (*_OF_LAYERS, *OF_FEW, "length", "width", "pickup", "force", "place", "axial"),
 }
 """Stated numbers that a kind of specimen has not."""
-_UNITS = {"percent": 1e-2, "mm": 1e-3, "us": 1e-6, "deg": pi / 180, "mpa": 1e6}
-"""Of the keys' endings, in what `fitting.stated.tolerances` counts in."""
 _MOST_PERCENT = 50.0
 """A number that uncertain is not known: it should be left to the fit, not stated."""
 _MOST_PICKUPS = 20
 """A bound on what one file asks for."""
-
-
+_TO_SI = {said.ending: said.to_si for said in IN_FILES.values()}
+"""By the ending of a key: pads have tolerances that no plate has."""
 MOST_MASSES = 10
-"""The same."""
+"""Largest number of `[[mass]]` tables."""
 
 
 class SpecimenDocument(TomlTable):
@@ -289,12 +286,12 @@ def typical_tolerances(kind: Kind) -> dict[str, float | None]:
     """
     found: dict[str, float | None] = {}
     for key in TolerancesSection.model_fields:
-        name, _, unit = key.rpartition("_")
+        name, _, ending = key.rpartition("_")
         if key == "exact" or name in _NOT_OF[kind]:
             continue
         own = OF_PAIR.get(name) if kind == "shear-pair" else None
         typical = own if own is not None else STATED[name].typical
-        found[key] = None if name in OF_TEMPERATURE else typical / _UNITS[unit]
+        found[key] = None if name in OF_TEMPERATURE else typical / _TO_SI[ending]
     return found
 
 
@@ -303,16 +300,16 @@ def tolerances_of(table: TolerancesSection | None, kind: Kind = "plate") -> dict
     given = table.model_dump(exclude_none=True, exclude={"exact"}) if table is not None else {}
     found = {}
     for key, value in given.items():
-        name, _, unit = key.rpartition("_")
+        name, _, ending = key.rpartition("_")
         if name in _NOT_OF[kind]:
             raise OutsideModel(
                 f"tolerances.{key}: a {kind} has no such number, expected the keys that its own tables have"
             )
-        if unit == "percent" and value > _MOST_PERCENT:
+        if ending == "percent" and value > _MOST_PERCENT:
             raise OutsideModel(
                 f"tolerances.{key} = {value:g}, expected a standard deviation of at most {_MOST_PERCENT:g} %"
             )
-        found[name] = value * _UNITS[unit]
+        found[name] = value * _TO_SI[ending]
     return found
 
 

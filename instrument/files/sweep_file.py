@@ -157,7 +157,7 @@ def reading_said(lines: Iterable[str]) -> Reading | None:
 def sweep_of_columns(
     path: Path, columns: dict[str, Array], reads: Reading | None = None, lines: Sequence[int] = ()
 ) -> SweepFile:
-    """The same of columns from another program's file, NaN for what is not known of a row.
+    """A sweep of columns from another program's file, NaN for what is not known of a row.
 
     Shape (rows,) each; `reads`: as that file says; `lines`: of its rows, where they are known. Raises
     `BadInput` naming file, row or line, and column.

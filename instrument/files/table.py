@@ -111,7 +111,7 @@ def stated_rate_hz(path: Path) -> float | None:
 
 
 def rate_stated_in(path: Path, text: str) -> float | None:
-    """The same of a file's text. Raises `BadInput`."""
+    """A rate stated as for `stated_rate_hz`, in a file's text. Raises `BadInput`."""
     found = _RATE.search(text)
     if found is None:
         return None

@@ -43,6 +43,27 @@ _OF_RATE = 0.45
 
 
 @dataclass(frozen=True)
+class _ModeSurroundings:
+    """A mode as it is known so far, beside its neighbours and in its record."""
+
+    frequency_hz: float
+    ratio: float
+    """nan where it is not known."""
+    bandwidths_to_next: float
+    record_s: float
+
+    @property
+    def lines(self) -> float:
+        """Lines of the record's spectrum in the mode's bandwidth."""
+        return 2 * self.ratio * self.frequency_hz * self.record_s
+
+    @property
+    def remains(self) -> float:
+        """Share of the mode's start that is left where the record ends."""
+        return float(np.exp(-2 * np.pi * self.ratio * self.frequency_hz * self.record_s))
+
+
+@dataclass(frozen=True)
 class Damping:
     """The result of an impact test."""
 
@@ -106,7 +127,7 @@ def damping_of_hits(
 def damping_of_frfs(
     frfs: dict[str, Frf], *, band_hz: tuple[float, float] | None = None, at_hz: tuple[float, ...] = ()
 ) -> Damping:
-    """The same from FRFs of another instrument: nothing is padded, half power reads their own lines."""
+    """Damping from FRFs of another instrument: nothing is padded, half power reads their own lines."""
     any_frf = next(iter(frfs.values()))
     f = any_frf.frequency_hz
     band = band_hz or (float(f[0]), float(f[-1]))
@@ -170,11 +191,10 @@ def _mode(name: str, plain: Frf, fine: Frf, f: float, centres: Sequence[float], 
     best = rational if isinstance(rational, DampingEstimate) else start
     f_n = best.frequency_hz if isinstance(best, DampingEstimate) else f
     ratio = best.ratio if isinstance(best, DampingEstimate) else float("nan")
-    lines = 2 * ratio * f_n * seconds
     others = [abs(c - f) for c in centres if c != f]
-    apart = min(others, default=np.inf) / (2 * ratio * f_n)
+    around = _ModeSurroundings(f_n, ratio, min(others, default=np.inf) / (2 * ratio * f_n), seconds)
     noise = fit.noise / np.sqrt(PADDING) if isinstance(fit, RationalFit) else 0.0
-    half = _half_power(fine, f, ratio, f_n, lines, apart, seconds, noise)
+    half = _half_power(fine, f, around, noise)
     if isinstance(half, DampingEstimate) and isinstance(rational, DampingEstimate):
         half = no_surer_than_apart(half, rational)
     width = 2 * ratio * f_n if ratio == ratio else 2 / seconds
@@ -185,7 +205,7 @@ def _mode(name: str, plain: Frf, fine: Frf, f: float, centres: Sequence[float], 
         plain.added_decay_1_s,
         max(width, 2 / seconds),
     )
-    accepted, why = _verdict(half, rational, third, lines, apart, seconds)
+    accepted, why = _verdict(half, rational, third, around)
     return Mode(
         frequency_hz=f_n if accepted else f,
         damping_ratio=ratio if accepted else float("nan"),
@@ -193,8 +213,8 @@ def _mode(name: str, plain: Frf, fine: Frf, f: float, centres: Sequence[float], 
         half_power=half,
         rational_fit=rational,
         lscf=third,
-        lines_in_bandwidth=lines,
-        bandwidths_to_next=apart,
+        lines_in_bandwidth=around.lines,
+        bandwidths_to_next=around.bandwidths_to_next,
         accepted=accepted,
         why=why,
         fit=fit if isinstance(fit, RationalFit) else None,
@@ -211,35 +231,27 @@ def no_surer_than_apart(half: DampingEstimate, rational: DampingEstimate) -> Dam
     return half if off <= _SIGMAS * noise else half.wider(off, 0.0)
 
 
-def _half_power(
-    fine: Frf,
-    f: float,
-    ratio: float,
-    f_n: float,
-    lines: float,
-    apart: float,
-    seconds: float,
-    noise: float,
-) -> DampingEstimate | Refusal:
-    if ratio == ratio:
-        remains = float(np.exp(-2 * np.pi * ratio * f_n * seconds))
-        if lines < 1:
-            return Refusal(f"{lines:.1f} lines in its bandwidth, expected 1 or more")
-        if remains > _UNDECAYED:
-            return Refusal(f"the record ends at {100 * remains:.0f} % of the decay, expected 20 % or less")
-        if apart < 2:
-            return Refusal(f"a neighbour {apart:.1f} bandwidths away, expected 2 or more")
-    return half_power(fine, f, noise, seconds)
+def _half_power(fine: Frf, f: float, around: _ModeSurroundings, noise: float) -> DampingEstimate | Refusal:
+    if around.ratio == around.ratio:
+        if around.lines < 1:
+            return Refusal(f"{around.lines:.1f} lines in its bandwidth, expected 1 or more")
+        if around.remains > _UNDECAYED:
+            return Refusal(
+                f"the record ends at {100 * around.remains:.0f} % of the decay, "
+                f"expected {100 * _UNDECAYED:.0f} % or less"
+            )
+        if around.bandwidths_to_next < 2:
+            return Refusal(f"a neighbour {around.bandwidths_to_next:.1f} bandwidths away, expected 2 or more")
+    return half_power(fine, f, noise, around.record_s)
 
 
 def _verdict(
     half: DampingEstimate | Refusal,
     rational: DampingEstimate | Refusal,
     third: DampingEstimate | Refusal,
-    lines: float,
-    apart: float,
-    seconds: float,
+    around: _ModeSurroundings,
 ) -> tuple[bool, str]:
+    lines, apart = around.lines, around.bandwidths_to_next
     said = []
     if isinstance(rational, Refusal):
         said.append(f"rational fit: {rational.why}")
@@ -251,7 +263,8 @@ def _verdict(
         said.append(f"half power refused: {half.why}")
     if lines < 2:
         said.append(
-            f"{lines:.1f} lines in its bandwidth: record {seconds * 2 / max(lines, 0.05):.3g} s or more"
+            f"{lines:.1f} lines in its bandwidth: "
+            f"record {around.record_s * 2 / max(lines, 0.05):.3g} s or more"
         )
     if apart < 5:
         said.append(f"a neighbour {apart:.1f} bandwidths away")

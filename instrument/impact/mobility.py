@@ -43,7 +43,7 @@ class Mobility:
     """Of each part of the mean."""
 
     def at(self, lines: NDArray[np.intp]) -> "Mobility":
-        """The same at some of its lines. Shape of `lines` (any,)."""
+        """The mobility at some of its lines. Shape of `lines` (any,)."""
         return Mobility(self.frequency_hz[lines], self.H[lines], self.std[lines])
 
 

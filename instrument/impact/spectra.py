@@ -40,7 +40,7 @@ class Spectra:
 
 
 def from_the_blow(hits: list[Judged]) -> list[Judged]:
-    """The same without a long wait before the blow, all of one length still.
+    """Hits without a long wait before the blow, all of one length still.
 
     What a record cuts off of a decay is smooth over its lines where it begins with the blow; later by t_0 it
     turns from line to line by exp(i omega t_0), and no fit about a mode follows that.

@@ -35,7 +35,7 @@ class SessionFit:
 
 
 def identify_session(contents: Contents, progress: Progress = quiet) -> SessionFit:
-    """As the live identification does: all points, jointly with the session's hammer test.
+    """Identify all points as the live identification does, jointly with the session's hammer test.
 
     Raises `BadInput` without points, `FittingError` where these points carry no law.
     """

@@ -80,7 +80,7 @@ def _read(reader: Reader, path: Path) -> Found:
         raise BadInput(f"{error}{hint}") from None
     except BadInput:
         raise
-    except Exception as error:
+    except Exception as error:  # another package's reader raises whatever it meets
         if READERS.is_own(_ending(path)):
             raise
         raise BadInput(f"{path}: its reader failed: {type(error).__name__}: {one_line(str(error))}") from None

@@ -21,7 +21,7 @@ def specimen_toml(contents: Contents) -> str:
 
 
 def struck_specimen_toml(contents: Contents, struck: StruckFound) -> str:
-    """The same of the plate as it was struck: its force, its spot, how well the force is known."""
+    """SPECIMEN.toml of the plate as it was struck: its force, its spot, how well the force is known."""
     tables = _tables_of(contents)
     for gone in ("base", "further_pickups"):
         tables.pop(gone, None)

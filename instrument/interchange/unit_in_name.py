@@ -204,7 +204,7 @@ def amplitude_factor(name: str) -> float:
 
 
 def stated_factor(name: str) -> float | None:
-    """The same, None where the name does not say how the size is stated."""
+    """A factor as for `amplitude_factor`, None where the name does not say how the size is stated."""
     said = f" {_letters(name)} "
     return next((float(factor) for words, factor in _PEAKS if re.search(rf" (?:{words}) ", said)), None)
 

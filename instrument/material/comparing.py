@@ -48,7 +48,7 @@ class Comparison:
 
     @property
     def differs(self) -> bool | None:
-        """As a whole; None where it cannot be told."""
+        """Whether the laws differ as a whole; None where it cannot be told."""
         return None if np.isnan(self.p_value) else bool(self.p_value < LEVEL)
 
     @property
@@ -111,7 +111,7 @@ def compare(
 
 
 def compared_pair(c: Comparison, a: str, b: str) -> ComparedPair:
-    """As JSON has it, under these names."""
+    """A comparison as JSON has it, under these names."""
     f = c.frequency_hz
     rows = zip(f, c.storage_difference, c.storage_z, c.loss_factor_difference, c.loss_factor_z, strict=True)
     return ComparedPair(

@@ -33,7 +33,7 @@ class FoundShift(BaseModel):
 
     @property
     def verdict(self) -> str:
-        """As results call it: a law that may not be one is not known to be what it looks like."""
+        """What results call it: a law that may not be one is not known to be what it looks like."""
         return "thermorheologically simple" if self.simple else "unknown"
 
     @property

@@ -147,7 +147,7 @@ class Spread:
         return self.lines_of(self.between)
 
     def lines_of(self, called: str) -> list[str]:
-        """The same, where specimens are called something else."""
+        """What `lines` says, where specimens are called something else."""
 
         def of(spread: Spread) -> str:
             return spread.words.replace(f" {self.between} at", f" {called} at", 1)

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from fitting.stated.tolerances import kind_of
+from fitting.stated.tolerances import kind_of, of_scope
 from instrument.material.knowledge import known_curve_of
 
 _DIGITS = 16
 """Of the digest: enough to tell any two specimens of a batch apart."""
-_SET_ANEW = ("length", "axial", "pickup", "force", "place", "damping", "gain", "delay", "phase")
+_SET_ANEW = of_scope("mounting", "temperature", "file", "spot", "channel", "chain")
 """Kinds of numbers that another measurement of one specimen sets anew: where clamps bite, what they
 damp and how they pull, where spots and loose masses are, and the channels. All others are the specimen's own,
 or of the theory of it."""
@@ -34,7 +34,7 @@ class _Adjusted(BaseModel):
 
 
 def stated_numbers(facts: Mapping[str, Any]) -> tuple[Stated, ...]:
-    """Those of the JSON of a fit that have a tolerance."""
+    """Stated numbers with a tolerance, of the JSON of a fit."""
     try:
         return _Adjusted.model_validate(facts).adjusted
     except ValidationError:

@@ -6,6 +6,7 @@ from time import perf_counter
 
 from threadpoolctl import threadpool_limits
 
+from fitting.data.aside import Reasons
 from fitting.diagnosis.diagnose import diagnose_problem, seen_in_channels
 from fitting.diagnosis.verdict.result import Diagnosis
 from fitting.effects import CATALOGUE, Effect
@@ -128,17 +129,27 @@ def diagnose(
             )
     seconds = perf_counter() - ready
     theory_over(specimen, result.after.law, sweep.frequency_hz)
-    further = (
-        *remarks_on_law(start, sweep.frequency_hz),
+    further = _remarks(sweep, why_aside, specimen, result, tested=hammer is not None)
+    result = replace(result, warnings=(*result.warnings, *further))
+    return Diagnosed(result, ready - began, seconds, () if accept is not None else tuple(effects))
+
+
+def _remarks(
+    sweep: Sweep, why_aside: Reasons, specimen: Specimen, result: Diagnosis, *, tested: bool
+) -> tuple[str, ...]:
+    """What is to be said beside the diagnosis; `tested` says whether there was a hammer test."""
+    assert specimen.core is not None
+    f = sweep.frequency_hz
+    said = (
+        *remarks_on_law(specimen.core.law, f),
         *remarks_on_noise(sweep.take(why_aside == "")),
         *remarks_on_tolerances(specimen),
         *remarks_on_patches(specimen),
         *remarks_on_clamps(specimen),
-        *remarks_on_damping(specimen, tested=hammer is not None),
+        *remarks_on_damping(specimen, tested=tested),
     )
-    further += tuple(filter(None, [stiffer_than_stated(specimen, result.after.law, sweep.frequency_hz)]))
-    before = theory_remark(specimen, result.before.law, sweep.frequency_hz)
+    said += tuple(filter(None, [stiffer_than_stated(specimen, result.after.law, f)]))
+    before = theory_remark(specimen, result.before.law, f)
     if before:
-        further += (f"before, without any effect, the law is outside the theory: {before}",)
-    result = replace(result, warnings=(*result.warnings, *further))
-    return Diagnosed(result, ready - began, seconds, () if accept is not None else tuple(effects))
+        said += (f"before, without any effect, the law is outside the theory: {before}",)
+    return said

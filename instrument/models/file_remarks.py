@@ -8,7 +8,7 @@ from fitting.arrays import Array
 from fitting.data.noise import noise_of
 from fitting.data.strays import strays
 from fitting.digits import two_digits
-from fitting.identification.result import CORE_PA
+from fitting.identification.law_remarks import CORE_PA
 from fitting.identification.validation import HeldOutSegment, rms
 from fitting.laws import CoreLaw
 from fitting.structures import AnySpecimen, Beam, ShearPair

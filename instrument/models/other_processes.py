@@ -22,7 +22,7 @@ from instrument.errors import BadInput
 from instrument.models.background import step_back
 
 VARIABLE = "VISCORIG_PROCESSES"
-_MOST = 4
+_MOST_PROCESSES = 4
 """Processes of a diagnosis: it goes from one step to the next, and a fifth would mostly wait."""
 _LOOKS_ROUND_S = 1.0
 """How often another process asks whether the first one is still there."""
@@ -48,7 +48,7 @@ def wanted(most: int | None = None) -> int:
 
 def executor() -> AbstractContextManager[Executor]:
     """Of a diagnosis: as many processes as are wanted. Raises as `wanted`."""
-    others = wanted(_MOST) - 1
+    others = wanted(_MOST_PROCESSES) - 1
     return SeveralProcesses(others) if others else nullcontext(ALONE)
 
 
@@ -68,7 +68,7 @@ class SeveralProcesses(Executor):
             other.end()
 
     def together(self, calls: Sequence[Call], report: Report = unheard) -> Iterator[Any]:
-        """The same, the methods' own object sent over once to each."""
+        """Results of the calls in their order; the methods' own object is sent once to each process."""
         left = deque(enumerate(calls))
         found: dict[int, Any] = {}
         failed: list[Exception] = []
@@ -128,7 +128,7 @@ class _Other:
         owner: object = do.__self__  # type: ignore[attr-defined]
         if owner is not self._known:
             self._known, self._number = owner, self._number + 1
-            self.pool.submit(_learn, self._number, owner)
+            self.pool.submit(learn, self._number, owner)
         found = self.pool.submit(_do, self._number, do.__name__, one).result()
         if isinstance(found, _Forgotten):
             # loky replaces a process whose memory has grown; the new one knows nothing.
@@ -170,7 +170,8 @@ class _Forgotten:
     """Answer of a process that does not have the object it is asked of."""
 
 
-def _learn(number: int, owner: object) -> None:
+def learn(number: int, owner: object) -> None:
+    """Keep what this process is asked of from now on, and which of the objects sent over it is."""
     global _owner, _number
     _owner, _number = owner, number
 

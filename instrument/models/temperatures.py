@@ -156,14 +156,7 @@ def identify_shifted(
     verdict = judge(fit, causes, apart, [one.name for one in every], members.scale_known, odd)
     cause = next(iter(serving(causes)), None)
     fit = cause.fit if cause is not None else fit
-    remarks = (
-        *members.remarks,
-        *remarks_at_temperatures(members, vertical=vertical),
-        *_theories(members, fit),
-    )
-    if isinstance(problem.joined, Tables):
-        tables = problem.joined.problem.members
-        remarks += remark_on_reading(tables, [fit.joint.at(k) for k in range(len(tables))])
+    remarks = asked.remarks(problem, fit)
     if reference_c is not None and reference != reference_c:
         remarks += (
             f"one factor a temperature says nothing between them: the law is at {reference:g} degC, the "
@@ -273,6 +266,15 @@ class _Asked:
             spanned, problem, fit = self.fitted(with_effects=True)
             with self.progress("a common cause in specimen and rig") as report:
                 return causes_of(spanned, problem, fit, effects, join, workers, report)
+
+    def remarks(self, problem: TemperatureProblem, fit: ShiftedFit) -> tuple[str, ...]:
+        """What is to be said of data, specimens and theory. Raises `OutsideModel`."""
+        of_members = remarks_at_temperatures(self.members, vertical=self.vertical)
+        said = (*self.members.remarks, *of_members, *_theories(self.members, fit))
+        if isinstance(problem.joined, Tables):
+            tables = problem.joined.problem.members
+            said += remark_on_reading(tables, [fit.joint.at(k) for k in range(len(tables))])
+        return said
 
 
 def _theories(members: Members, fit: ShiftedFit) -> tuple[str, ...]:

@@ -19,6 +19,7 @@ from fitting.diagnosis.several.effect_among_files import among
 from fitting.diagnosis.several.joining import joined
 from fitting.diagnosis.verdict.confounded import last_word
 from fitting.diagnosis.verdict.result import FoundEffect, ParameterEstimate
+from fitting.effects import Effect
 from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import fit_bare_plate
 from fitting.identification.result import summarise
@@ -163,29 +164,16 @@ def diagnose_together(
     effects = [e for e, _ in among_files]
     work = FilesAtWork(files, progress, with_effects=True, hammer=hammer)
     with threadpool_limits(1, "blas"), executor() as workers:
-        channels: list[FoundEffect] = []
-        numbers = numbers_of(files)
-        count = max(numbers)
-        spots = sorted({f.pickup for f in files if f.pickup is not None})
-        same = one_plate(files)
-        for k, file in enumerate(files):
-            why, seen, _ = seen_in_channels(file.sweep, [e for e, on in among_files if on[k]])
-            work.leave_out(k, why)
-            channels += [_of_spot(_with_file(one, numbers[k], count), file.pickup) for one in seen]
+        channels = _channels(files, among_files, work)
         work.problem()
         ready = perf_counter()
         with progress("tracing the residual") as report:
             if accept is None and (other := exchanged(files)) is not None:
                 raise OutsideModel(other.words)
             work.set_disturbances_aside()
-            channels += [_fixture(one, count) for one in work.aside]
+            channels += [_fixture(one, max(numbers_of(files))) for one in work.aside]
             problem, noise = work.problem()
-            tried = [
-                e
-                if e.replaces_law or len(files) == 1
-                else among(e, count, spots, one_plate=same, mounted=mounted(files, on))
-                for e, on in among_files
-            ]
+            tried = _tried(files, among_files)
             result = diagnose_problem(
                 problem,
                 reduced=None,
@@ -209,6 +197,31 @@ def diagnose_together(
     asked = tuple(tried) if accept is None else ()
     found = Diagnosed(result, ready - began, perf_counter() - ready, asked)
     return DiagnosedTogether(found, _all(files), tuple(work.aside))
+
+
+def _channels(
+    files: Sequence[File], among_files: Sequence[tuple[Effect, tuple[bool, ...]]], work: FilesAtWork
+) -> list[FoundEffect]:
+    """What the channels of each file show; the readings that are lost by it are left out of the work."""
+    found: list[FoundEffect] = []
+    numbers = numbers_of(files)
+    for k, file in enumerate(files):
+        why, seen, _ = seen_in_channels(file.sweep, [e for e, on in among_files if on[k]])
+        work.leave_out(k, why)
+        found += [_of_spot(_with_file(one, numbers[k], max(numbers)), file.pickup) for one in seen]
+    return found
+
+
+def _tried(files: Sequence[File], among_files: Sequence[tuple[Effect, tuple[bool, ...]]]) -> list[Effect]:
+    """The effects as they may stand in these files: in all of them, or in one."""
+    if len(files) == 1:
+        return [e for e, _ in among_files]
+    count, same = max(numbers_of(files)), one_plate(files)
+    spots = sorted({f.pickup for f in files if f.pickup is not None})
+    return [
+        e if e.replaces_law else among(e, count, spots, one_plate=same, mounted=mounted(files, on))
+        for e, on in among_files
+    ]
 
 
 def _check_theories(files: Sequence[File], law: CoreLaw) -> tuple[str, ...]:

@@ -1,23 +1,13 @@
 """The tolerances that a specimen's numbers are taken with: named in its file, typical, or none at all."""
 
-from math import pi
-
 from fitting.plate.plate_numbers import plate_numbers, tolerance
 from fitting.specimen import Specimen
-from fitting.stated.tolerances import OF_CHANNELS, OF_TEMPERATURE, PLATE, STATED
+from fitting.stated.tolerances import IN_FILES, OF_CHANNELS, OF_TEMPERATURE, PLATE, STATED
 from fitting.structures import AnySpecimen
 from instrument.facts.check import ToleranceUsed
 
-_UNITS = {
-    "1": ("percent", "%", 1e2),
-    "m": ("mm", "mm", 1e3),
-    "s": ("us", "µs", 1e6),
-    "rad": ("deg", "°", 180 / pi),
-    "1/K": ("percent", "%/K", 1e2),
-    "Pa": ("mpa", "MPa", 1e-6),
-}
-"""Ending of the file's key, unit for people, factor."""
 _NOT_OF_A_SWEEP = ("mass", "place", "area")
+"""Of masses put on a plate, or of a shear pair's disc: no scope, but not of a plate by itself."""
 
 
 def asked(specimen: AnySpecimen) -> list[str]:
@@ -43,8 +33,8 @@ def tolerances_used(specimen: AnySpecimen) -> tuple[ToleranceUsed, ...]:
         return ()
     return tuple(
         ToleranceUsed(
-            name=f"{name}_{_UNITS[STATED[name].unit][0]}",
-            value=_tolerance(specimen, name) * _UNITS[STATED[name].unit][2],
+            name=f"{name}_{IN_FILES[STATED[name].unit].ending}",
+            value=_tolerance(specimen, name) * IN_FILES[STATED[name].unit].from_si,
             source="named" if name in specimen.tolerances else "typical",
         )
         for name in asked(specimen)
@@ -57,8 +47,8 @@ def tolerance_rows(specimen: AnySpecimen) -> list[tuple[str, str]]:
         return [("all stated numbers", "exact")]
     rows = []
     for name in asked(specimen):
-        _, unit, factor = _UNITS[STATED[name].unit]
-        value = f"{_tolerance(specimen, name) * factor:.3g} {unit}"
+        said = IN_FILES[STATED[name].unit]
+        value = f"{_tolerance(specimen, name) * said.from_si:.3g} {said.unit}"
         rows.append((name.replace("_", " "), value + ("" if name in specimen.tolerances else " (typical)")))
     return rows
 

@@ -125,7 +125,9 @@ def _chosen(
         taken[_place(c.frequency_hz, started.pending_hz)] = 1.0
     spent = sum(p.dwell_s + p.settle_s for p in used)
     s = _sensitivity(grid, measured, fitted, ground)
-    ahead = _Ahead(grid, s, fitted, taken, ground, goal, spent, started.declined_hz)
+    ahead = _Ahead(
+        grid, s, fitted, taken=taken, ground=ground, goal=goal, spent_s=spent, declined_hz=started.declined_hz
+    )
     causes_s = before.causes_s
     index, teaches, why = ahead.next(causes_s)
     steps = () if index is None else (index,)
@@ -207,7 +209,14 @@ def _sensitivity(grid: Grid, measured: Measured, fitted: Refitted, ground: Groun
     noise = noise_seen(measured.response_m_s[kept], measured.std_m_s[kept], dwell[kept])
     std = np.where(kept, measured.std_m_s, noise.std_m_s(grid.velocity_m_s, dwell))
     return sensitivity(
-        grid.problem, ground.reduced, fitted.law, fitted.z, std, dwell, ground.bare, grid.errors
+        grid.problem,
+        ground.reduced,
+        fitted.law,
+        z=fitted.z,
+        noise=std,
+        dwell_s=dwell,
+        bare=ground.bare,
+        errors=grid.errors,
     )
 
 
@@ -219,6 +228,7 @@ class _Ahead:
         grid: Grid,
         s: Sensitivity,
         fitted: Refitted,
+        *,
         taken: Array,
         ground: Ground,
         goal: Goal,

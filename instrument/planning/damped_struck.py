@@ -13,13 +13,7 @@ import numpy as np
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.plate_poles import PlatePoles
 from fitting.diagnosis.several.of_files import inner_of
-from fitting.diagnosis.several.sharing import (
-    CHANNELS,
-    OF_EACH_FILE,
-    OF_EACH_KELVIN,
-    OF_EACH_PLATE,
-    OF_EACH_SPOT,
-)
+from fitting.diagnosis.several.sharing import OF_EACH_MOUNTING
 from fitting.effects import CATALOGUE
 from fitting.effects.base import BASE, CLAMP, Effect
 from fitting.laws import CoreLaw
@@ -33,12 +27,13 @@ from fitting.planning.rival_forecasts import RivalForecasts
 from fitting.planning.sensitivity import ReadingNoise
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
+from fitting.stated.tolerances import of_scope
 from instrument.impact.mobility import GAIN
 from instrument.planning.measurement import HANDS_S, Measurable
 from instrument.planning.steps import Steps, about, where
 from instrument.stepped_sine.settings import SweepSettings
 
-_AT = [(0.95, 0.5), (0.6, 0.5)]
+_STRUCK_AT = [(0.95, 0.5), (0.6, 0.5)]
 """Of length and width, where it is hit in its clamp. On the axis: the basis of a plate that its base drives
 has motions even across the width alone."""
 _APART_M = 0.03
@@ -108,7 +103,7 @@ def _hung_free(
         replace(n, sigma=max(n.sigma, GAIN)) if n.kind == "gain" else n for n in there.nuisances.each
     )
     there = replace(there, nuisances=Nuisances(free, each))
-    new = frozenset({*OF_EACH_SPOT, *OF_EACH_FILE, *OF_EACH_KELVIN, *OF_EACH_PLATE})
+    new = frozenset(OF_EACH_MOUNTING)
     gone = frozenset(n for n, e in CATALOGUE.items() if _of_the_mounting(e))
     assert free.force_m is not None
     assert free.pickup_m is not None
@@ -122,7 +117,7 @@ def _in_clamp(expecting: RivalForecasts, stated: Specimen, lines: Steps) -> Iter
     assert reduced is not None
     assert stated.pickup_m is not None
     read = np.array(stated.pickup_m)
-    places = [(along * stated.length_m, across * stated.width_m) for along, across in _AT]
+    places = [(along * stated.length_m, across * stated.width_m) for along, across in _STRUCK_AT]
     point = next(p for p in places if np.hypot(*(read - p)) > _APART_M)
     plate, moved, nuisances = struck(member.plate, reduced, member.nuisances, point, GAIN)
     assert isinstance(nuisances.specimen, Specimen)
@@ -130,7 +125,7 @@ def _in_clamp(expecting: RivalForecasts, stated: Specimen, lines: Steps) -> Iter
     there = exact_problem(f, lines.segment[first], 1.0, nuisances.specimen, plate, moved)
     there = replace(there, nuisances=nuisances)
     gone = frozenset(n for n, e in CATALOGUE.items() if _of_the_shaker(e))
-    further = _further(there, moved, expecting.learnt[0].fitted.law, frozenset(CHANNELS), gone)
+    further = _further(there, moved, expecting.learnt[0].fitted.law, frozenset(of_scope("channel")), gone)
     found = _measurable(further, _STRIKE.format(hit=_words(point)), point)
     yield replace(found, held="clamped", reason=_NO_BASE)
 

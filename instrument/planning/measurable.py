@@ -5,10 +5,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fitting.arrays import Array, Integers, Mask
+from fitting.arrays import Array, Integers, Mask, Place
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.plate_poles import PlatePoles
-from fitting.diagnosis.several.sharing import OF_EACH_FILE, OF_EACH_KELVIN, OF_EACH_PLATE, OF_EACH_SPOT
+from fitting.diagnosis.several.sharing import OF_EACH_MOUNTING, OF_EACH_SPOT
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.planning.candidates import resonances_hz
 from fitting.planning.elsewhere import read_elsewhere
@@ -44,10 +44,7 @@ _PAUSE_S = 60.0
 """Between two sweeps."""
 _BETWEEN = "Where nothing was read yet each explanation goes its own way."
 OF_THE_SPOT = frozenset({"spot_offset"})
-_OF_A_MOUNTING = frozenset({*OF_EACH_SPOT, *OF_EACH_FILE, *OF_EACH_KELVIN, *OF_EACH_PLATE})
-"""Stated numbers that are other ones in a file of its own, as the joint fit has them."""
 _LEAST_HZ, _MOST_HZ = 5.0, 2000.0
-Place = tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -201,7 +198,7 @@ class Template:
         mass: KnownMass | None = None,
     ) -> Iterator[Measurable]:
         """What a person prepares, and then in each of several lengths."""
-        new = frozenset(OF_EACH_SPOT) if kind == "spot" else _OF_A_MOUNTING
+        new = frozenset(OF_EACH_SPOT) if kind == "spot" else frozenset(OF_EACH_MOUNTING)
         without = frozenset() if kind == "added_mass" else OF_THE_SPOT
         further = self._further(there, offered, same_errors=False)
         further = replace(further, new=new, without=without, remounted=kind == "clamping", mass=mass)

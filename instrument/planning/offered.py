@@ -69,7 +69,7 @@ class Offered:
             yield Choice(_evenly(self.same.segment, count), f"sweep the same segments, {count} steps each")
 
     def with_gaps(self) -> Iterator[Choice]:
-        """The same, and what lies between them."""
+        """The `lengths`, and what lies between them."""
         gaps = len(self.same) + np.arange(len(self.gaps))
         for one in self.lengths() if len(gaps) else ():
             yield Choice(np.concatenate([one.at, gaps]), f"{one.words}, and between them")

@@ -76,8 +76,15 @@ class Outlook:
         at = at or self.here
         problem = self.problem(level_m_s2, at)
         law = bent(self.specimen.core.law, problem)  # type: ignore[union-attr]
-        dwell_s = self.candidates.dwell_s
-        return sensitivity(problem, at.reduced, law, problem.as_stated, noise, dwell_s, self.bare)
+        return sensitivity(
+            problem,
+            at.reduced,
+            law,
+            z=problem.as_stated,
+            noise=noise,
+            dwell_s=self.candidates.dwell_s,
+            bare=self.bare,
+        )
 
 
 @dataclass(frozen=True)

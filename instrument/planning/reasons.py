@@ -74,14 +74,15 @@ _ALWAYS: dict[FollowUpKind, str] = {
     "frequencies": "The same steps once more halve the noise",
 }
 """Whichever the explanations are."""
-_MOST = 3
+_MOST_REASONS = 3
+"""Reasons that a sentence names: more are not read. A choice."""
 
 
 def why(kind: FollowUpKind, explanations: Iterable[str]) -> str:
     """One sentence on what tells these explanations, each by its name, apart."""
     effects = [e for names in explanations for e in split(names)]
     shown = [words for words in dict.fromkeys(_shown(kind, e) for e in effects) if words]
-    said = [*shown[:_MOST], *([_ALWAYS[kind]] if kind in _ALWAYS else [])]
+    said = [*shown[:_MOST_REASONS], *([_ALWAYS[kind]] if kind in _ALWAYS else [])]
     if not said:
         return "The explanations expect other readings there."
     text = "; ".join(said)

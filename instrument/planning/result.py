@@ -22,18 +22,8 @@ _MOST_LIMITS = 5
 
 
 def result_of(plan: Plan, wish: Wish) -> PlanResult:
-    """That of `viscorig plan`."""
-    c, spot = plan.outlook.candidates, plan.outlook.here.spot_m
-    law = set(plan.for_law.tolist())
-    steps = tuple(
-        PlannedStep(
-            frequency_hz=float(c.frequency_hz[k]),
-            segment=int(c.region[k]),
-            seconds=float(seconds),
-            teaches="law" if k in law else "causes",
-        )
-        for k, seconds in zip(np.flatnonzero(plan.taken), plan.seconds, strict=True)
-    )
+    """The result of `viscorig plan`."""
+    steps, spot = _steps(plan), plan.outlook.here.spot_m
     worst = float(plan.errors.max())
     return PlanResult(
         target_percent=100 * wish.target,
@@ -54,48 +44,77 @@ def result_of(plan: Plan, wish: Wish) -> PlanResult:
         noise_share_percent=100 * wish.noise.share,
         steps=steps,
         segments=_segments(steps),
-        law=tuple(
-            LawOutlook(frequency_hz=float(f), storage_modulus_percent=100 * g, loss_factor_percent=100 * e)
-            for f, g, e in zip(plan.aims.frequency_hz, *plan.errors.tolist(), strict=True)
-        ),
-        levels=tuple(
-            LevelCompared(
-                level_g=x.level_g,
-                steps=len(x.choice.taken),
-                seconds=float(x.choice.seconds[-1]),
-                worst_percent=100 * float(x.choice.worst[-1]),
-                why_not=x.why_not,
-            )
-            for x in plan.levels
-        ),
-        spots=tuple(
-            SpotCompared(
-                x_mm=1e3 * s.x_m,
-                y_mm=1e3 * s.y_m,
-                steps=s.steps,
-                seconds=s.seconds,
-                worst_percent=100 * s.worst,
-                limit_percent=100 * s.limit,
-                reached=s.reached,
-                stated=s.stated,
-            )
-            for s in plan.spots
-        ),
-        effects=tuple(
-            EffectForecast(
-                name=e.name,
-                parameter=e.key,
-                unit=e.unit,
-                seen_at=e.seen_at,
-                seen_at_best=e.seen_at_best,
-                chance_seen=e.chance_seen,
-                rivals=tuple(RivalEffect(name=r.name, times=r.times) for r in e.rivals),
-            )
-            for e in plan.effects
-        ),
+        law=_law(plan),
+        levels=_levels(plan),
+        spots=_spots(plan),
+        effects=_effects(plan),
         not_judged=tuple(NotJudged(name=name, why=why) for name, why in plan.not_judged),
         sweep_toml=sweep_toml(steps, plan.level.level_g, plan.settling),
         notes=plan.notes,
+    )
+
+
+def _steps(plan: Plan) -> tuple[PlannedStep, ...]:
+    c, law = plan.outlook.candidates, set(plan.for_law.tolist())
+    return tuple(
+        PlannedStep(
+            frequency_hz=float(c.frequency_hz[k]),
+            segment=int(c.region[k]),
+            seconds=float(seconds),
+            teaches="law" if k in law else "causes",
+        )
+        for k, seconds in zip(np.flatnonzero(plan.taken), plan.seconds, strict=True)
+    )
+
+
+def _law(plan: Plan) -> tuple[LawOutlook, ...]:
+    return tuple(
+        LawOutlook(frequency_hz=float(f), storage_modulus_percent=100 * g, loss_factor_percent=100 * e)
+        for f, g, e in zip(plan.aims.frequency_hz, *plan.errors.tolist(), strict=True)
+    )
+
+
+def _levels(plan: Plan) -> tuple[LevelCompared, ...]:
+    return tuple(
+        LevelCompared(
+            level_g=x.level_g,
+            steps=len(x.choice.taken),
+            seconds=float(x.choice.seconds[-1]),
+            worst_percent=100 * float(x.choice.worst[-1]),
+            why_not=x.why_not,
+        )
+        for x in plan.levels
+    )
+
+
+def _spots(plan: Plan) -> tuple[SpotCompared, ...]:
+    return tuple(
+        SpotCompared(
+            x_mm=1e3 * s.x_m,
+            y_mm=1e3 * s.y_m,
+            steps=s.steps,
+            seconds=s.seconds,
+            worst_percent=100 * s.worst,
+            limit_percent=100 * s.limit,
+            reached=s.reached,
+            stated=s.stated,
+        )
+        for s in plan.spots
+    )
+
+
+def _effects(plan: Plan) -> tuple[EffectForecast, ...]:
+    return tuple(
+        EffectForecast(
+            name=e.name,
+            parameter=e.key,
+            unit=e.unit,
+            seen_at=e.seen_at,
+            seen_at_best=e.seen_at_best,
+            chance_seen=e.chance_seen,
+            rivals=tuple(RivalEffect(name=r.name, times=r.times) for r in e.rivals),
+        )
+        for e in plan.effects
     )
 
 

@@ -24,7 +24,7 @@ def with_unseen(result: DiagnosisResult, diagnosed: Diagnosed) -> DiagnosisResul
 
 
 def with_unseen_in_tables(result: DiagnosisResult, diagnosed: TablesDiagnosed) -> DiagnosisResult:
-    """The same of tables of modes."""
+    """As `with_unseen`, of tables of modes."""
     unseen_there = unseen_in_tables(diagnosed.found, diagnosed.effects)
     return result.but(unseen=tuple(_fact(one) for one in unseen_there))
 

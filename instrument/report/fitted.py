@@ -43,7 +43,7 @@ class ReportedFit:
 
     @property
     def points_set_aside(self) -> tuple[PointSetAside, ...]:
-        """Those that the fit has left out."""
+        """Points that the fit has left out."""
         if self.fit is None:
             return ()
         return points_set_aside_from(self.fit.identified.given, self.fit.identified.why_aside)

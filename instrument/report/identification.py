@@ -75,7 +75,7 @@ def result_in_short(contents: Contents, fitted: ReportedFit) -> str:
 
 
 def session_result(contents: Contents, fitted: ReportedFit) -> SessionResult:
-    """As recorded; computed for the page where the run left no law of all its points."""
+    """The result as recorded; computed for the page where the run left no law of all its points."""
     recorded = recorded_result(contents)
     if recorded.is_complete or (recorded.points and fitted.result is None):
         return recorded

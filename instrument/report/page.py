@@ -45,7 +45,7 @@ class Report:
         save_pdf(path, self.title, self.header, self.sections)
 
     def save_pictures(self, path: Path) -> tuple[Path, ...]:
-        """The same sheets, a PNG each, numbered behind the name. Raises `OSError`."""
+        """Sheets of A4 as a PNG each, numbered behind the name. Raises `OSError`."""
         return save_pictures(path, self.title, self.header, self.sections)
 
 

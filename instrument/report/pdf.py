@@ -41,7 +41,7 @@ def save_pdf(
 def save_pictures(
     path: Path, title: str, header: Sequence[tuple[str, str]], sections: Sequence[ReportSection]
 ) -> tuple[Path, ...]:
-    """The same pages as pictures for paper: NAME-01.png and so on. Raises `BadInput`."""
+    """Sheets of A4 as pictures for paper: NAME-01.png and so on. Raises `BadInput`."""
     pages = sheets_of(title, header, sections).pages
     names = tuple(path.with_name(f"{path.stem}-{k:02d}{path.suffix}") for k in range(1, len(pages) + 1))
     # Letters fitted to the pixels would be wider than the lines they were broken into.

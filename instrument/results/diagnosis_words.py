@@ -21,7 +21,7 @@ UNRELIABLE = f"{UNKNOWN}: no law here is to be relied on"
 """Said beside a law that stands although nothing explains the data."""
 DOUBTED = "in doubt"
 """Of a law that its own fit says may be biased."""
-_LEAST = 1e-3
+_LEAST_PROBABILITY = 1e-3
 """Probability below which, or above one less which, no digits are said."""
 _OUTSIDE_GROUP = 0.05
 """Most that what is not in the group of 95 % can have."""
@@ -147,9 +147,9 @@ def probability_words(candidate: CandidateFitted, found: DiagnosisResult) -> str
         return "refused"
     if found.by_hand or isnan(p):
         return "-"
-    if p < _LEAST:
-        return f"< {100 * _LEAST:g} %"
-    return f"> {100 * (1 - _LEAST):g} %" if p > 1 - _LEAST else f"{100 * p:.1f} %"
+    if p < _LEAST_PROBABILITY:
+        return f"< {100 * _LEAST_PROBABILITY:g} %"
+    return f"> {100 * (1 - _LEAST_PROBABILITY):g} %" if p > 1 - _LEAST_PROBABILITY else f"{100 * p:.1f} %"
 
 
 def resampling_words(found: DiagnosisResult) -> str:

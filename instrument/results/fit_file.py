@@ -23,7 +23,7 @@ from instrument.facts.identification import IdentificationResult
 from instrument.files.text import read_text
 from instrument.models.fitted_plate import FittedPlate
 
-_AT = 1e-3
+_FREQUENCY_OFF = 1e-3
 """Frequencies are written with few digits."""
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 
@@ -113,7 +113,10 @@ class FoundLaw(BaseModel):
     def outside(self, frequency_hz: Array) -> str:
         """What is to be said of frequencies beyond the measured band; empty within. Shape (points,)."""
         f = [row.frequency_hz for row in self.rows]
-        if not f or (min(f) * (1 - _AT) <= frequency_hz.min() and frequency_hz.max() <= max(f) * (1 + _AT)):
+        if not f or (
+            min(f) * (1 - _FREQUENCY_OFF) <= frequency_hz.min()
+            and frequency_hz.max() <= max(f) * (1 + _FREQUENCY_OFF)
+        ):
             return ""
         return (
             f"the law was found from {min(f):g} to {max(f):g} Hz: outside it is an extrapolation of its "
@@ -186,7 +189,7 @@ def read_fit(path: Path) -> FoundLaw:
 
 
 def found_law(found: IdentificationResult) -> FoundLaw:
-    """The same from the result itself. Raises `ValidationError`."""
+    """The law that a fit has found, from its result. Raises `ValidationError`."""
     return FoundLaw.model_validate(found.as_json())
 
 

@@ -26,7 +26,7 @@ class FittedSmall:
 
     @classmethod
     def of(cls, specimen: SmallSpecimen, found: FoundLaw) -> "FittedSmall":
-        """As a fit has left them. Raises `BadInput` for a law of another kind."""
+        """Law and stated numbers as a fit has left them. Raises `BadInput` for a law of another kind."""
         assert specimen.core is not None
         both = [one.moved(specimen) for one in found.of_specimen]
         nuisances = SmallNuisances(specimen, tuple(n for n, _ in both), None, specimen.parts())

@@ -22,7 +22,7 @@ def law_rows_from(b: LawBand) -> tuple[LawRow, ...]:
 
 
 def law_known_from(b: LawBand) -> LawKnown | None:
-    """The same of its curve as a whole."""
+    """What is known of the band's curve as a whole."""
     known = b.known
     if known is None:
         return None

@@ -11,7 +11,7 @@ from fitting.diagnosis.verdict.shares import holding
 from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageFitted, StageName
 
 Standing = Literal["found", "equal", "none", "other"]
-_LEAST = 1e-300
+_LEAST_WHOLE = 1e-300
 """Where the listed ones have nothing left to share."""
 
 
@@ -39,7 +39,7 @@ def none_is_likelier(found: DiagnosisResult) -> bool:
 
 
 def none_leads(equivalent: Mapping[str, Sequence[str]], probability: Mapping[str, float]) -> bool:
-    """The same of the accepted names, each with what is not told from it, and every candidate's share."""
+    """Whether no effect is likeliest: by names with what is not told from each, and candidates' shares."""
     if not any("none" in group for group in equivalent.values()):
         return False
     shares = {frozenset(split(name)): p for name, p in probability.items()}
@@ -80,5 +80,5 @@ def _group(found: DiagnosisResult) -> set[str] | None:
         return None
     listed = [c for c in found.candidates if c.name != UNLISTED]
     ranked, whole = sorted(listed, key=lambda c: -c.probability), sum(c.probability for c in listed)
-    group = {c.name for c in ranked[: holding([c.probability / max(whole, _LEAST) for c in ranked])]}
+    group = {c.name for c in ranked[: holding([c.probability / max(whole, _LEAST_WHOLE) for c in ranked])]}
     return group | {UNLISTED} if any(UNLISTED in names for names in found.equivalent.values()) else group

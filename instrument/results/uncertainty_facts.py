@@ -63,7 +63,7 @@ def quantities_of(found: Identified) -> Quantities | None:
 
 
 def in_depth_facts(looked: InDepth) -> list[IntervalsFound]:
-    """As JSON holds it, an item a method."""
+    """Intervals as JSON holds them, an item a method."""
     found = [_intervals(i) for i in looked.intervals]
     p = looked.posterior
     if p is not None:

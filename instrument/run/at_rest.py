@@ -63,7 +63,7 @@ def came_to_rest(shaker: Shaker, within_s: float = AT_REST_S) -> str:
 
 
 def silenced(shaker: Shaker, within_s: float) -> str:
-    """The same, tried again until the time is over, also where nobody answers; no signal breaks it off.
+    """`came_to_rest`, tried again until the time is over, though nobody answers; no signal breaks it off.
 
     It goes on on a thread of its own: signals reach the main thread alone. What a signal raises there
     meanwhile is raised once the shaker is silent.

@@ -1,5 +1,6 @@
 """The live identification: on a thread of its own, with the newest points, its results back as events."""
 
+import logging
 import threading
 from collections.abc import Callable
 
@@ -22,6 +23,8 @@ from instrument.stream.derived import DampingFound, FitUpdated, PointMeasured
 from instrument.stream.event import Event
 from instrument.stream.raw import FitStarted
 
+log = logging.getLogger(__name__)
+
 Fitter = Callable[[int, int, list[PointMeasured], DampingFound | None, AnySpecimen], FitUpdated]
 """Number, last step, points, hammer test, specimen."""
 
@@ -42,6 +45,7 @@ def fit_points(
             return FitUpdated(number, last_step, _result(used, damping, specimen, progress))
     except (FittingError, ValidationError, ValueError, ArithmeticError) as error:
         # Data may be such that no fit is possible: said, and the measurement goes on.
+        log.debug("no fit of points up to step %d", last_step, exc_info=True)
         return FitUpdated(number, last_step, None, " ".join(str(error).split()))
 
 

@@ -11,7 +11,7 @@ from instrument.stream.event import Event
 from instrument.stream.raw import HammerTestEnded, Part
 
 OVERLOADS = 3
-"""Of the laser, one blow after the other, before its next range is taken: that may not be calibrated."""
+"""Overloads of the laser in a row until its next coarser range is used: that one may not be calibrated."""
 HITS_IN_VAIN = 20
 """Blows refused one after the other before a hammer test is given up: more of them would be no better."""
 

@@ -139,7 +139,7 @@ class Contents:
 
     @property
     def good_hits(self) -> list[RecordedHit]:
-        """Those that count."""
+        """Hits that count."""
         return [h for h in self.hits if h.accepted]
 
 

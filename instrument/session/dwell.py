@@ -17,7 +17,7 @@ from instrument.stream.scaling import Scaling
 
 @dataclass(frozen=True)
 class DwellSamples:
-    """As the sensors gave them: gain and delay of a calibration are not taken off. Shape (samples,) each."""
+    """Samples as the sensors gave them, a calibration's gain and delay in them. Shape (samples,) each."""
 
     time_s: Array
     """Since the dwell's first sample."""

@@ -50,7 +50,7 @@ def elsewhere(point: PointMeasured) -> str:
 
 
 def place_of(point: PointMeasured) -> str:
-    """The same, and whether it was clamped anew; empty where all is as in the specimen file, and as first."""
+    """What `elsewhere` says and whether it was clamped anew; empty where all is as stated, and as first."""
     said = [where] if (where := elsewhere(point)) else []
     if point.mounting:
         said.append("clamped anew" + ("" if point.mounting == 1 else f" {point.mounting} times"))

@@ -1,7 +1,7 @@
 """From RIG.toml's [simulation] to the simulated rig: its plates, sensors, and what it hides."""
 
 from collections.abc import Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -15,11 +15,9 @@ from drivers.simulated.mounted_plate import MountedPlate
 from drivers.simulated.plant.effects import Effects
 from drivers.simulated.plant.shaken import ShakenPlate
 from drivers.simulated.plates import DampedPlate, HammerInHand, OnShaker, SimulatedBarePlate, Struck
-from drivers.simulated.rig import OWN_MODEL, Ports, SimulatedChamber, SimulatedRig, VibrometerPeer
+from drivers.simulated.rig import Ports, SimulatedChamber, SimulatedRig
 from drivers.simulated.sensors import SimulatedSensor
 from drivers.simulated.world import Laser, Wiring, World
-from drivers.vibrometer.driver import Optics
-from drivers.vibrometer.polytec_driver import PolytecOptions
 from fitting.specimen import Specimen
 from fitting.structures import Beam
 from instrument.errors import BadInput
@@ -72,32 +70,18 @@ def simulated_rig(
     modbus = shaker if isinstance(shaker, ModbusOptions) else None
     rig = SimulatedRig(
         world,
-        model=vibrometer.model if isinstance(vibrometer, PolytecOptions) else OWN_MODEL,
+        vibrometer=lambda optics: VIBROMETERS[vibrometer.kind].simulated(vibrometer, optics),
         signal_level=simulation.signal_level,
-        delay_s={},
         limit_v=document.limits.drive_v,
         registers=DEFAULT.with_addresses(modbus.registers) if modbus is not None else DEFAULT,
         unit=modbus.unit if modbus is not None else 1,
         ports=Ports(*ports),
         log=log or (path.parent / simulation.log if simulation.log else None),
-        vibrometer=_peer(document),
         chamber=chamber,
         transducers=_memories(document.channels, simulation),
     )
     with rig as addresses:
         yield addresses
-
-
-def _peer(document: RigDocument) -> VibrometerPeer | None:
-    """The simulated vibrometer that another package's driver brings."""
-    table = document.vibrometer
-    if isinstance(table, PolytecOptions):
-        return None
-
-    def peer(optics: Optics) -> AbstractContextManager[str]:
-        return VIBROMETERS[table.kind].simulated(table, optics)
-
-    return peer
 
 
 def _chamber(document: RigDocument, simulation: Simulation) -> SimulatedChamber | None:

@@ -59,7 +59,7 @@ def refuse_without_peer(document: RigDocument, path: Path) -> None:
             said = " or ".join(played)
             raise BadInput(f"{path}: {name}.kind: {device.kind!r} is not simulated, expected {said}")
     kind = document.vibrometer.kind
-    if kind != "polytec" and not VIBROMETERS[kind].can_be_simulated:
+    if not VIBROMETERS[kind].can_be_simulated:
         raise BadInput(f"{path}: vibrometer.kind: {kind!r}: its driver brings no simulated one")
 
 

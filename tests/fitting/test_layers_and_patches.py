@@ -12,9 +12,11 @@ from fitting.effects import CATALOGUE
 from fitting.laws.constant import ConstantModulus
 from fitting.nuisances.nuisances import Nuisances, nuisances_of
 from fitting.plate.element import face_plane_stress
+from fitting.plate.layers_array import layers_of, specimen_of
 from fitting.plate.mesh import SHIFT_M
 from fitting.plate.part_matrices import moving_part, projected_parts
-from fitting.plate.parts import coefficients, layers_of, loaded, names_of, specimen_of
+from fitting.plate.part_names import names_of
+from fitting.plate.parts import coefficients, loaded
 from fitting.plate.plate import Plate
 from fitting.plate.plate_numbers import plate_numbers
 from fitting.specimen import Specimen

@@ -1,6 +1,7 @@
 """A plate that clamps on opposite edges pull along."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,7 +12,9 @@ from fitting.effects import CATALOGUE
 from fitting.effects.axial_stress import AxialStressEffect
 from fitting.identification.adjusted import stated_number
 from fitting.nuisances.nuisance import Nuisance
-from fitting.plate.parts import coefficients, layers_of, names_of, specimen_of
+from fitting.plate.layers_array import layers_of, specimen_of
+from fitting.plate.part_names import names_of
+from fitting.plate.parts import coefficients
 from fitting.plate.plate import Plate
 from fitting.plate.plate_numbers import moved, plate_numbers
 from fitting.specimen import Specimen
@@ -64,6 +67,23 @@ def test_both_faces_are_pulled_or_under_patches_the_substrate(zn1):
     assert replace(zn1, both_sides=True).pulled_thickness_m == b + 2 * c
     assert replace(zn1, patches=(Patch(0.0, 0.1, 0.0, 0.1),)).pulled_thickness_m == b
     assert zn1.bare.pulled_thickness_m == b
+
+
+@pytest.mark.parametrize(("form", "along"), [(AxialStressEffect(), "x"), (AxialStressEffect("y"), "y")])
+def test_the_effect_changes_a_plate_to_one_that_states_as_much_more(zn1, form, along):
+    framed = replace(zn1, boundary="clamped-clamped-clamped-clamped")
+    count = sum(names_of(framed).counts)
+    plate = SimpleNamespace(
+        specimen=framed,
+        coefficients=coefficients(framed, framed),
+        parts=np.eye(count),
+        load_part=np.ones(1),
+    )
+    found = form.change(plate, np.array([12.0]))
+    stated = coefficients(moved(framed, [f"axial_{along}"], [12e6]), framed)
+    more = stated.K_0 - plate.coefficients.K_0
+    assert np.any(more)
+    np.testing.assert_allclose(found.K, more @ np.eye(len(more), count))
 
 
 def test_more_than_its_tolerance_is_an_effect_of_each_side():

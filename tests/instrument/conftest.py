@@ -1,9 +1,11 @@
-"""What tests of figures share."""
+"""What tests of figures and of sessions share."""
 
 from pathlib import Path
 
 import pytest
 from matplotlib.figure import Figure
+from session_cases import session_path as session_path
+from sessions import contents_in
 
 
 @pytest.fixture
@@ -12,3 +14,9 @@ def saved(monkeypatch):
     figures = {}
     monkeypatch.setattr(Figure, "savefig", lambda f, path, dpi: figures.setdefault(Path(path).name, f))
     return figures
+
+
+@pytest.fixture(scope="module")
+def contents(session_path):
+    """Of that session."""
+    return contents_in(session_path)

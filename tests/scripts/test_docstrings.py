@@ -100,3 +100,38 @@ def _inner() -> None:
         "fitting/one.py:2: Pairs begins with a fragment: Of one search. Others are elsewhere.",
         "fitting/one.py:5: Pairs.wait begins with a fragment: It goes on.",
     ]
+
+
+LEANING = '''
+class Beam:
+    """The same of a beam, without the width."""
+
+    def moved(self) -> None:
+        """As `Plate.moved`, for a beam."""
+
+def those(x: int) -> int:
+    """Those that are left of what was given."""
+
+def thatched() -> None:
+    """Thatched roofs carry snow: `that` is another word."""
+'''
+
+
+def test_a_docstring_that_leans_on_another_names_it(tmp_path):
+    assert looked_at(tmp_path, LEANING) == (
+        1,
+        [
+            "fitting/one.py:2: Beam leans on what it does not name: The same of a beam, without the width.",
+            "fitting/one.py:8: those leans on what it does not name: Those that are left of what was given.",
+        ],
+    )
+
+
+def test_leave_to_lean_is_given_by_name_and_taken_back_where_it_is_not_needed(tmp_path):
+    (tmp_path / "scripts").mkdir()
+    leave = tmp_path / "scripts" / "leaning_docstrings.txt"
+    leave.write_text("fitting/one.py:Beam\nfitting/one.py:those\nfitting/two.py:gone\n", encoding="utf-8")
+    assert looked_at(tmp_path, LEANING) == (
+        1,
+        ["fitting/two.py:gone leans on nothing any more: take it off scripts/leaning_docstrings.txt"],
+    )

@@ -5,7 +5,7 @@ import json
 import matplotlib as mpl
 import pytest
 from conftest import DATA
-from session_cases import whole_session
+from session_cases import session_path as session_path
 
 import viscorig as vr
 from instrument.cli.main import run
@@ -47,8 +47,3 @@ def sweep(plate):
 @pytest.fixture(scope="session")
 def found(sweep, plate):
     return vr.identify(sweep, plate)
-
-
-@pytest.fixture(scope="session")
-def session_path(tmp_path_factory):
-    return whole_session(tmp_path_factory.mktemp("session"))

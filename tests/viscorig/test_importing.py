@@ -55,6 +55,11 @@ def test_type_checkers_see_the_same_names():
     assert Path(vr.__file__).with_name("py.typed").exists()
 
 
+def test_every_name_but_two_has_a_home_and_no_other_name_has_one():
+    homes = [name for names in vr._HOMES.values() for name in names]
+    assert sorted([*homes, "__version__", "errors"]) == sorted(vr.__all__)
+
+
 def test_another_name_is_refused_as_python_does():
     with pytest.raises(AttributeError, match="has no attribute 'identifi'"):
         vr.identifi  # noqa: B018

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from diagnosed_session import diagnosed_session
 from session_cases import SyntheticSession, configuration
+from sessions import contents_in
 
 import viscorig as vr
-from instrument.session.contents import contents_of
-from instrument.session.storage import SessionFile
 
 
 @pytest.fixture(scope="module")
@@ -19,8 +18,7 @@ def session(session_path):
 
 @pytest.fixture(scope="module")
 def contents(session_path):
-    with SessionFile(session_path) as file:
-        return contents_of(file, with_hits=False)
+    return contents_in(session_path, with_hits=False)
 
 
 def test_a_session_holds_what_was_recorded(session, contents):

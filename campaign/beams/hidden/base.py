@@ -58,7 +58,7 @@ class HiddenInBeam:
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenInBeam":
-        """One of random severity."""
+        """The effect at a random severity."""
         raise NotImplementedError
 
     @property

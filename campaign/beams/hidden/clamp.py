@@ -62,7 +62,7 @@ class HiddenClampCompliance(HiddenInBeam):
 
 @dataclass(frozen=True)
 class HiddenClampFriction(HiddenClampCompliance):
-    """The same, and it rubs: every spring has a loss factor."""
+    """The root yields as in `HiddenClampCompliance`, and rubs: every spring has a loss factor."""
 
     name: ClassVar[str] = "clamp_friction"
     near: ClassVar[tuple[str, ...]] = ("clamp_compliance",)

@@ -111,7 +111,7 @@ class Hidden:
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "Hidden":
-        """One of random severity."""
+        """The effect at a random severity."""
         raise NotImplementedError
 
     @property

@@ -70,7 +70,7 @@ class HiddenClampCompliance(Hidden):
 
 @dataclass(frozen=True)
 class HiddenClampFriction(HiddenClampCompliance):
-    """The same, and it rubs: every spring has a loss factor."""
+    """The clamp yields as in `HiddenClampCompliance`, and rubs: every spring has a loss factor."""
 
     name: ClassVar[str] = "clamp_friction"
 

@@ -78,7 +78,7 @@ class RoomStep:
     on_request: ClassVar[bool] = True
 
     def paused(self, schedule: Schedule) -> Schedule:
-        """The same points, those of later passes after the pause."""
+        """Points of a schedule, those of later passes after the pause."""
         later = schedule.sweep > self.after_pass
         return replace(schedule, time_s=schedule.time_s + np.where(later, self.pause_s, 0.0))
 

@@ -43,7 +43,7 @@ class SubstrateStiffness(ScaledLayer):
 
 @dataclass(frozen=True)
 class ConstrainingStiffness(ScaledLayer):
-    """The same of the constraining layer."""
+    """Young's modulus of the constraining layer."""
 
     name: ClassVar[str] = "constraining_stiffness"
     layer: ClassVar[str] = "constraining"

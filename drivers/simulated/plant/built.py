@@ -164,7 +164,7 @@ def mounted_beam(stated: BeamStated, reduced: Reduced, law: MaxwellLaw, effects:
 
 
 def mounted_pair(stated: PairStated, reduced: Reduced, law: MaxwellLaw, effects: Effects) -> Mounted:
-    """The same of a pair."""
+    """A shear pair of these parts with a core of this law, as effects change it."""
     refuse_effects("shear-pair", effects)
     M, load = reduced.M, reduced.load
     if effects.added_mass:

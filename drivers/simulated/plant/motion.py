@@ -125,7 +125,7 @@ class Motion:
         self.excite(piece.begin_s, tones_of(piece, self._harmonics))
 
     def excite(self, begin_s: float, tones: tuple[Tone, ...]) -> None:
-        """The same for any sum of tones; none is silence."""
+        """Any sum of tones from `begin_s` on, as `drive` does; none is silence."""
         self._begin(begin_s, self.system, tones)
 
     def retune(self, time_s: float, system: Diagonal) -> None:

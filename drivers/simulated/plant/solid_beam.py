@@ -139,7 +139,7 @@ class SolidBeam(LayeredSolid):
         return self.core_times(lambda x: np.ones_like(x))
 
     def core_times(self, factor: Callable[[Array], Array]) -> sp.csr_array:
-        """The same times a further factor of x. Shape (size, size)."""
+        """Stiffness as `core` has it, times a further factor of x. Shape (size, size)."""
         own = self.build.core_factor
         both = factor if own is None else lambda x: own(x) * factor(x)
         parts = [self.stiffness(k, along_x=_product(both, self.there(k))) for k in self.stated.cores]

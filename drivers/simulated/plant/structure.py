@@ -44,7 +44,7 @@ class Structure:
         return np.asarray(np.linalg.solve(self.dynamic_stiffness(omega), self.loads))
 
     def with_laws(self, *laws: MaxwellLaw) -> "Structure":
-        """The same with other laws in the first branches."""
+        """The structure with other laws in the first branches."""
         changed = tuple(replace(b, law=law) for b, law in zip(self.branches, laws, strict=False))
         return replace(self, branches=changed + self.branches[len(laws) :])
 

@@ -17,7 +17,8 @@ from fitting.diagnosis.problem.pole_following import KnownPoles
 from fitting.discrepancy.model_error import model_error_at
 from fitting.effects.added_mass import AddedMassEffect
 from fitting.effects.base import Effect
-from fitting.effects.enriched_plate import CONDENSED, EnrichedReducedPlate
+from fitting.effects.condensing import CONDENSED, Training, condensed
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
 from fitting.effects.span import Span
 from fitting.identification.adjusted import Adjusted, adjusted
@@ -147,8 +148,8 @@ class DiagnosisProblem:
             changes.append(self.nuisances.change(self.plate, self.as_stated))
             sides = [*sides, *(self.plate.row(m.x_m, m.y_m) for m in self.nuisances.masses)]
         around = np.tile(omega, len(factors))
-        plate = self.plate.condensed(around, G, changes, omega, law.modulus(omega), sides, self.left_out)
-        return replace(self, plate=plate)
+        training = Training(around, G, changes, omega, law.modulus(omega))
+        return replace(self, plate=condensed(self.plate, training, sides, self.left_out))
 
     @property
     def left_out(self) -> float:

@@ -14,6 +14,7 @@ from fitting.diagnosis.problem.narrow_resonances import Errs
 from fitting.diagnosis.problem.plate_poles import PlatePoles
 from fitting.diagnosis.problem.small_error import octaves, theory_rows
 from fitting.discrepancy.model_error import ModelError
+from fitting.effects.condensing import Training, condensed
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.structures.small import (
@@ -62,7 +63,7 @@ def _compact(own: EnrichedReducedPlate, omega: Array, size_pa: float, share: flo
     place, size = (one.ravel() for one in np.indices((len(some), len(_SIZES))))
     # Every size at every place, each by one argument in turn: what they answer differs little by argument.
     G = size_pa * np.array(_SIZES)[size] * np.exp(1j * np.array(_ANGLES)[(place + size) % len(_ANGLES)])
-    return own.condensed(some[place], G, left_out=_LEFT_OUT)
+    return condensed(own, Training(some[place], G), left_out=_LEFT_OUT)
 
 
 @dataclass(frozen=True)
@@ -148,7 +149,7 @@ class SmallProblem(DiagnosisProblem):
 
     @property
     def errs_in_level(self) -> bool:
-        """Those of small structures do."""
+        """Files of small structures differ by levels."""
         return True
 
     @property

@@ -21,12 +21,12 @@ class SharedNuisances(Nuisances):
 
     @property
     def masses(self) -> tuple[PlacedMass, ...]:
-        """Those placed on the first file's plate."""
+        """Known masses placed on the first file's plate."""
         return self.first.masses
 
     @cached_property
     def of_bare_plate(self) -> list[int]:
-        """Those that a hammer test of the bare plate feels."""
+        """Numbers that a hammer test of the bare plate feels."""
         return [int(self.places[k]) for k in self.first.of_bare_plate]
 
     def bare_coefficients(self, z: Array) -> tuple[Array | Complex, Array]:

@@ -11,21 +11,12 @@ from fitting.diagnosis.problem.plate_alone import plate_alone
 from fitting.diagnosis.several.of_files import Place
 from fitting.identification.adjusted import stated_number
 from fitting.nuisances.nuisance import Nuisance
+from fitting.stated.tolerances import NUMBERS, of_scope
 
-OF_EACH_SPOT = ("gain", "delay", "pickup")
-"""Kinds of stated numbers that differ from spot to spot, though the files state the same."""
-CHANNELS = ("gain", "delay")
-"""Kinds that differ from one measurement to the next even where the specimen stays where it is."""
-OF_EACH_CHAIN = ("phase",)
-"""Kinds that all files with the same drive share: of one accelerometer, or hammer, against one laser."""
-OF_EACH_FILE = ("force",)
-"""Kinds that differ from file to file; spots of one file share them."""
-OF_EACH_KELVIN = ("axial",)
-"""Kinds that differ from file to file though the specimen stays where it is: what clamps pull by goes with
-the temperature."""
-OF_EACH_PLATE = ("mass", "place", "damping", "length", "width")
-"""Kinds that differ from file to file, except for one plate that is struck at several points: it was not
-mounted anew."""
+OF_EACH_SPOT = of_scope("spot", "channel")
+"""Kinds of stated numbers that are another one at every spot, though they are stated alike."""
+OF_EACH_MOUNTING = of_scope("specimen", "mounting", "temperature", "file", "spot", "channel")
+"""Those that are another one in a file of its own, mounted anew and driven as before: the chain stays."""
 _SAME = 1e-3
 """Relative difference of frequency within which two files' resonances are the same one."""
 Places = tuple[NDArray[np.intp], ...]
@@ -51,18 +42,20 @@ def shared(
         at = []
         for n in m.nuisances.each:
             key: tuple[object, ...] = (n.name, n.sigma, stated_number(m.specimen, n).in_si)
-            if n.kind in CHANNELS:
-                key = (n.name, of[k])
-            elif n.kind in OF_EACH_CHAIN:
-                key = (n.name, n.sigma, m.points.drive)
-            elif n.kind in OF_EACH_SPOT:
-                key = (n.name, there[k])
-            elif n.kind in OF_EACH_PLATE:
-                key = (n.name, there[mounted[k]].file)
-            elif n.kind in OF_EACH_KELVIN:
-                key = (n.name, of[k].file)
-            elif n.kind in OF_EACH_FILE:
-                key = (n.name, there[k].file)
+            match NUMBERS[n.kind].scope:
+                case "chain":
+                    key = (n.name, n.sigma, m.points.drive)
+                case "channel":
+                    key = (n.name, of[k])
+                case "spot":
+                    key = (n.name, there[k])
+                case "specimen" | "mounting":
+                    # The same where one plate is struck, there or elsewhere: it was not mounted anew.
+                    key = (n.name, there[mounted[k]].file)
+                case "temperature":
+                    key = (n.name, of[k].file)
+                case "file":
+                    key = (n.name, there[k].file)
             if key not in keys:
                 keys[key] = len(each)
                 each.append(n)

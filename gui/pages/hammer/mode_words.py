@@ -19,7 +19,7 @@ _ADOPTED = 0
 """Of these."""
 _MOST_DIGITS = 5
 """Behind the point of a damping ratio in percent."""
-_LEAST = 10.0**-_MOST_DIGITS
+_LEAST_PERCENT = 10.0**-_MOST_DIGITS
 """Of an error in percent that is said."""
 _SAME = 0.05
 """Relative distance beyond which an expected mode is another one."""
@@ -134,14 +134,14 @@ def _percent(estimate: RatioFound | None) -> str:
     ratio, error = 100 * estimate.ratio, estimate.standard_error
     if isnan(error):
         return f"{ratio:.4f}"
-    if 100 * error < _LEAST:
+    if 100 * error < _LEAST_PERCENT:
         return f"{ratio:.{_MOST_DIGITS}f} ± {_size(100 * error)}"
     return with_error(ratio, 100 * error)
 
 
 def _size(error: float) -> str:
     """An error by itself."""
-    return two_digits(error) if error >= _LEAST else f"<{_LEAST:.{_MOST_DIGITS}f}"
+    return two_digits(error) if error >= _LEAST_PERCENT else f"<{_LEAST_PERCENT:.{_MOST_DIGITS}f}"
 
 
 def _method_tip(estimate: RatioFound | None, method: Method, found: Mode | None) -> str:

@@ -15,7 +15,7 @@ from instrument.session.contents import SegmentRun
 STANDARD_ERRORS = 2.0
 """Half width of the band."""
 _A_SEGMENT = 241
-_MOST = 2000
+_MOST_FREQUENCIES = 2000
 """Frequencies of all segments together."""
 
 
@@ -77,7 +77,7 @@ def regions_of(segments: dict[tuple[int, int], SegmentRun]) -> list[Region]:
 
 def grid(regions: list[Region]) -> list[Array]:
     """Frequencies to draw at, for each region. Shape (count,) each."""
-    count = max(3, min(_A_SEGMENT, _MOST // max(1, len(regions))))
+    count = max(3, min(_A_SEGMENT, _MOST_FREQUENCIES // max(1, len(regions))))
     return [np.linspace(low, high, count) for _, low, high in regions]
 
 

@@ -70,7 +70,7 @@ class PointsMeasured:
         return cls((), np.zeros((0, len(_COLUMNS) + 3))).up_to(timed, settings)
 
     def setting_aside(self, why: Reasons) -> Self:
-        """The same points, some of them left out by a fit."""
+        """A copy of these points, some of them left out by a fit."""
         return self if np.array_equal(why, self.why_aside) else replace(self, why_aside=why)
 
     def up_to(self, timed: Sequence[TimedPoint], settings: SweepSettings) -> Self:

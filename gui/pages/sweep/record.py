@@ -16,7 +16,7 @@ _COLUMNS = {"Quantity": "Of the point looked at", "Value": "With its unit; Ctrl+
 
 
 class RecordPane(QWidget):
-    """One point.
+    """The record of one measured point, a line a quantity.
 
     Signals
     -------

@@ -138,5 +138,5 @@ class PaneContents:
         return int(order[min(max(at, 0), len(order) - 1)])
 
     def but(self, **changes: object) -> Self:
-        """The same contents with some changes."""
+        """A copy of these contents with some changes."""
         return replace(self, **changes)  # type: ignore[arg-type]

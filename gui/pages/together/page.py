@@ -222,14 +222,7 @@ class TogetherPage(Page):
     def _arrange(self) -> None:
         self.law.setWordWrap(True)
         self.law.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self.save.setText("Save")
-        self.save.setToolTip("As JSON, as the commands write it: `card` and `compare` read it")
-        self.save.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        menu = QMenu(self.save)
-        menu.addAction("Identification...").triggered.connect(self.saving.identification)
-        self.save_diagnosis = menu.addAction("Diagnosis...")
-        self.save_diagnosis.triggered.connect(self.saving.diagnosis)
-        self.save.setMenu(menu)
+        self._arrange_saving()
         actions, results = QHBoxLayout(), QHBoxLayout()
         for one in (self.identify, self.diagnose, self.working):
             actions.addWidget(one)
@@ -237,26 +230,7 @@ class TogetherPage(Page):
             results.addWidget(other)
         actions.addStretch(1)
         results.addStretch(1)
-        self.left_view, self.left_said = QWidget(), hint(_NOT_JUDGED)
-        inside = QVBoxLayout(self.left_view)
-        inside.setContentsMargins(4, 4, 4, 0)
-        inside.addWidget(self.left, 1)
-        inside.addWidget(self.left_said)
-        self.views = QTabWidget()
-        for view, name, tip in (
-            (self.fit, "Fit", "What was measured of each file, and the one law's line there"),
-            (self.numbers, "Numbers", "Stated numbers the data moved: common ones, and each file's own"),
-            (
-                self.left_view,
-                "Unexplained",
-                "Stretches set aside, and points further off than noise",
-            ),
-            (self.notes, "Notes", "What fit and diagnosis have to say of themselves"),
-        ):
-            self.views.setTabToolTip(self.views.addTab(view, name), tip)
-        self.views.setCornerWidget(self.stage)
-        self.stage.setToolTip("The fit that is shown: of the law alone, or with the effects found")
-        self.stage.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        self._arrange_views()
         left, self.filler = QWidget(), QWidget()
         column = QVBoxLayout(left)
         column.setContentsMargins(0, 0, 0, 0)
@@ -281,3 +255,35 @@ class TogetherPage(Page):
         column.setContentsMargins(8, 6, 8, 4)
         column.addWidget(self.finding)
         column.addWidget(whole, 1)
+
+    def _arrange_saving(self) -> None:
+        self.save.setText("Save")
+        self.save.setToolTip("As JSON, as the commands write it: `card` and `compare` read it")
+        self.save.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        menu = QMenu(self.save)
+        menu.addAction("Identification...").triggered.connect(self.saving.identification)
+        self.save_diagnosis = menu.addAction("Diagnosis...")
+        self.save_diagnosis.triggered.connect(self.saving.diagnosis)
+        self.save.setMenu(menu)
+
+    def _arrange_views(self) -> None:
+        self.left_view, self.left_said = QWidget(), hint(_NOT_JUDGED)
+        inside = QVBoxLayout(self.left_view)
+        inside.setContentsMargins(4, 4, 4, 0)
+        inside.addWidget(self.left, 1)
+        inside.addWidget(self.left_said)
+        self.views = QTabWidget()
+        for view, name, tip in (
+            (self.fit, "Fit", "What was measured of each file, and the one law's line there"),
+            (self.numbers, "Numbers", "Stated numbers the data moved: common ones, and each file's own"),
+            (
+                self.left_view,
+                "Unexplained",
+                "Stretches set aside, and points further off than noise",
+            ),
+            (self.notes, "Notes", "What fit and diagnosis have to say of themselves"),
+        ):
+            self.views.setTabToolTip(self.views.addTab(view, name), tip)
+        self.views.setCornerWidget(self.stage)
+        self.stage.setToolTip("The fit that is shown: of the law alone, or with the effects found")
+        self.stage.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)

@@ -12,6 +12,7 @@ from drivers.simulated.rig import RigOptics, SimulatedRig
 from drivers.simulated.sensors import SimulatedSensor
 from drivers.simulated.world import Laser, Wiring, World
 from drivers.vibrometer.interface import Range
+from drivers.vibrometer.polytec_driver import PolytecDriver, PolytecOptions
 from drivers.vibrometer.polytec_vibrometer import PolytecVibrometer
 
 
@@ -31,9 +32,13 @@ def world():
     return World({"damped": Plate()}, Wiring(inputs), Laser(1.0, 10.0, 0.0), virtual=True)
 
 
+def a_polytec(optics):
+    return PolytecDriver().simulated(PolytecOptions(address="simulated"), optics)
+
+
 def test_one_world_is_behind_every_device_and_the_rig_keeps_its_own_record(tmp_path):
     one, log = world(), tmp_path / "shaker.jsonl"
-    rig = SimulatedRig(one, signal_level=0.6, delay_s={}, limit_v=3.0, log=log)
+    rig = SimulatedRig(one, vibrometer=a_polytec, signal_level=0.6, limit_v=3.0, log=log)
     with rig as addresses:
         assert addresses["chamber_tcp"] == ""
         vibrometer = PolytecVibrometer(addresses["vibrometer_tty"])

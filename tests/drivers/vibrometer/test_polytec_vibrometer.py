@@ -6,7 +6,7 @@ from threading import Event, RLock, Thread
 import pytest
 
 from drivers.errors import Garbled, Refused, TimedOut, Unreachable
-from drivers.simulated.vibrometer_server import Head, VibrometerServer
+from drivers.vibrometer.polytec_simulated import Head, VibrometerServer
 from drivers.vibrometer.polytec_vibrometer import PolytecVibrometer
 
 

@@ -12,7 +12,7 @@ from fitting.effects.along_a_beam import AlongABeam
 from fitting.effects.base import Effect
 from fitting.effects.change import Change
 from fitting.effects.layer_density import SUBSTRATE
-from fitting.effects.number_off import NumberOffEffect, moved
+from fitting.effects.number_off import NumberOffEffect, changed_by_numbers
 from fitting.effects.outside_damping import OutsideDampingEffect
 from fitting.laws.constant import ConstantModulus
 from fitting.stated.layers import Core, Face
@@ -183,7 +183,7 @@ def test_a_factor_on_a_number_is_a_beam_that_has_it(name, scale, layer, number):
 
 
 def test_nothing_moved_is_nothing_changed():
-    change = moved(widened_system_of(SANDWICH, SANDWICH.parts()), {})
+    change = changed_by_numbers(widened_system_of(SANDWICH, SANDWICH.parts()), {})
     assert not any(np.any(part) for part in (change.K, change.K_1, change.M, change.load))
 
 

@@ -18,21 +18,26 @@ def at():
     return Points(omega, np.full(3, 9.81), np.arange(3.0), True, True, "absolute", mass_kg=M)
 
 
-def two_masses(omega):
-    """Of base acceleration one: of the bracket, and of the mass on its pads. Shape (points,) each."""
+def two_masses(omega, damping_ratio):
+    """Of base acceleration one: of the bracket, and of the mass on its pads. Shape (points,) each.
+
+    The bracket's damper stands on the ground: the base's motion reaches it through its spring alone.
+    """
     k = BRACKET * (2 * np.pi * F_0) ** 2
     found = []
     for w in omega:
-        A = np.array([[k + K - BRACKET * w**2, -K], [-K, K - M * w**2]])
+        c = 2 * damping_ratio * np.sqrt(k * BRACKET)
+        A = np.array([[k + 1j * w * c + K - BRACKET * w**2, -K], [-K, K - M * w**2]])
         found.append(np.linalg.solve(A, [k, 0.0]))
     return np.array(found).T
 
 
-def test_a_bracket_moves_as_two_masses_on_springs_do(at):
+@pytest.mark.parametrize("damping_ratio", [0.0, 0.2])
+def test_a_bracket_moves_as_two_masses_on_springs_do(at, damping_ratio):
     alone = K / (K - M * at.omega**2)
     moves = at.acceleration_m_s2 / (1j * at.omega)
-    read = SensorMountingEffect().reading(alone * moves, at, np.array([F_0, 0.0, 0.0, 1 / BRACKET]))
-    np.testing.assert_allclose(read / moves, two_masses(at.omega)[1], rtol=1e-12)
+    read = SensorMountingEffect().reading(alone * moves, at, np.array([F_0, damping_ratio, 0.0, 1 / BRACKET]))
+    np.testing.assert_allclose(read / moves, two_masses(at.omega, damping_ratio)[1], rtol=1e-12)
 
 
 def test_a_relative_reading_is_one_less(at):
@@ -45,8 +50,10 @@ def test_a_relative_reading_is_one_less(at):
 
 def test_the_base_s_own_sensor_reads_too_much_so_the_mass_too_little(at):
     base = SensorMountingEffect(on_base=True)
-    read = base.reading(np.ones(3, complex), at, np.array([F_0, 0.0, 1.0]))
-    np.testing.assert_allclose(read, 1 - (at.omega / (2 * np.pi * F_0)) ** 2)
+    r = at.omega / (2 * np.pi * F_0)
+    for damping_ratio in (0.0, 0.05):
+        read = base.reading(np.ones(3, complex), at, np.array([F_0, damping_ratio, 1.0]))
+        np.testing.assert_allclose(read, 1 - r**2 + 2j * damping_ratio * r)
 
 
 def test_one_that_resonates_far_away_changes_nothing(at):

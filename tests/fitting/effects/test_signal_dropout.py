@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from conftest import DATA
 
 from fitting.diagnosis.diagnose import seen_in_channels
@@ -20,9 +21,11 @@ def spoilt(at, factor):
 
 def test_lost_readings_are_counted_and_set_aside():
     at = np.array([40, 41, 42, 200])
+    lost = np.abs(spoilt(at, 0.02).velocity_m_s - spoilt(at, 1.0).velocity_m_s)[at]
     why, (found,), noise = seen_in_channels(spoilt(at, 0.02), [SignalDropoutEffect()])
     assert (np.flatnonzero(why == "signal_dropout") == at).all()
     assert found.parameters["readings"].value == 4
+    assert found.parameters["size"].value == pytest.approx(lost.max(), rel=0.05)
     assert len(noise.std_m_s) == np.sum(why == "")
     said = SignalDropoutEffect().story({"readings": 4.0, "size": 0.02})
     assert said.startswith("4 readings leave the curve")

@@ -15,6 +15,7 @@ from fitting.effects import CATALOGUE, Change, all_spans
 from fitting.effects.base_rocking import BaseRockingEffect
 from fitting.effects.clamp_compliance import root_springs
 from fitting.effects.clamp_friction import ClampFrictionEffect
+from fitting.effects.condensing import Training, condensed
 from fitting.effects.enriching import enriched
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.partial_debond import LEFT, PartialDebondEffect, strips
@@ -165,10 +166,14 @@ def test_a_pitching_base_answers_as_the_full_model(full):
     assert error(found, full.direct(pitch=True)) < 1e-5
 
 
+def over_sizes(factors):
+    return Training(np.tile(OMEGA, len(factors)), np.concatenate([abs(G) * f for f in factors]))
+
+
 def test_between_what_it_was_condensed_on_a_reading_is_off_by_a_hundred_thousandth(full):
     plate = full.spanned.take([])
     factors = [size * np.exp(1j * angle) for size in (0.25, 0.5, 1, 2, 4) for angle in (0.2, 0.6, 1.0)]
-    fewer = plate.condensed(np.tile(OMEGA, len(factors)), np.concatenate([abs(G) * f for f in factors]))
+    fewer = condensed(plate, over_sizes(factors))
     random = np.random.default_rng(4)
     for _ in range(5):
         here = abs(G) * random.uniform(0.3, 3) * np.exp(1j * random.uniform(0.2, 1))
@@ -180,7 +185,7 @@ def test_between_what_it_was_condensed_on_a_reading_is_off_by_a_hundred_thousand
 
 def test_condensing_keeps_the_answers_it_was_condensed_on(full):
     plate = full.spanned.take([])
-    fewer = plate.condensed(OMEGA, G)
+    fewer = condensed(plate, Training(OMEGA, G))
     assert len(fewer.group) < len(plate.group) / 2
     found, expected = (answer(p, OMEGA, G, Change(), [], with_pitch=False).heave for p in (fewer, plate))
     assert error(found, expected) < 1e-6
@@ -188,9 +193,7 @@ def test_condensing_keeps_the_answers_it_was_condensed_on(full):
 
 def test_a_rough_plate_has_fewer_motions_of_its_own_and_of_an_effects(full):
     factors = [size * np.exp(1j * angle) for size in (0.25, 0.5, 1, 2, 4) for angle in (0.2, 0.6, 1.0)]
-    plate = full.spanned.condensed(
-        np.tile(OMEGA, len(factors)), np.concatenate([abs(G) * f for f in factors])
-    )
+    plate = condensed(full.spanned, over_sizes(factors))
     fine = plate.take(CATALOGUE["clamp_compliance"].spans)
     rough = fine.roughly
     assert np.sum(rough.group == "plate") < 0.8 * np.sum(fine.group == "plate")
@@ -221,7 +224,7 @@ def test_the_plate_of_the_latest_effects_is_taken_once_and_stays_in_its_process(
 
 def test_a_condensed_plate_has_what_the_whole_one_has_along_the_same_motions(full):
     plate = full.spanned
-    fewer = plate.condensed(OMEGA, G)
+    fewer = condensed(plate, Training(OMEGA, G))
     own = plate.group == "plate"
     count = np.sum(fewer.group == "plate")
     # Its motions, from rows that read them: as many places as it takes to know every column.

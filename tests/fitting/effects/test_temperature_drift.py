@@ -29,6 +29,12 @@ def test_a_warm_core_is_as_at_lower_frequencies():
     assert late == pytest.approx(LAW.modulus(OMEGA[-1:] * time_scale(2.0))[0])
 
 
+def test_a_core_has_warmed_by_all_but_one_in_e_after_a_time_constant():
+    times_s = np.array([0.0, 600.0, 600.0 * np.log(2), 1e6])
+    kelvin = SETTLES.kelvin(times_s, np.array([2.0, 600.0]))
+    assert kelvin == pytest.approx([0.0, 2.0 * (1 - np.exp(-1)), 1.0, 2.0])
+
+
 @pytest.mark.parametrize("effect", [CYCLES, UNEVEN])
 def test_a_cycle_is_about_the_temperature_of_the_law(effect):
     u = np.array([0.5, -0.3, 400.0, 0.1, 0.05][: len(effect.parameters)])

@@ -12,10 +12,6 @@ from fitting.identification import direct
 from fitting.identification.model import SweepModel
 from fitting.identification.residuals import Residuals
 from fitting.identification.result import (
-    LawBand,
-    _beyond_cores,
-    _gain_of_energy,
-    _hardly_known,
     differences_percent,
     summarise,
 )
@@ -255,31 +251,3 @@ def test_a_parameter_the_data_leave_open_is_named(table5, nine, zn1):
     sweep = table5.take(np.array([0, 1, 3, 4, 5]))
     said = warnings_of(sweep, nine.take(np.array([0, 1, 3, 4, 5])), zn1.core.law)
     assert "bound" in said or "not fixed" in said
-
-
-def test_a_law_that_gives_energy_is_asked_about():
-    f, one = np.array([10.0, 20.0, 40.0]), np.ones(3)
-    lossy, giving = (LawBand(f, 1e6 * one, np.array([0.3, 0.1, eta]), one, one) for eta in (0.2, -0.4))
-    assert _gain_of_energy(lossy) == []
-    (said,) = _gain_of_energy(giving)
-    assert said.startswith("the loss factor is negative (-0.4 at 40 Hz)")
-
-
-def test_what_is_hardly_known_is_said_to_be_known_within_a_factor():
-    f, one = np.array([10.0, 20.0, 40.0]), np.ones(3)
-    well = LawBand(f, 1e6 * one, 0.3 * one, 1e5 * one, 0.03 * one)
-    assert _hardly_known(well) == []
-    (said,) = _hardly_known(replace(well, storage_modulus_standard_error_pa=np.array([1e5, 7e5, np.nan])))
-    assert said.startswith("G' is known within a factor of 2 only at 20 Hz")
-    (said,) = _hardly_known(replace(well, loss_factor_standard_error=0.15 * one))
-    assert said.startswith("the loss factor is known within a factor of 1.6 only at 10 Hz")
-
-
-@pytest.mark.parametrize(("mpa", "asked"), [(0.005, True), (0.02, False), (150.0, False), (350.0, True)])
-def test_a_modulus_that_no_core_has_is_asked_about_with_its_units(mpa, asked):
-    f, one = np.array([10.0, 20.0, 40.0]), np.ones(3)
-    said = _beyond_cores(LawBand(f, 1e6 * mpa * np.array([0.6, 1.0, 1.2]), 0.3 * one, one, one))
-    assert bool(said) is asked
-    if asked:
-        assert said[0].startswith(f"G' is {0.6 * mpa:.3g} to {1.2 * mpa:.3g} MPa; cores have 0.01 to 200 MPa")
-        assert "frequencies in Hz" in said[0]

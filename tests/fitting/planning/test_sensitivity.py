@@ -34,7 +34,7 @@ def test_the_posterior_of_a_choice_is_the_joint_fits_own(ready):
     specimen, setup = ready
     every, noise = problem_of(ready, slice(None)), ReadingNoise(1e-5, 2e-3)
     law, dwell = bent(specimen.core.law, every), np.full(len(F), 0.5)
-    s = sensitivity(every, setup.reduced, law, every.as_stated, noise, dwell)
+    s = sensitivity(every, setup.reduced, law, z=every.as_stated, noise=noise, dwell_s=dwell)
     taken = np.ones(len(F))
     v = s.velocity_m_s
     sweep = replace(every.sweep, velocity_m_s=v)
@@ -54,8 +54,8 @@ def test_fewer_readings_are_those_rows_alone(ready):
     every, few = problem_of(ready, slice(None)), problem_of(ready, some)
     law, noise = bent(specimen.core.law, every), ReadingNoise(1e-5, 2e-3)
     dwell = np.full(len(F), 0.5)
-    whole = sensitivity(every, setup.reduced, law, every.as_stated, noise, dwell)
-    part = sensitivity(few, setup.reduced, law, few.as_stated, noise, dwell[some])
+    whole = sensitivity(every, setup.reduced, law, z=every.as_stated, noise=noise, dwell_s=dwell)
+    part = sensitivity(few, setup.reduced, law, z=few.as_stated, noise=noise, dwell_s=dwell[some])
     np.testing.assert_allclose(part.rows, whole.rows[some], rtol=1e-6, atol=1e-6 * np.abs(whole.rows).max())
 
 
@@ -70,7 +70,7 @@ def test_another_noise_scales_the_same_readings(ready):
     every = problem_of(ready, slice(None))
     law, dwell = bent(specimen.core.law, every), np.full(len(F), 0.5)
     quiet, loud = (ReadingNoise(1e-5, x) for x in (1e-3, 1e-2))
-    one = sensitivity(every, setup.reduced, law, every.as_stated, quiet, dwell)
-    other = sensitivity(every, setup.reduced, law, every.as_stated, loud, dwell)
+    one = sensitivity(every, setup.reduced, law, z=every.as_stated, noise=quiet, dwell_s=dwell)
+    other = sensitivity(every, setup.reduced, law, z=every.as_stated, noise=loud, dwell_s=dwell)
     again = one.with_noise(loud.std_m_s(one.velocity_m_s, dwell))
     np.testing.assert_allclose(again.rows, other.rows, rtol=1e-12)

@@ -14,9 +14,10 @@ from fitting.dynamics.complex_modes import complex_modes
 from fitting.laws.constant import ConstantModulus
 from fitting.plate.element_matrices import element_matrices
 from fitting.plate.face_shear import edge_twist_left, share_of_faces, with_face_shear
+from fitting.plate.layers_array import layers_of, specimen_of
 from fitting.plate.mesh import mesh_of
 from fitting.plate.part_matrices import element_parts
-from fitting.plate.parts import coefficients, layers_of, specimen_of, stretched
+from fitting.plate.parts import coefficients, stretched
 from fitting.plate.plate import Plate
 from fitting.specimen import Specimen
 from fitting.stated.layers import Core, Face, Glue

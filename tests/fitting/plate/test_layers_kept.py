@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fitting.laws.constant import ConstantModulus
-from fitting.plate.parts import layers_of, specimen_of
+from fitting.plate.layers_array import layers_of, specimen_of
 from fitting.specimen import Specimen
 from fitting.stated.layers import Core, Face, Glue, Orthotropy
 from fitting.stated.patches import Patch

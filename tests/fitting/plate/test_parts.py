@@ -13,13 +13,8 @@ from fitting.plate.element import Shape as ElementShape
 from fitting.plate.element_matrices import element_matrices
 from fitting.plate.mesh import Mesh
 from fitting.plate.part_matrices import element_parts, load_part, projected_parts
-from fitting.plate.parts import (
-    CORE,
-    MASS,
-    STIFFNESS,
-    coefficients,
-    stretched,
-)
+from fitting.plate.part_names import CORE, MASS, STIFFNESS
+from fitting.plate.parts import coefficients, stretched
 from fitting.plate.plate import Plate
 from fitting.specimen import Specimen
 from fitting.stated.layers import Core, Face

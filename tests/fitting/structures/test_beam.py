@@ -136,6 +136,15 @@ def test_van_oort_s_formula_gives_layers_on_both_sides_back():
         assert found.loss_factor == pytest.approx(0.4, rel=2e-3)
 
 
+OF_SANDWICH = {
+    "young_pa": 205e9,
+    "face_thickness_m": 1e-3,
+    "core_thickness_m": 0.25e-3,
+    "density_ratio": 1000 / 7850,
+    "length_m": 0.25,
+}
+
+
 def test_ross_kerwin_and_ungar_come_near_a_sandwich_in_its_higher_modes():
     G = 1e6
     core = Core(0.25e-3, 0.49, 1000.0, ConstantModulus(G, 0.3))
@@ -143,9 +152,12 @@ def test_ross_kerwin_and_ungar_come_near_a_sandwich_in_its_higher_modes():
     bare = small_modes(Beam(0.25, 0.01, "clamped-free", STEEL), None, 4)
     for number, mode in enumerate(small_modes(beam, core.law, 4), start=1):
         found = sandwich(
-            205e9, 1e-3, 0.25e-3, 1000 / 7850, 0.25, number, bare[number - 1].frequency_hz,
-            mode.frequency_hz, mode.loss_factor,
-        )  # fmt: skip
+            **OF_SANDWICH,
+            mode=number,
+            bare_hz=bare[number - 1].frequency_hz,
+            treated_hz=mode.frequency_hz,
+            loss_factor=mode.loss_factor,
+        )
         if number > 1:
             # Sines in the place of a clamped beam's shapes: the difference is theirs.
             assert found.modulus_pa == pytest.approx(G, rel=0.25)
@@ -159,7 +171,7 @@ def test_a_bare_beam_s_modulus_comes_back():
 
 
 def test_near_equal_numbers_are_said():
-    found = sandwich(205e9, 1e-3, 0.25e-3, 1000 / 7850, 0.25, 2, 100.0, 71.0, 0.01)
+    found = sandwich(**OF_SANDWICH, mode=2, bare_hz=100.0, treated_hz=71.0, loss_factor=0.01)
     assert any("nearly equal" in text for text in found.objections)
     assert any("near one" in text for text in oberst(205e9, 1.0, 0.2, 0.92, 0.01, 2).objections)
 

@@ -71,6 +71,19 @@ def test_an_uneven_core_moves_modes_as_those_of_a_solid(shape):
     assert found / even - 1 == pytest.approx(np.array(UNEVEN_HZ[shape]) / EVEN_HZ - 1, abs=6e-4)
 
 
+@pytest.mark.parametrize(("k", "delta"), [(1, Polynomial((-0.5, 1))), (2, Polynomial((-2 / 3, 4, -4)))])
+def test_a_shaken_base_pulls_at_an_uneven_core_where_its_mass_is(k, delta):
+    beam = replace(SANDWICH, slender=True)
+    effect = CATALOGUE["graded_core"].standing_on(beam).variants()[k]
+    plate = widened_system_of(beam, beam.parts()).take(effect.spans)
+    found = effect.change(plate, np.array([0.2])).load
+    s = (np.arange(400) + 0.5) / 400
+    per_piece = CORE.density_kg_m3 * CORE.thickness_m * beam.width_m * beam.length_m / len(s)
+    rows = np.array([plate.row(beam.length_m * at, 0.0) for at in s])
+    expected = -0.2 * per_piece * delta(s) @ rows
+    assert np.abs(found - expected).max() < 0.01 * np.abs(expected).max()
+
+
 @pytest.mark.parametrize("k", [1, 2])
 def test_an_uneven_core_does_not_keep_a_free_beam_from_turning(k):
     free = replace(SANDWICH, boundary="free-free", force_m=0.02)

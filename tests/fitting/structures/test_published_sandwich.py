@@ -36,15 +36,15 @@ def by_formula(mode):
     bare = mode_coefficient(mode) * FACE.thickness_m / LENGTH**2
     bare *= np.sqrt(FACE.young_pa / (12 * FACE.density_kg_m3))
     return sandwich(
-        FACE.young_pa,
-        FACE.thickness_m,
-        0.127e-3,
-        968.1 / FACE.density_kg_m3,
-        LENGTH,
-        mode,
-        bare,
-        PUBLISHED_HZ[mode - 1],
-        LOSS * PUBLISHED_SHARE[mode - 1],
+        young_pa=FACE.young_pa,
+        face_thickness_m=FACE.thickness_m,
+        core_thickness_m=0.127e-3,
+        density_ratio=968.1 / FACE.density_kg_m3,
+        length_m=LENGTH,
+        mode=mode,
+        bare_hz=bare,
+        treated_hz=PUBLISHED_HZ[mode - 1],
+        loss_factor=LOSS * PUBLISHED_SHARE[mode - 1],
     )
 
 
@@ -95,7 +95,15 @@ def on_supports(plate, mode, frequency_hz, loss_factor):
     length = np.sqrt(2 * np.pi * mode_coefficient(2)) / k
     density = core.density_kg_m3 / face.density_kg_m3
     return sandwich(
-        stiff, face.thickness_m, core.thickness_m, density, length, 2, bare, frequency_hz, loss_factor
+        young_pa=stiff,
+        face_thickness_m=face.thickness_m,
+        core_thickness_m=core.thickness_m,
+        density_ratio=density,
+        length_m=length,
+        mode=2,
+        bare_hz=bare,
+        treated_hz=frequency_hz,
+        loss_factor=loss_factor,
     )
 
 

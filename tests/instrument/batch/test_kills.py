@@ -13,7 +13,7 @@ from ending_jobs import end_always, end_once
 
 from instrument.batch.asking import tasks_of
 from instrument.batch.between import between_rows, marks_of
-from instrument.batch.run import here, run_batch, there
+from instrument.batch.run import here, on_cluster, run_batch
 from instrument.batch.table import write_tables
 from instrument.batch.taking_part import repeats_among
 from instrument.errors import BadInput
@@ -122,7 +122,7 @@ def test_a_killed_dask_worker_costs_its_tasks_only(tmp_path, case, cluster):
                 seen.append(fraction)
                 workers[0].kill()
 
-    with run_batch(tasks_of(sweeps, plate), tmp_path, there(address), Reporting) as rows:
+    with run_batch(tasks_of(sweeps, plate), tmp_path, on_cluster(address), Reporting) as rows:
         write(rows, tmp_path)
     assert seen
     assert workers[0].wait() == -signal.SIGKILL
@@ -136,7 +136,7 @@ def test_no_scheduler_is_one_line(tmp_path, case, monkeypatch):
     sweeps, plate, _ = case
     monkeypatch.setattr("instrument.batch.cluster._TIMEOUT_S", 1)
     with pytest.raises(BadInput, match="no Dask scheduler answers"):
-        run_batch(tasks_of(sweeps[:1], plate), tmp_path, there("tcp://127.0.0.1:1"))
+        run_batch(tasks_of(sweeps[:1], plate), tmp_path, on_cluster("tcp://127.0.0.1:1"))
 
 
 def test_a_column_is_one_law_parameter_and_its_error(case):

@@ -10,7 +10,7 @@ from conftest import DATA
 from diagnosis_cases import UNSEEN, diagnosed, diagnosis
 from diagnosis_cases import sweep as some_sweep
 from following_cases import BACKWARDS, SPOT
-from session_cases import RATE, whole_session
+from session_cases import RATE
 from uff_files import ratio_set, write_sets
 
 import instrument.cli.diagnose as command
@@ -39,11 +39,6 @@ def given(monkeypatch):
     monkeypatch.setattr(command, "diagnose_sweep", stub)
     monkeypatch.setattr(command, "diagnosis_from", lambda found, sweep: diagnosis())
     return seen
-
-
-@pytest.fixture(scope="module")
-def session_path(tmp_path_factory):
-    return whole_session(tmp_path_factory.mktemp("session"))
 
 
 @pytest.fixture(scope="module")
@@ -227,12 +222,6 @@ def test_a_universal_file_over_a_force_is_refused(capsys, tmp_path):
 
 
 # The report
-
-
-@pytest.fixture
-def contents(session_path):
-    with SessionFile(session_path) as file:
-        return contents_of(file, with_hits=False)
 
 
 def test_a_session_without_a_diagnosis_has_no_section_of_it(contents):

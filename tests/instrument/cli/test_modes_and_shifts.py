@@ -174,7 +174,8 @@ def found(monkeypatch):
 
 def shift(given_, figures=None, out=None, files=FILES, *, insist=False):
     out = out or Output(None)
-    shifting.identify_shifted(out, files, given_, "wlf", 20.0, figures, vertical=True, insist=insist)
+    asked = SimpleNamespace(shift="wlf", reference_c=20.0, figures=figures, vertical=True, temperature_k=None)
+    shifting.identify_shifted(out, files, given_, asked, insist=insist)
 
 
 def test_shifts_and_law_are_told_and_written(capsys, zn1, found, tmp_path):

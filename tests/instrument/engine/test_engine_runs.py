@@ -22,6 +22,7 @@ from engine_cases import (
 )
 from formula_rig import SWEEP
 from quick_engine import QUICK_ENGINE, no_fit
+from sessions import events_of, points_of
 
 from instrument.engine import Engine, Order
 from instrument.engine.client import ENGINE
@@ -36,7 +37,6 @@ from instrument.engine.messages import (
 from instrument.engine.wire import encode, read
 from instrument.run.experiment import run_experiment
 from instrument.session.configuration import read_whole_experiment
-from instrument.session.storage import SessionFile
 from instrument.simulated_case import write_case
 from instrument.stream.derived import DampingFound, FitUpdated, HitJudged, HitRevised, PointMeasured
 from instrument.stream.raw import (
@@ -53,15 +53,6 @@ pytestmark = pytest.mark.usefixtures("warm")
 POINTS = 49
 SWEEP_OF_POINTS = SWEEP.replace("points = 6", "points = 40")
 """Long beside what a word to the engine takes, on a busy machine too."""
-
-
-def events_of(path, *, with_samples: bool = False):
-    with SessionFile(path) as file:
-        return list(file.events(with_samples=with_samples))
-
-
-def points_of(path):
-    return [e for e in events_of(path) if isinstance(e, PointMeasured)]
 
 
 def comparable(events):

@@ -2,14 +2,17 @@
 
 import json
 from math import inf, isnan, nan
+from typing import get_args
 
 import pytest
 from diagnosis_cases import diagnosis
 from pydantic import ValidationError
 from result_cases import LAW_ROW, identification
 
+from fitting.diagnosis.verdict.result import Verdict
 from instrument.facts.damping import DampingResult, ModeFound
 from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.diagnosis import Verdict as VerdictOfResult
 from instrument.facts.identification import IdentificationResult
 
 
@@ -103,3 +106,7 @@ def test_a_hammer_test_may_be_written_by_hand():
 def test_a_law_row_needs_all_its_numbers():
     with pytest.raises(ValidationError, match="loss_factor"):
         identification(law=[{key: LAW_ROW[key] for key in LAW_ROW if key != "loss_factor"}])
+
+
+def test_the_verdicts_in_results_are_those_that_a_diagnosis_reaches():
+    assert get_args(VerdictOfResult) == get_args(Verdict)

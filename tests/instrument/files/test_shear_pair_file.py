@@ -39,6 +39,15 @@ FAULTS = {
 }
 
 
+@pytest.mark.parametrize("key", ["thickness_percent", "core_thickness_percent"])
+def test_the_tolerance_of_a_pads_thickness_has_two_names(tmp_path, key):
+    path = tmp_path / "pair.toml"
+    path.write_text(PAIR + f"[tolerances]\n{key} = 2.0\nmass_percent = 0.5\n")
+    stated = read_structure(path).tolerances
+    assert stated["core_thickness"] == pytest.approx(0.02)
+    assert stated["mass"] == pytest.approx(0.005)
+
+
 @pytest.mark.parametrize(("text", "said"), FAULTS.values(), ids=FAULTS)
 def test_a_bad_shear_pair_is_refused_in_one_line(tmp_path, text, said):
     path = tmp_path / "pair.toml"

@@ -3,22 +3,11 @@
 import numpy as np
 import pytest
 from session_cases import RATE, SECONDS, SyntheticSession, configuration, whole_session
+from sessions import contents_in
 
 from instrument.errors import BadInput
-from instrument.session.contents import contents_of
-from instrument.session.storage import SessionFile
 from instrument.stream.derived import HitJudged
 from instrument.stream.raw import OperatorDid
-
-
-def read(path, **how):
-    with SessionFile(path) as file:
-        return contents_of(file, **how)
-
-
-@pytest.fixture(scope="module")
-def contents(session_path):
-    return read(session_path)
 
 
 def test_points_are_steps_and_sentinels_in_order(contents):
@@ -47,7 +36,7 @@ def test_a_resumed_run_goes_on_by_the_clock(tmp_path):
     synthetic.begin("2026-04-01T09:00:05+00:00", resumed=True)
     synthetic.sweep(segments=(2,))
     synthetic.end()
-    contents = read(synthetic.save(tmp_path))
+    contents = contents_in(synthetic.save(tmp_path))
     early, late = (p.time_s for p in (contents.points[0], contents.points[-1]))
     assert late - early == pytest.approx(3600, abs=30)
     assert len(contents.began) == 2
@@ -71,7 +60,7 @@ def test_the_operators_word_counts(tmp_path):
     synthetic.hammer(rejected=(3,))
     synthetic.emit(OperatorDid("undone", "", 3))
     synthetic.emit(OperatorDid("rejected", "", 1))
-    contents = read(synthetic.save(tmp_path))
+    contents = contents_in(synthetic.save(tmp_path))
     assert [h.accepted for h in contents.hits] == [False, False, True]
     assert contents.hits[0].judged().why == "rejected"
 
@@ -81,12 +70,12 @@ def test_a_hammer_test_begun_again_replaces_the_first(tmp_path):
     synthetic.begin()
     synthetic.hammer(hits=3)
     synthetic.hammer(hits=1)
-    contents = read(synthetic.save(tmp_path))
+    contents = contents_in(synthetic.save(tmp_path))
     assert [h.number for h in contents.hits] == [1]
 
 
 def test_without_hits_no_samples_are_read(session_path):
-    contents = read(session_path, with_hits=False)
+    contents = contents_in(session_path, with_hits=False)
     assert contents.hits == []
     assert contents.damping is not None
 
@@ -94,7 +83,7 @@ def test_without_hits_no_samples_are_read(session_path):
 def test_a_killed_run_has_no_end(tmp_path):
     synthetic = SyntheticSession(configuration())
     synthetic.begin()
-    assert read(synthetic.save(tmp_path)).ended is None
+    assert contents_in(synthetic.save(tmp_path)).ended is None
 
 
 def test_a_hit_without_its_samples_is_damage(tmp_path):
@@ -102,9 +91,9 @@ def test_a_hit_without_its_samples_is_damage(tmp_path):
     synthetic.begin()
     synthetic.events.append(HitJudged(1, 0, 10, 5.0, True, ""))
     with pytest.raises(BadInput, match="hit 1: its samples are missing"):
-        read(synthetic.save(tmp_path))
+        contents_in(synthetic.save(tmp_path))
 
 
 def test_two_sessions_made_alike_are_alike(session_path, tmp_path):
-    again = read(whole_session(tmp_path))
-    assert again.measured == read(session_path).measured
+    again = contents_in(whole_session(tmp_path))
+    assert again.measured == contents_in(session_path).measured

@@ -19,20 +19,8 @@ from instrument.interchange.exporting import export_session
 from instrument.interchange.mat_export import export_mat
 from instrument.interchange.specimen_toml import specimen_toml
 from instrument.interchange.uff_export import export_uff
-from instrument.session.contents import contents_of
-from instrument.session.storage import SessionFile
 
 NAME = "zn1-20260401T080000Z"
-
-
-def read(path):
-    with SessionFile(path) as file:
-        return contents_of(file)
-
-
-@pytest.fixture(scope="module")
-def contents(session_path):
-    return read(session_path)
 
 
 @pytest.fixture(scope="module")

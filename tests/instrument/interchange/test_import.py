@@ -17,16 +17,8 @@ from instrument.files.sweep_file import read_sweep
 from instrument.interchange.base_frf import file_of_foreign
 from instrument.interchange.exporting import export_session
 from instrument.interchange.importing import import_file
-from instrument.session.contents import contents_of
-from instrument.session.storage import SessionFile
 
 NAME = "zn1-20260401T080000Z"
-
-
-@pytest.fixture(scope="module")
-def contents(session_path):
-    with SessionFile(session_path) as file:
-        return contents_of(file)
 
 
 @pytest.fixture(scope="module")

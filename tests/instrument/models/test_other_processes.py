@@ -10,7 +10,7 @@ from fitting.diagnosis.executor import ALONE
 from fitting.errors import OutsideModel
 from instrument.errors import BadInput
 from instrument.models import other_processes
-from instrument.models.other_processes import VARIABLE, SeveralProcesses, _learn, wanted
+from instrument.models.other_processes import VARIABLE, SeveralProcesses, learn, wanted
 
 
 @pytest.fixture(scope="module")
@@ -104,7 +104,7 @@ def test_a_process_that_is_replaced_is_told_anew(two):
 
     assert shared_by_two()
     # What a new process knows, where loky puts one in the place of another whose memory has grown.
-    two._others[0].pool.submit(_learn, 0, None).result()
+    two._others[0].pool.submit(learn, 0, None).result()
     assert shared_by_two()
 
 

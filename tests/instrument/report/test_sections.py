@@ -21,16 +21,8 @@ from instrument.report.picture import as_svg
 from instrument.report.sweep import sweep_section
 from instrument.report.sweep_figures import quality_figure
 from instrument.results.set_aside import NAME
-from instrument.session.contents import contents_of
 from instrument.session.points import sweep_of
-from instrument.session.storage import SessionFile
 from instrument.stream.raw import SessionEnded
-
-
-@pytest.fixture(scope="module")
-def contents(session_path):
-    with SessionFile(session_path) as file:
-        return contents_of(file)
 
 
 def blocks(section, kind):

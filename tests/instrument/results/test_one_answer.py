@@ -7,26 +7,19 @@ import pytest
 from diagnosed_session import diagnosed_session
 from diagnosis_cases import diagnosis
 from session_cases import whole_session
-from sessions import point
+from sessions import contents_in, point
 
 import viscorig as vr
 from instrument.cli.main import run
 from instrument.results.diagnosis_words import verdict_line
 from instrument.results.session_result import Conditions, recorded_result, result_of
-from instrument.session.contents import contents_of
 from instrument.session.points import sweep_of
-from instrument.session.storage import SessionFile
 from instrument.stream.raw import SessionEnded
 
 UNKNOWN = diagnosis(verdict="unknown").but(effects=(), equivalent={})
 NOTHING = diagnosis(verdict="none").but(effects=(), equivalent={})
 AMBIGUOUS = diagnosis(verdict="ambiguous")
 DIAGNOSES = {"effect": diagnosis(), "ambiguous": AMBIGUOUS, "unknown": UNKNOWN, "none": NOTHING}
-
-
-def contents(path):
-    with SessionFile(path) as file:
-        return contents_of(file, with_hits=False)
 
 
 @pytest.fixture(params=DIAGNOSES)
@@ -57,7 +50,7 @@ def verdicts(text):
 
 def test_every_command_says_the_same_law_and_verdict(capsys, diagnosed, tmp_path):
     session, found = diagnosed
-    words = recorded_result(contents(session)).words
+    words = recorded_result(contents_in(session)).words
     assert verdict_line(found) in words
     exported = said_by(capsys, "export", session, "--to", "csv", "--out", tmp_path / "csv")
     identified = said_by(capsys, "identify", session)
@@ -100,7 +93,7 @@ def test_the_numbers_are_those_after_the_diagnosis_not_before():
 
 def test_a_replay_ends_with_the_result(capsys, tmp_path):
     session = whole_session(tmp_path)
-    words = recorded_result(contents(session)).words
+    words = recorded_result(contents_in(session)).words
     assert result_lines(said_by(capsys, "replay", session)) == [words]
     assert facts_by(capsys, "replay", session)["result"]["words"] == words
 
@@ -119,7 +112,7 @@ def test_a_law_that_nothing_explains_is_not_sold_as_known():
 
 def test_without_a_diagnosis_the_fit_says_it_was_not_diagnosed(capsys, tmp_path):
     session = whole_session(tmp_path)
-    result = recorded_result(contents(session))
+    result = recorded_result(contents_in(session))
     assert (result.standing, result.verdict) == ("not diagnosed", None)
     assert result.words.endswith("not diagnosed")
     identified = said_by(capsys, "identify", session)
@@ -132,7 +125,7 @@ def test_without_a_diagnosis_the_fit_says_it_was_not_diagnosed(capsys, tmp_path)
 
 def test_why_there_is_no_diagnosis_is_part_of_the_result(tmp_path):
     session = diagnosed_session(tmp_path, message="the fit failed")
-    words = recorded_result(contents(session)).words
+    words = recorded_result(contents_in(session)).words
     assert words.endswith(
         "not diagnosed: the fit failed; the law may be biased beyond its band: see the notes"
     )
@@ -154,7 +147,7 @@ def test_temperature_and_level_are_those_of_the_points():
     ],
 )
 def test_a_run_that_ended_early_says_so_and_how_to_go_on(tmp_path, ended, happened):
-    early = contents(whole_session(tmp_path))
+    early = contents_in(whole_session(tmp_path))
     early.fit, early.ended = None, ended
     result = recorded_result(early)
     assert result.standing == "no law"
@@ -164,13 +157,13 @@ def test_a_run_that_ended_early_says_so_and_how_to_go_on(tmp_path, ended, happen
 
 
 def test_a_law_of_a_part_of_a_run_says_that_the_run_ended_early(tmp_path):
-    early = contents(whole_session(tmp_path))
+    early = contents_in(whole_session(tmp_path))
     early.ended = SessionEnded("stopped by the user", "")
     assert "not diagnosed: the run was stopped by the user after 31 points" in recorded_result(early).words
 
 
 def test_a_sweep_that_ended_early_goes_on_as_a_sweep(tmp_path):
-    early = contents(whole_session(tmp_path))
+    early = contents_in(whole_session(tmp_path))
     early.fit, early.ended = None, None
     assert "to go on: viscorig run EXPERIMENT.toml" in recorded_result(early).words
     early.damping = None

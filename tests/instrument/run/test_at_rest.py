@@ -6,7 +6,7 @@ import threading
 
 import pytest
 from formula_rig import formula_rig
-from quick_run import no_fit
+from quick_run import run
 from run_at_point import RunAtPoint
 
 from drivers.errors import Refused, TimedOut, Unreachable
@@ -15,7 +15,6 @@ from instrument.errors import RigStopped
 from instrument.run import runner
 from instrument.run.at_rest import bring_to_rest, came_to_rest, silenced
 from instrument.run.control import RunControl
-from instrument.run.experiment import run_experiment
 
 
 class Deaf:
@@ -104,10 +103,6 @@ def deafen(rig):
     device = rig.device
     device.stop = lambda *_: None
     device.check_heartbeat = lambda *_: None
-
-
-def run(experiment, folder, **options):
-    return run_experiment(experiment, folder, ("sweep",), fit=no_fit, **options)
 
 
 @pytest.fixture

@@ -6,8 +6,9 @@ from dataclasses import replace
 import pytest
 from engine_cases import is_silent
 from formula_rig import formula_rig, gain
-from quick_run import no_fit
+from quick_run import run
 from run_at_point import RunAtPoint
+from sessions import points_of
 
 from drivers.errors import DriverError
 from drivers.simulated.lan_xi_measurement import Acquired
@@ -16,20 +17,13 @@ from instrument.errors import RigStopped, StoppedByUser
 from instrument.run import watching
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl
-from instrument.run.experiment import run_experiment
 from instrument.session.configuration import read_whole_experiment
-from instrument.session.storage import SessionFile
-from instrument.stream.derived import PointMeasured, StepSettled
+from instrument.stream.derived import StepSettled
 
 
-def run(experiment, folder, **options):
-    return run_experiment(experiment, folder, ("sweep",), fit=no_fit, **options)
-
-
-def points_of(folder):
+def points_in(folder):
     (session,) = folder.glob("*.h5")
-    with SessionFile(session) as file:
-        return [e for e in file.events(with_samples=False) if isinstance(e, PointMeasured)]
+    return points_of(session)
 
 
 def all_are_right(points):
@@ -45,7 +39,7 @@ def all_are_right(points):
 def change_range(rig):
     """As a hand at the panel does."""
     with rig.world.lock:
-        rig._head.range_name = "50mm/s/V"
+        rig.vibrometer.head.range_name = "50mm/s/V"
         rig.world.laser.scale_m_s_v = 0.05
 
 
@@ -110,7 +104,7 @@ def test_what_misleads_ends_the_run_before_it_counts(tmp_path, monkeypatch, name
         with pytest.raises(RigStopped, match=said):
             run(experiment, tmp_path, companion=RunAtPoint(3, lambda: mislead(rig)))
         assert is_silent(rig)
-    points = points_of(tmp_path)
+    points = points_in(tmp_path)
     assert 3 <= len(points) < 6
     assert all_are_right(points)
 
@@ -133,7 +127,7 @@ def test_a_dwell_in_which_a_cable_came_loose_is_no_point(tmp_path):
         with pytest.raises(RigStopped, match="cable fault on base"):
             run(experiment, tmp_path, companion=AtSettled(4, lambda: loosen_cable(rig)))
         assert is_silent(rig)
-    assert len(points_of(tmp_path)) == 3
+    assert len(points_in(tmp_path)) == 3
 
 
 @pytest.mark.parametrize(
@@ -159,7 +153,7 @@ def test_a_step_beyond_what_its_range_reads_is_not_measured(tmp_path, monkeypatc
         with pytest.raises(RigStopped, match=r"101 Hz: the vibrometer's range .* reads up to 100 Hz"):
             run(experiment, tmp_path)
         assert is_silent(rig)
-    assert max(p.frequency_hz for p in points_of(tmp_path)) < 100.0
+    assert max(p.frequency_hz for p in points_in(tmp_path)) < 100.0
 
 
 def test_drivers_errors_are_still_told_first(tmp_path):

@@ -9,6 +9,7 @@ import pytest
 from formula_rig import formula_rig, gain
 from quick_run import no_fit
 from run_at_point import RunAtPoint
+from sessions import events_of, points_of
 
 from drivers.simulated.rig import SimulatedRig
 from instrument.errors import RigStopped
@@ -17,7 +18,6 @@ from instrument.run.control import RunControl
 from instrument.run.experiment import run_experiment
 from instrument.run.replay import replay
 from instrument.session.storage import SessionFile
-from instrument.stream.derived import PointMeasured
 from instrument.stream.raw import SessionEnded, StepBegan
 
 HEARTBEAT_S = 2.0
@@ -25,15 +25,6 @@ HEARTBEAT_S = 2.0
 
 def run(experiment, folder, parts, **options):
     return run_experiment(experiment, folder, parts, fit=no_fit, **options)
-
-
-def events_of(path):
-    with SessionFile(path) as file:
-        return list(file.events(with_samples=False))
-
-
-def points_of(path):
-    return [e for e in events_of(path) if isinstance(e, PointMeasured)]
 
 
 def test_a_sweep_measures_every_step_at_its_level(tmp_path):

@@ -7,6 +7,7 @@ import sys
 
 import following_cases
 import pytest
+import sessions
 from following_cases import (
     BACKWARDS,
     CLAMPING,
@@ -55,8 +56,7 @@ def that_follows(experiment, how="do", more=""):
 
 
 def events_of(finished):
-    with SessionFile(finished.session) as file:
-        return [e for e in file.events(with_samples=False) if isinstance(e, OF_FOLLOWING)]
+    return [e for e in sessions.events_of(finished.session) if isinstance(e, OF_FOLLOWING)]
 
 
 class KilledAt(Companion):

@@ -5,6 +5,7 @@ import threading
 
 import numpy as np
 import pytest
+import sessions
 from following_cases import (
     BACKWARDS,
     SEGMENTS,
@@ -49,8 +50,7 @@ def that_strikes(experiment, whole=WHOLE):
 
 
 def events_of(finished, *kinds):
-    with SessionFile(finished.session) as file:
-        return [e for e in file.events(with_samples=False) if isinstance(e, kinds)]
+    return [e for e in sessions.events_of(finished.session) if isinstance(e, kinds)]
 
 
 def again(finished, *offers):

@@ -8,9 +8,10 @@ import threading
 import numpy as np
 import pytest
 from diagnosis_cases import diagnosis
+from following_cases import a_law
 from formula_rig import formula_rig
-from result_cases import identification
 from run_at_point import RunAtPoint
+from sessions import events_of
 
 from fitting.effects import CATALOGUE
 from instrument.cli.output import Output
@@ -36,10 +37,6 @@ def no_law(number, last_step, points, damping, specimen):
     return FitUpdated(number, last_step, None, "no law")
 
 
-def a_law(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, identification())
-
-
 def times(asked):
     """Says what it was given."""
     points = sum(p.step <= asked.last_step for p in asked.points)
@@ -58,11 +55,6 @@ def whole(asked):
 
 def refused(_):
     raise AssertionError("called without a law")
-
-
-def events_of(path):
-    with SessionFile(path) as file:
-        return list(file.events(with_samples=False))
 
 
 @pytest.fixture(scope="module")

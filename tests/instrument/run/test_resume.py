@@ -2,7 +2,7 @@
 
 import pytest
 from formula_rig import formula_rig
-from quick_run import no_fit
+from quick_run import no_fit, run
 from run_at_point import RunAtPoint
 
 from instrument.errors import BadInput, RigStopped
@@ -27,10 +27,6 @@ high_hz = 190.0
 points = 4
 range = "5mm/s/V"
 """
-
-
-def run(experiment, folder, **options):
-    return run_experiment(experiment, folder, ("sweep",), fit=no_fit, **options)
 
 
 def calibrated(experiment):

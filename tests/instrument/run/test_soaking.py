@@ -5,7 +5,8 @@ import threading
 
 import pytest
 from formula_rig import CHAMBER_REGISTERS, formula_rig
-from quick_run import no_fit
+from quick_run import no_fit, run
+from sessions import events_of
 
 from drivers.simulated.climate import Climate
 from drivers.simulated.rig import SimulatedChamber
@@ -17,7 +18,6 @@ from instrument.report.html import html_page
 from instrument.report.setting import rig_section
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl
-from instrument.run.experiment import run_experiment
 from instrument.run.replay import replay
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
@@ -37,15 +37,6 @@ WANTED = "set_point_c = 35.0\nsoak_s = 60.0\nmost_s = 2000.0"
 
 def chamber(air_s: float = 40.0) -> SimulatedChamber:
     return SimulatedChamber(Climate(air_s=air_s, plate_s=40.0), CHAMBER_REGISTERS)
-
-
-def run(experiment, folder, **options):
-    return run_experiment(experiment, folder, ("sweep",), fit=no_fit, **options)
-
-
-def events_of(path, *, with_samples=False):
-    with SessionFile(path) as file:
-        return list(file.events(with_samples=with_samples))
 
 
 class AtReading(Companion):

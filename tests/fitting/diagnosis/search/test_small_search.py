@@ -23,11 +23,6 @@ from fitting.errors import OutsideModel
 
 
 @pytest.fixture(scope="module")
-def clean():
-    return ShearPairProblem(1.0)
-
-
-@pytest.fixture(scope="module")
 def high():
     """Its velocity channel reads 10 % too much, twenty times its tolerance."""
     return ShearPairProblem(HIGH)

@@ -5,17 +5,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from shear_pair_problem import GAIN, MASS, ShearPairProblem
+from shear_pair_problem import GAIN, MASS
 
 from fitting.diagnosis.verdict.confounded import hides, in_light_of_the_law, last_word
 from fitting.diagnosis.verdict.judgement import Judgement
 from fitting.effects.base import Effect, EffectParameter
 from fitting.laws.constant import ConstantModulus
-
-
-@pytest.fixture(scope="module")
-def clean():
-    return ShearPairProblem(1.0)
 
 
 def test_a_mass_of_a_shear_pair_hides_in_its_law_and_a_gain_does_not(clean):

@@ -1,7 +1,6 @@
-"""The simulated vibrometer: a pseudo-terminal that answers in Polytec's serial language.
+"""A simulated Polytec vibrometer: a pseudo-terminal that answers in its serial language.
 
-One rule: the head belongs to the plant. Its lock is held while it is read or changed, and while
-`on_range` runs.
+One rule: the head's lock is held while it is read or changed, and while `on_range` runs.
 """
 
 import os
@@ -9,15 +8,16 @@ import pty
 import select
 import tempfile
 import tty
-from collections.abc import Callable
-from contextlib import AbstractContextManager, suppress
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from threading import Thread
+from threading import RLock, Thread
 from types import TracebackType
 
 from drivers.errors import Garbled
 from drivers.vibrometer import polytec
+from drivers.vibrometer.driver import Optics
 from drivers.vibrometer.interface import Range
 from drivers.vibrometer.polytec import PolytecCommand
 from drivers.vibrometer.polytec_models import MODELS, PolytecModel
@@ -73,7 +73,7 @@ class VibrometerServer:
     Parameters
     ----------
     head
-        Its state, shared with the plant.
+        Its state.
     lock
         Guards the head.
     """
@@ -225,6 +225,15 @@ class VibrometerServer:
     @property
     def _model(self) -> PolytecModel:
         return MODELS[self.head.model]
+
+
+@contextmanager
+def simulated_polytec(optics: Optics, model: str = "OFV-5000") -> Iterator[VibrometerServer]:
+    """A vibrometer of a model that looks at the simulated plant; chooses its range at its beginning."""
+    head = Head(model=model, signal_level=optics.signal_level, on_range=optics.choose)
+    optics.choose(head.range)
+    with VibrometerServer(head, lock=RLock()) as server:
+        yield server
 
 
 def _delay_text(delay_s: float | None) -> str:
