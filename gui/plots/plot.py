@@ -7,6 +7,7 @@ all it has at every refresh, and never keeps a curve.
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, Signal
 from PySide6.QtGui import QContextMenuEvent, QPainter, QPaintEvent, QResizeEvent
@@ -14,6 +15,7 @@ from PySide6.QtWidgets import QWidget
 
 from fitting.arrays import Array
 from gui.plots.axis import Axis
+from gui.plots.corner import emptiest_corner
 from gui.plots.cursors import Cursors
 from gui.plots.curve import Curve, Kind, Symbol, items_of
 from gui.plots.export import add_export_menu
@@ -238,13 +240,30 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
             self._legend.setBrush(theme.color("base", _LEGEND_ALPHA))
             self._legend.setLabelTextColor(theme.text)
             self._legend.setLabelTextSize(size)
-            for _, label in self._legend.items:
-                label.setText(label.text)
+            self._fit_legend()
         self._readout.paint(theme)
         self.cursors.paint(theme)
         for curve in self._curves.values():
             self._style(curve)
         self.marks.style()
+
+    def place_legend(self) -> None:
+        """Where it hides least of the curves that are shown."""
+        if self._legend is not None:
+            self._legend.setOffset(emptiest_corner([self._drawn(x, y) for x, y in self.curves.values()]))
+
+    def _drawn(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """As the axes have them; what a logarithmic one cannot show is no number."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.log10(x) if self.x.log else x, np.log10(y) if self.y.log else y
+
+    def _fit_legend(self) -> None:
+        """No larger than its names in the type of now: a text keeps the height of the type it was made in."""
+        for _, label in self._legend.items:
+            label.item.setFont(self.font())
+            label.setText(label.text)
+        self._legend.resize(0, 0)
+        self._legend.updateSize()
 
     def resizeEvent(self, event: QResizeEvent | None) -> None:
         """A title that has not room enough beside its axis is shortened, to the unit at last."""
