@@ -257,8 +257,8 @@ class Drafts:
 
     def _look_beside(self) -> None:
         """At tables and sensors: a dry run is of them too."""
-        for draft in (self.rig, self.specimen):
-            for named in _names_in(draft.plain()) if draft is not None else ():
+        for draft in filter(None, (self.rig, self.specimen)):
+            for named in _names_in(draft.plain()):
                 path = draft.path.parent / named
                 self._beside.setdefault(path, stamp_of(path))
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, Signal
-from PySide6.QtGui import QContextMenuEvent, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtGui import QContextMenuEvent, QFont, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from fitting.arrays import Array
@@ -240,7 +240,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
             self._legend.setBrush(theme.color("base", _LEGEND_ALPHA))
             self._legend.setLabelTextColor(theme.text)
             self._legend.setLabelTextSize(size)
-            self._fit_legend()
+            _fit(self._legend, self.font())
         self._readout.paint(theme)
         self.cursors.paint(theme)
         for curve in self._curves.values():
@@ -256,14 +256,6 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         """As the axes have them; what a logarithmic one cannot show is no number."""
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.log10(x) if self.x.log else x, np.log10(y) if self.y.log else y
-
-    def _fit_legend(self) -> None:
-        """No larger than its names in the type of now: a text keeps the height of the type it was made in."""
-        for _, label in self._legend.items:
-            label.item.setFont(self.font())
-            label.setText(label.text)
-        self._legend.resize(0, 0)
-        self._legend.updateSize()
 
     def resizeEvent(self, event: QResizeEvent | None) -> None:
         """A title that has not room enough beside its axis is shortened, to the unit at last."""
@@ -292,3 +284,12 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         name = next((n for n, c in self._curves.items() if c.items[0] is item), "")
         if name and len(points):
             self.picked.emit(name, int(points[0].index()))
+
+
+def _fit(legend: pg.LegendItem, font: QFont) -> None:
+    """No larger than its names in this type: a text keeps the height of the type that it was made in."""
+    for _, label in legend.items:
+        label.item.setFont(font)
+        label.setText(label.text)
+    legend.resize(0, 0)
+    legend.updateSize()
