@@ -105,19 +105,20 @@ class RunPage(Page):
     def _save_then(self, what: Literal["check", "start"]) -> None:
         self._next = what
         self.files.look()
-        if self.files.changed_elsewhere:
-            self._next = ""
-            self._check_again = True
-            self.controller.refused.emit(f"nothing is begun: {self.files.outdated_said}")
-        elif self.files.changed:
+        if self.files.changed and not self.files.changed_elsewhere:
             self.files.save()
         else:
             self._go_on()
 
     def _go_on(self) -> None:
-        """The files are on the disk."""
+        """The files are on the disk, as the forms show them or as another program has them."""
         what, self._next, path = self._next, "", self.files.path
         if path is None or not what:
+            return
+        if self.files.changed_elsewhere:
+            # What would begin is not what the forms show.
+            self._check_again = True
+            self.controller.refused.emit(f"nothing is begun: {self.files.outdated_said}")
             return
         if what == "start":
             self.controller.start(self.starting.order(path))
