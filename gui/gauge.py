@@ -32,8 +32,12 @@ class Gauge(QLabel):
         share = 0.0 if value is None else min(1.0, value / limit)
         said = f"{self._name} \u2013"
         if value is not None:
-            age = f", {_old(age_s)} ago" if self.marked else ""
-            said = f"{self._name} {_short(value)} / {_short(limit)} {unit}{age}"
+            # Where there is room for part of it the age counts most, and no limit is near of what is over.
+            said = (
+                f"{self._name} {_old(age_s)} ago: {_short(value)} {unit}"
+                if self.marked
+                else f"{self._name} {_short(value)} / {_short(limit)} {unit}"
+            )
         if share != self._share or said != self._said:
             self._share, self._said = share, said
             self.setText(f"<span style='font-size:large'>{said}</span>" if self._large else said)

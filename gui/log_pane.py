@@ -23,6 +23,10 @@ class LogPane(QDockWidget):
         self._text.setMaximumBlockCount(_MOST_LINES)
         self._text.setPlaceholderText("What happens is written here.")
         self.setWidget(self._text)
+        self._at_end = True
+        bar = self._text.verticalScrollBar()
+        bar.valueChanged.connect(self._scrolled)
+        bar.rangeChanged.connect(self._stay_at_end)
         self._shown_of: SessionState | None = None
         self._shown = 0
 
@@ -30,6 +34,14 @@ class LogPane(QDockWidget):
     def text(self) -> str:
         """All of it."""
         return self._text.toPlainText()
+
+    def _scrolled(self, value: int) -> None:
+        self._at_end = value == self._text.verticalScrollBar().maximum()
+
+    def _stay_at_end(self, _: int, last: int) -> None:
+        """Larger type, or less room: the newest line is still seen whole."""
+        if self._at_end:
+            self._text.verticalScrollBar().setValue(last)
 
     def show_state(self, state: SessionState | None) -> None:
         """Write the lines that are new."""

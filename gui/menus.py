@@ -27,6 +27,7 @@ Ctrl+F9\tend the run in order
 Ctrl+Return\twhat the run asks for is done
 Ctrl+N, Ctrl+S\ta new experiment, save it
 F7, F5\tcheck it, start it
+F6\tread files again that another program has changed
 Ctrl+O\topen a session, an experiment or other data
 Ctrl+Shift+O\tadd files that are fitted together
 Ctrl+I, Ctrl+D\tof several files: identify, diagnose

@@ -2,11 +2,17 @@
 
 BadInput        2   a file, an option: file, place, what was found, what is expected
 RigStopped      3   the rig stopped itself safely: what was seen, its limit, what to do
+ShakerNotSilent 3   it stopped, and the shaker does not say that it is silent
 StoppedByUser 130   Ctrl-C during a run: what is kept, and where
 """
 
 import errno
+from typing import Literal
 
+SWITCH_OFF = "SWITCH THE AMPLIFIER OFF"
+"""What a person has to do about a shaker that nobody knows to be silent."""
+NOT_SILENT: Literal["stopped, shaker NOT known to be silent"] = "stopped, shaker NOT known to be silent"
+"""How such a run ended, as its session says."""
 _FULL = (errno.ENOSPC, errno.EDQUOT)
 
 
@@ -20,6 +26,13 @@ class StoppedByUser(Exception):
 
 class RigStopped(Exception):
     """A run ended itself, the shaker silent. The message is one line."""
+
+
+class ShakerNotSilent(RigStopped):
+    """A run ended over a shaker that nobody knows to be silent. The message is one line: first what to do."""
+
+    def __init__(self, said: str) -> None:
+        super().__init__(said if said.startswith(SWITCH_OFF) else f"{SWITCH_OFF}: {said}")
 
 
 def is_full(error: Exception) -> bool:

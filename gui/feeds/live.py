@@ -33,16 +33,17 @@ from instrument.stream.raw import BlockAcquired
 _AT_ONCE = 64
 """Messages between two looks at the clock."""
 _PACE_EVERY_S, _PACE_MARKS = 0.5, 20
-_QUESTIONS: dict[str, Callable[[OperatorAsked], str]] = {
-    "mount": lambda a: f"mount the {a.detail} plate, nothing else on it",
-    "aim": lambda a: (
+_QUESTIONS: dict[str, Callable[[OperatorAsked, str], str]] = {
+    "mount": lambda a, kind: f"mount the {a.detail} {kind}, nothing else on it",
+    "aim": lambda a, _: (
         f"aim the laser at the {'base beside the accelerometer' if a.detail == 'base' else a.detail}, focus"
     ),
-    "hit": lambda a: "",
-    "content": lambda a: f"{a.good} good hits: use them, or decide otherwise",
-    "follow-up": lambda a: a.detail,
-    "change": lambda a: a.detail,
+    "hit": lambda a, _: "",
+    "content": lambda a, _: f"{a.good} good hits: use them, or decide otherwise",
+    "follow-up": lambda a, _: a.detail,
+    "change": lambda a, _: a.detail,
 }
+"""What is asked, of a specimen of that kind in words."""
 
 
 class LiveFeed(Feed):
@@ -193,7 +194,8 @@ class LiveFeed(Feed):
     def _ask(self, question: OperatorAsked | None) -> None:
         assert self.state is not None
         self.question = question if question is not None and question.what != "hit" else None
-        self.state.ask(_QUESTIONS[question.what](question) if question is not None else "")
+        kind = self.state.configuration.the_specimen().kind.replace("-", " ")
+        self.state.ask(_QUESTIONS[question.what](question, kind) if question is not None else "")
         self.asked.emit(question)
 
     def _end(self, message: Ended) -> None:

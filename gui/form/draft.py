@@ -3,7 +3,8 @@
 import os
 import re
 import tempfile
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
@@ -15,7 +16,8 @@ from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT, Item
 
 from fitting.errors import OutsideModel
-from gui.form.fields import Field, FormSection, Kind, Place, form_of, shown
+from gui.file_stamp import Stamp, stamp_of
+from gui.form.fields import FILES, Field, FormSection, Kind, Place, form_of, shown
 from instrument.errors import BadInput, system_words
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.law_table import with_rows
@@ -46,6 +48,8 @@ class Draft:
     def __init__(self, path: Path, model: type[BaseModel], text: str) -> None:
         self.path, self.model = path, model
         self._read = text
+        self.stamp: Stamp | None = None
+        """Of the file as it was read or saved; None where there was none."""
         try:
             self._toml = tomlkit.parse(text)
         except (TOMLKitError, RecursionError) as error:
@@ -54,14 +58,18 @@ class Draft:
     @classmethod
     def of(cls, path: Path, model: type[BaseModel]) -> "Draft":
         """Read a file. Raises `BadInput` where it is none that can be edited."""
-        return cls(path, model, read_text(path))
+        # Looked at first: what is written while it is read is news.
+        stamp = stamp_of(path)
+        found = cls(path, model, read_text(path))
+        found.stamp = stamp
+        return found
 
     @classmethod
     def of_specimen(cls, path: Path) -> "Draft":
         """Read a specimen's file, whichever structure it describes. Raises as `of`."""
-        text = read_text(path)
-        found = cls(path, BaseModel, text)
-        return cls(path, document_type(found.plain()), text)
+        found = cls.of(path, BaseModel)
+        found.model = document_type(found.plain())
+        return found
 
     @cached_property
     def asks(self) -> FormSection:
@@ -157,7 +165,7 @@ class Draft:
         if path is None and self._read and to.exists() and read_text(to) != self._read:
             raise BadInput(f"{to}: was changed by another program since it was read: open it again")
         text = self.text
-        _replace(to, text)
+        self.stamp = _replace(to, text)
         self.path, self._read = to, text
 
     def _at(self, place: Place) -> Any:
@@ -196,6 +204,8 @@ class Drafts:
     specimen: Draft | None
     problems: tuple[str, ...] = ()
     """Why one of the named files is missing here."""
+    _beside: dict[Path, Stamp | None] = field(default_factory=dict)
+    """Files that these name and no form shows, as they were looked at."""
 
     @classmethod
     def of(cls, path: Path) -> "Drafts":
@@ -203,17 +213,22 @@ class Drafts:
         experiment = Draft.of(path, ExperimentDocument)
         found: dict[str, Draft | None] = {}
         problems: list[str] = []
+        missing: dict[Path, Stamp | None] = {}
         for name in ("rig", "specimen"):
             said = experiment.value((name,))
             found[name] = None
             if not isinstance(said, str):
                 continue
+            named = path.parent / said
+            stamp = stamp_of(named)
             try:
-                named = path.parent / said
                 found[name] = Draft.of(named, RigDocument) if name == "rig" else Draft.of_specimen(named)
             except BadInput as error:
                 problems.append(str(error))
-        return cls(experiment, found["rig"], found["specimen"], tuple(problems))
+                missing[named] = stamp
+        drafts = cls(experiment, found["rig"], found["specimen"], tuple(problems), missing)
+        drafts._look_beside()
+        return drafts
 
     @property
     def all(self) -> dict[str, Draft]:
@@ -225,6 +240,27 @@ class Drafts:
     def changed(self) -> bool:
         """Whether one of them differs from its file."""
         return any(draft.changed for draft in self.all.values())
+
+    @property
+    def changed_elsewhere(self) -> list[Path]:
+        """Files that another program has written, or taken away, since they were read or saved here."""
+        return [path for path, stamp in self._stamps.items() if stamp_of(path) != stamp]
+
+    @property
+    def files(self) -> list[Path]:
+        """All of them, those that no form shows too."""
+        return list(self._stamps)
+
+    @property
+    def _stamps(self) -> dict[Path, Stamp | None]:
+        return self._beside | {draft.path: draft.stamp for draft in self.all.values()}
+
+    def _look_beside(self) -> None:
+        """At tables and sensors: a dry run is of them too."""
+        for draft in filter(None, (self.rig, self.specimen)):
+            for named in _names_in(draft.plain()):
+                path = draft.path.parent / named
+                self._beside.setdefault(path, stamp_of(path))
 
     @property
     def fault_count(self) -> int:
@@ -240,6 +276,7 @@ class Drafts:
         for draft in self.all.values():
             if draft.changed:
                 draft.save()
+        self._look_beside()
         return self.experiment.path
 
     def save_as(self, path: Path) -> Path:
@@ -258,12 +295,22 @@ class Drafts:
             self.all[name].save(to)
             self.experiment.write((name,), Field(name, "text"), to.name)
         self.experiment.save(path)
+        self._look_beside()
         return path
 
 
 def _first(found: Any) -> Any:
     """Of `[[pickup]]` the form shows the first; the others stay as the file has them."""
     return found[0] if isinstance(found, AoT) and len(found) else found
+
+
+def _names_in(values: Any) -> Iterator[str]:
+    """Files that these values name, at any depth."""
+    if isinstance(values, dict):
+        yield from (said for key, said in values.items() if key in FILES and isinstance(said, str) and said)
+        values = list(values.values())
+    for inside in values if isinstance(values, list) else ():
+        yield from _names_in(inside)
 
 
 def _value(field: Field, text: str) -> Any:
@@ -315,8 +362,8 @@ def _of_law(said: str) -> Faults:
     return {(): said}
 
 
-def _replace(path: Path, text: str) -> None:
-    """Write a file whole or not at all. Raises `BadInput`."""
+def _replace(path: Path, text: str) -> Stamp | None:
+    """Write a file whole or not at all; as what. Raises `BadInput`."""
     try:
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
         with os.fdopen(handle, "w", encoding="utf-8") as file:
@@ -325,6 +372,8 @@ def _replace(path: Path, text: str) -> None:
             os.chmod(name, path.stat().st_mode)
         else:
             os.chmod(name, 0o644)
+        stamp = stamp_of(Path(name))
         os.replace(name, path)
     except OSError as error:
         raise BadInput(f"{path}: {system_words(error)}") from None
+    return stamp

@@ -75,7 +75,7 @@ class Marks:
             self.show(name, (), "faint", (), LABEL_AT, level=False)
 
     def style(self) -> None:
-        """In the colours of the moment."""
+        """In the colours and the type of the moment."""
         for group in self.groups.values():
             color = current_theme().color(group.role)
             # In pixels of the screen, as a curve's.
@@ -84,3 +84,4 @@ class Marks:
                 line.setPen(pen)
                 if hasattr(line, "label"):
                     line.label.setColor(color)
+                    line.label.setFont(self._plot.font())

@@ -7,13 +7,15 @@ all it has at every refresh, and never keeps a curve.
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, Signal
-from PySide6.QtGui import QContextMenuEvent, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtGui import QContextMenuEvent, QFont, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from fitting.arrays import Array
 from gui.plots.axis import Axis
+from gui.plots.corner import emptiest_corner
 from gui.plots.cursors import Cursors
 from gui.plots.curve import Curve, Kind, Symbol, items_of
 from gui.plots.export import add_export_menu
@@ -238,13 +240,22 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
             self._legend.setBrush(theme.color("base", _LEGEND_ALPHA))
             self._legend.setLabelTextColor(theme.text)
             self._legend.setLabelTextSize(size)
-            for _, label in self._legend.items:
-                label.setText(label.text)
+            _fit(self._legend, self.font())
         self._readout.paint(theme)
         self.cursors.paint(theme)
         for curve in self._curves.values():
             self._style(curve)
         self.marks.style()
+
+    def place_legend(self) -> None:
+        """Where it hides least of the curves that are shown."""
+        if self._legend is not None:
+            self._legend.setOffset(emptiest_corner([self._drawn(x, y) for x, y in self.curves.values()]))
+
+    def _drawn(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """As the axes have them; what a logarithmic one cannot show is no number."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.log10(x) if self.x.log else x, np.log10(y) if self.y.log else y
 
     def resizeEvent(self, event: QResizeEvent | None) -> None:
         """A title that has not room enough beside its axis is shortened, to the unit at last."""
@@ -273,3 +284,12 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         name = next((n for n, c in self._curves.items() if c.items[0] is item), "")
         if name and len(points):
             self.picked.emit(name, int(points[0].index()))
+
+
+def _fit(legend: pg.LegendItem, font: QFont) -> None:
+    """No larger than its names in this type: a text keeps the height of the type that it was made in."""
+    for _, label in legend.items:
+        label.item.setFont(font)
+        label.setText(label.text)
+    legend.resize(0, 0)
+    legend.updateSize()

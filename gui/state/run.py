@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Literal
 
+from instrument.errors import NOT_SILENT
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.hammer_test.struck import FEWEST_HITS
@@ -72,7 +73,7 @@ class Run:
     experiment: ExperimentDocument
     state: State = "idle"
     why: str = ""
-    """Of the end: "done", "stopped by the user" or "stopped safely"; empty before."""
+    """Of the end, as `instrument.engine.messages.Why`; empty before."""
     message: str = ""
     question: str = ""
     """What a person is asked to do; empty where nobody waits."""
@@ -157,7 +158,9 @@ class Run:
 
     @property
     def ending(self) -> str:
-        """How it ended, in a line."""
+        """How it ended, in a line: first what to do at once, which no line may cut away."""
+        if self.why == NOT_SILENT:
+            return f"{self.message} ({self.why})"
         return self.why + (f": {self.message}" if self.message else "")
 
     @property

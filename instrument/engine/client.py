@@ -32,13 +32,14 @@ from instrument.engine.messages import (
 )
 from instrument.engine.stop_path import StopPath
 from instrument.engine.wire import encode, read
+from instrument.errors import SWITCH_OFF
 
 ENGINE = (sys.executable, "-m", "instrument.engine")
 ENDS_S = 10.0
 """A run that was stopped puts its session together meanwhile; an engine that takes longer hangs."""
 _SILENCES_S = 1.0
 """For word that the shaker is at rest, by whichever way."""
-_SWITCH_OFF = "its heartbeat ends its drive: switch the amplifier off to be sure"
+_HEARTBEAT = "its heartbeat ends its drive"
 _AGAIN_S = 0.1
 """Between two stops: none that the run may have undone stays so for longer."""
 
@@ -221,7 +222,7 @@ class Engine:
         problem = path.silence()
         if not problem:
             return True, "the shaker is silent; the engine did not answer and was ended"
-        return False, f"{problem}; {_SWITCH_OFF}"
+        return False, f"{SWITCH_OFF} to be sure: {problem}; {_HEARTBEAT}"
 
     def _see_it_end(self) -> None:
         """Stop again and again until the engine is over: a start of its own on the way must not last."""
@@ -299,5 +300,7 @@ class Engine:
         said = next((f": {line.strip()}" for line in reversed(lines) if line.strip()), "")
         folder = self._recorded.folder if self._recorded is not None else None
         kept = f"; what is complete is in {folder}: viscorig recover {folder}" if folder else ""
-        shaker = {None: "", "": "; the shaker is silent"}.get(problem, f"; {problem}; {_SWITCH_OFF}")
-        return f"the engine {how}{said}{shaker}{kept}"
+        ended = f"the engine {how}{said}"
+        if problem:
+            return f"{SWITCH_OFF} to be sure: {problem}; {_HEARTBEAT}; {ended}{kept}"
+        return f"{ended}{'; the shaker is silent' if problem is not None else ''}{kept}"

@@ -9,8 +9,9 @@ from instrument.check.piece import Region, TimedPiece
 from instrument.files.rig_file import Shaker
 from instrument.run.part import Part
 from instrument.stream.event import Event
+from instrument.stream.raw import Ending
 
-Why = Literal["done", "bad input", "stopped safely", "stopped by the user", "died"]
+Why = Ending | Literal["bad input", "died"]
 """A run ended. "died": the engine's process ended without a word, or was ended because it did not answer."""
 
 

@@ -12,7 +12,7 @@ from instrument.engine.host import Host, LogToClient
 from instrument.engine.mailbox import Mailbox
 from instrument.engine.messages import Ended, Logged, Order, Why, ended
 from instrument.engine.wire import encode, read
-from instrument.errors import BadInput, RigStopped, StoppedByUser, system_words
+from instrument.errors import NOT_SILENT, BadInput, RigStopped, ShakerNotSilent, StoppedByUser, system_words
 from instrument.run.experiment import run_experiment
 from instrument.run.live_diagnosis import Diagnoser, diagnose_points
 from instrument.run.live_fit import Fitter, fit_points
@@ -72,6 +72,8 @@ def _run(order: Order, host: Host, fit: Fitter, diagnose: Diagnoser) -> Ended:
         return _ended("stopped by the user", "nothing was measured", host)
     except (BadInput, FittingError) as error:
         return _ended("bad input", error, host)
+    except ShakerNotSilent as error:
+        return _ended(NOT_SILENT, error, host)
     except (RigStopped, DriverError) as error:
         return _ended("stopped safely", error, host)
     except OSError as error:

@@ -1,5 +1,6 @@
 """How a session ended, and what of its plan is missing."""
 
+from instrument.errors import NOT_SILENT
 from instrument.files.acceleration import shown_quantity
 from instrument.report.blocks import Block, ReportSection, Sentence
 from instrument.session.contents import Contents
@@ -71,6 +72,8 @@ def _ended(contents: Contents) -> str:
         return "The run came to its planned end."
     said = {"stopped by the user": "The user stopped the run", "stopped safely": "The rig stopped itself"}
     message = contents.ended.message
+    if contents.ended.why == NOT_SILENT:
+        return f"{message} ({NOT_SILENT})."
     return said[contents.ended.why] + (f": {message}" if message else ".")
 
 

@@ -24,6 +24,12 @@ def standing(name: str, found: DiagnosisResult) -> Standing:
         return "equal" if none_is_likelier(found) else "found"
     if not groups or found.verdict != "ambiguous":
         return "other"
+    named = set[str]().union(*groups.values())
+    if not together <= named:
+        # Likely as it may be, the verdict does not name it.
+        return "other"
+    if name == UNLISTED or len(groups) == len(together) == 1:
+        return "equal"
     group = _group(found)
     if group is None:
         # Nothing was weighed: one stands for another, effect by effect.
@@ -80,5 +86,4 @@ def _group(found: DiagnosisResult) -> set[str] | None:
         return None
     listed = [c for c in found.candidates if c.name != UNLISTED]
     ranked, whole = sorted(listed, key=lambda c: -c.probability), sum(c.probability for c in listed)
-    group = {c.name for c in ranked[: holding([c.probability / max(whole, _LEAST_WHOLE) for c in ranked])]}
-    return group | {UNLISTED} if any(UNLISTED in names for names in found.equivalent.values()) else group
+    return {c.name for c in ranked[: holding([c.probability / max(whole, _LEAST_WHOLE) for c in ranked])]}

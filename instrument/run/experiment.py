@@ -14,7 +14,7 @@ from instrument.check.follow_up_remark import follow_up_remarks
 from instrument.check.forecast import Forecast
 from instrument.check.sensors import sensor_remarks
 from instrument.check.work import planned_regions, planned_work
-from instrument.errors import BadInput, RigStopped, StoppedByUser, system_words
+from instrument.errors import BadInput, RigStopped, ShakerNotSilent, StoppedByUser, system_words
 from instrument.progress import Progress, quiet
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl
@@ -107,6 +107,8 @@ def _run(request: RunRequest, out: Path, resume: Path | None, watch: Watch | Non
     except OSError as error:
         said = f"{error.filename or journal.folder}: {system_words(error)}"
         raise RigStopped(f"{' '.join(said.split())}; {kept(journal, path, begun)}") from error
+    except ShakerNotSilent as error:
+        raise ShakerNotSilent(f"{error}; {kept(journal, path, begun)}") from error
     except (RigStopped, DriverError) as error:
         raise RigStopped(f"{' '.join(str(error).split())}; {kept(journal, path, begun)}") from error
     except KeyboardInterrupt:

@@ -24,7 +24,7 @@ class Operator(Protocol):
     """Someone at the rig."""
 
     def mount(self, plate: str) -> OperatorDid:
-        """Mount the bare or the damped plate ("bare", "damped"), without a known mass; returns when done."""
+        """Mount the specimen "bare" or "damped", without a known mass; returns when it is done."""
         ...
 
     def aim(self, point: str) -> OperatorDid:
@@ -135,7 +135,7 @@ class Person:
 
     def mount(self, plate: str) -> OperatorDid:
         """Ask, and wait for Enter."""
-        self._ask(f"Mount the {plate} plate, nothing else on it, then press Enter")
+        self._ask(f"Mount the {plate} specimen, nothing else on it, then press Enter")
         return OperatorDid("mounted", plate)
 
     def aim(self, point: str) -> OperatorDid:

@@ -12,7 +12,7 @@ from time import sleep
 
 from drivers.errors import DriverError
 from drivers.front_end import Block, InputChannel
-from instrument.errors import RigStopped
+from instrument.errors import RigStopped, ShakerNotSilent
 from instrument.files.experiment_file import TemperatureTable
 from instrument.run.analysis import Analysis
 from instrument.run.at_rest import silenced
@@ -99,15 +99,15 @@ class Runner:
         Soaking(self._rig, self._emit, self._control, self._watching.look).run(wanted)
 
     def silence(self) -> None:
-        """The shaker to zero, whatever state it is in. Raises `RigStopped` where it does not say that it is.
+        """The shaker to zero, whatever state it is in. Raises `ShakerNotSilent` where it does not say so.
 
         Its own watchdog has its time first: nobody beats the heartbeat meanwhile.
         """
         watchdog_s = self._rig.document.shaker.heartbeat_timeout_s
         if problem := silenced(self._rig.shaker, watchdog_s + _MARGIN_S):
-            raise RigStopped(
-                f"the shaker does not say that it is silent ({problem}): SWITCH THE AMPLIFIER OFF; its own "
-                f"watchdog should have silenced it after {watchdog_s:g} s, which nobody knows"
+            raise ShakerNotSilent(
+                f"the shaker does not say that it is silent ({problem}); its own watchdog should have "
+                f"silenced it after {watchdog_s:g} s, which nobody knows"
             )
         self._told.drive_v = 0.0
 
@@ -167,9 +167,7 @@ class Runner:
             if self._rig.shaker.status().drive_v == 0:
                 return
             sleep(_LOOK_S)
-        raise RigStopped(
-            f"the shaker is not at rest {_REST_S:g} s after it was stopped: switch the amplifier off"
-        )
+        raise ShakerNotSilent(f"the shaker is not at rest {_REST_S:g} s after it was stopped")
 
     # One action
 
@@ -273,9 +271,9 @@ class Runner:
         """Silence; where it fails that is told, with what had ended the part before."""
         try:
             self.silence()
-        except RigStopped as loud:
+        except ShakerNotSilent as loud:
             if isinstance(ended, RigStopped | DriverError):
-                raise RigStopped(f"{' '.join(str(ended).split())}; {loud}") from ended
+                raise ShakerNotSilent(f"{loud}; what came before: {' '.join(str(ended).split())}") from ended
             raise
 
 

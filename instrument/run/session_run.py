@@ -4,7 +4,6 @@ import threading
 from contextlib import ExitStack
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from typing import Literal
 
 from drivers.errors import DriverError
 from drivers.shaker import Alarm
@@ -12,7 +11,7 @@ from fitting.errors import TooFewPoints
 from fitting.identification.bare_plate import match_modes
 from fitting.specimen import Specimen
 from instrument.check.forecast import Forecast, distinct
-from instrument.errors import RigStopped
+from instrument.errors import NOT_SILENT, RigStopped, ShakerNotSilent
 from instrument.files.hammer_file import accepted_modes
 from instrument.hammer_test.struck import FEWEST_HITS
 from instrument.progress import Progress, quiet
@@ -36,6 +35,7 @@ from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated
 from instrument.stream.event import Derived, Event
 from instrument.stream.raw import (
     DiagnosisStarted,
+    Ending,
     FollowUpDecided,
     FollowUpProposed,
     SessionBegan,
@@ -117,7 +117,8 @@ class SessionRun:
                 # The rig is let go of first: nothing of it is needed any more.
                 self.diagnosis = self._diagnose()
         except (RigStopped, DriverError) as error:
-            self._end("stopped safely", " ".join(str(error).split()))
+            why = NOT_SILENT if isinstance(error, ShakerNotSilent) else "stopped safely"
+            self._end(why, " ".join(str(error).split()))
             raise
         except KeyboardInterrupt:
             self._end("stopped by the user", "")
@@ -255,7 +256,7 @@ class SessionRun:
         if isinstance(event, _FOLLOWING):
             self.following.append(event)
 
-    def _end(self, why: Literal["done", "stopped by the user", "stopped safely"], message: str) -> None:
+    def _end(self, why: Ending, message: str) -> None:
         try:
             self._record(SessionEnded(why, message))
         except RigStopped:

@@ -316,9 +316,13 @@ class FollowUpEnded(Event):
     number: int
 
 
+Ending = Literal["done", "stopped by the user", "stopped safely", "stopped, shaker NOT known to be silent"]
+"""How a run ended; safely: with the shaker silent."""
+
+
 @dataclass(frozen=True)
 class SessionEnded(Event):
     """The run is over, and why."""
 
-    why: Literal["done", "stopped by the user", "stopped safely"]
+    why: Ending
     message: str

@@ -93,7 +93,7 @@ def test_an_old_value_is_greyed_and_says_its_age(qtbot):
     gauge.show_value(1.04, 5.0, "V", 2.31)
     assert gauge.marked
     assert not gauge.isEnabled()
-    assert gauge.text() == "drive 1.04 / 5 V, 2.3 s ago"
+    assert gauge.text() == "drive 2.3 s ago: 1.04 V"
 
 
 def test_a_recording_says_that_it_is_one(opened):

@@ -204,6 +204,25 @@ def test_the_log_is_written_on_and_its_oldest_lines_go_first(made, monkeypatch):
     assert pane.text == ""
 
 
+def test_with_less_room_the_newest_line_of_the_log_is_still_seen_unless_older_ones_are_looked_at(made, qtbot):
+    log, pane = Log(began=datetime(2026, 1, 1)), made(LogPane())
+    for number in range(30):
+        log.add(number, f"line {number}")
+    pane.resize(400, 300)
+    pane.show()
+    qtbot.waitExposed(pane)
+    pane.show_state(SimpleNamespace(log=log))
+    bar = pane.widget().verticalScrollBar()
+    bar.setValue(bar.maximum())
+    pane.resize(400, 120)
+    qtbot.waitUntil(lambda: bar.maximum() > 20)
+    assert bar.value() == bar.maximum()
+    bar.setValue(3)
+    pane.resize(400, 100)
+    qtbot.wait(10)
+    assert bar.value() == 3
+
+
 def test_a_feeds_turn_ends_before_the_window_is_felt_to_wait(monkeypatch):
     clock = iter((10.0, 10.0 + 0.9 * feed.MOST_S, 10.0 + 1.1 * feed.MOST_S))
     monkeypatch.setattr(feed, "perf_counter", lambda: next(clock))

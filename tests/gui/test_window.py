@@ -8,7 +8,7 @@ from gui.asking import SIGNS, ask_open
 from gui.icons import Sign
 from gui.rediagnosis import DiagnosisAsked
 from gui.window import TURN_MS, Window
-from instrument.errors import BadInput
+from instrument.errors import NOT_SILENT, SWITCH_OFF, BadInput
 from instrument.simulated_case import write_case
 
 
@@ -305,6 +305,18 @@ def test_a_session_that_was_broken_off_says_why(qtbot, window, tmp_path):
     qtbot.waitUntil(lambda: window.controller.recorded is not None)
     assert "stopped" in window.bar.state.text()
     assert "interlock open" in window.bar.next.text()
+
+
+def test_what_to_do_about_a_shaker_that_may_not_be_silent_is_not_cut_away(qtbot, window, tmp_path):
+    index = SyntheticSession(configuration())
+    index.begin()
+    index.sweep((1,), steps=4)
+    index.end(NOT_SILENT, f"{SWITCH_OFF}: the shaker does not say that it is silent ({'no answer ' * 30})")
+    window.open(index.save(tmp_path))
+    qtbot.waitUntil(lambda: window.controller.recorded is not None)
+    assert window.bar.next.text().startswith(SWITCH_OFF)
+    assert NOT_SILENT in window.bar.next.toolTip()
+    assert "safely" not in window.bar.next.toolTip()
 
 
 def test_a_file_dialogs_signs_are_the_windows_and_its_columns_are_not_cut(window, tmp_path):

@@ -9,9 +9,9 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSplitter, QVBoxLa
 
 from fitting.arrays import Array
 from fitting.numerics.chances import Z_95
-from gui.pages.law.corner import emptiest_corner
 from gui.pages.law.curve import LawCurve
 from gui.plots import Axis, Plot
+from gui.plots.corner import emptiest_corner
 from gui.plots.legend_lines import break_names
 from gui.theme import Role
 

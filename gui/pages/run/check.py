@@ -97,7 +97,7 @@ class CheckPane(QWidget):
 
     def show_result(self, found: CheckResult) -> None:
         """All is well."""
-        said = [f"Nothing is wrong. About {duration(found.seconds)} in all."]
+        said = [f"Nothing is wrong. About {duration(found.seconds)} of measuring."]
         if found.hammer_record_s is not None:
             said.append(f"Hammer: records of {found.hammer_record_s:g} s.")
         said.append("Modes expected at " + ", ".join(f"{f:.4g}" for f in found.modes_hz) + " Hz.")

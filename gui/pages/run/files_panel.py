@@ -19,6 +19,7 @@ from gui.asking import ask_open, ask_save, ask_unsaved, show
 from gui.background_task import BackgroundTask, Progress
 from gui.form.draft import Drafts
 from gui.form.form import Form
+from gui.pages.run.disk_watch import DiskWatch
 from gui.pages.run.new_case import NewCase, write
 from gui.widgets import button, hint
 
@@ -37,6 +38,8 @@ class FilesPanel(QWidget):
         A value was changed.
     saved
         All of it is on the disk.
+    outdated
+        Another program has written one of the files since it was read.
     chose
         Path of a file to open.
     failed, said
@@ -46,6 +49,7 @@ class FilesPanel(QWidget):
     opened = Signal()
     edited = Signal()
     saved = Signal()
+    outdated = Signal()
     chose = Signal(Path)
     failed = Signal(str)
     said = Signal(str)
@@ -57,6 +61,11 @@ class FilesPanel(QWidget):
         self._work: BackgroundTask[object] | None = None
         self._named: tuple[object, object] = (None, None)
         self._after_saving: Callable[[], object] | None = None
+        self._locked = False
+        self._watch = DiskWatch(self)
+        self._watch.touched.connect(self.look)
+        self.changed_elsewhere: list[Path] = []
+        """Files that are not as the forms show them, as they were looked at last."""
         self.name = QLabel()
         self.name.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.open_button = button("Open...", "An experiment file (Ctrl+O)", "open")
@@ -70,6 +79,10 @@ class FilesPanel(QWidget):
         self.faults_button = button("", "Go to the first field that is wrong")
         self.fault = QLabel()
         self.fault.setWordWrap(True)
+        self.outdated_words = QLabel()
+        self.outdated_words.setWordWrap(True)
+        self.read_again = button("Read again", "The files as they are on the disk now (F6)")
+        self.read_again.setShortcut("F6")
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
         self.nothing = hint(
@@ -82,6 +95,7 @@ class FilesPanel(QWidget):
         self.save_button.clicked.connect(self.save)
         self.save_as_button.clicked.connect(self._ask_save_as)
         self.faults_button.clicked.connect(self.show_fault)
+        self.read_again.clicked.connect(self._read_again)
         self._show()
 
     @property
@@ -104,6 +118,24 @@ class FilesPanel(QWidget):
             then()
             return
         ask_unsaved(self, self.drafts.experiment.path.name, partial(self._save_first, then), then)
+
+    @property
+    def outdated_said(self) -> str:
+        """Which files are not as the forms show them, and what to do; empty where all are."""
+        if not self.changed_elsewhere:
+            return ""
+        names = ", ".join(path.name for path in self.changed_elsewhere)
+        return f"{names}: changed by another program since it was read here: read it again (F6)"
+
+    def look(self) -> None:
+        """Whether the files are as the forms show them; while they are read or saved, when that is over."""
+        if self.drafts is None or self._locked or (self._work is not None and not self._work.over):
+            return
+        before, self.changed_elsewhere = self.changed_elsewhere, self.drafts.changed_elsewhere
+        self._watch.follow(self.drafts.files)
+        self._say_outdated()
+        if self.changed_elsewhere and self.changed_elsewhere != before:
+            self.outdated.emit()
 
     def _save_first(self, then: Callable[[], object]) -> None:
         self.save()
@@ -137,13 +169,15 @@ class FilesPanel(QWidget):
 
     def lock(self, locked: bool) -> None:
         """While a run goes on its files stay as they are."""
-        for widget in (self.tabs, self.open_button, self.new_button):
+        self._locked = locked
+        for widget in (self.tabs, self.open_button, self.new_button, self.read_again):
             widget.setEnabled(not locked)
         if locked:
             self.save_button.setEnabled(False)
             self.save_as_button.setEnabled(False)
         else:
             self._say()
+            self.look()
 
     # Inside
 
@@ -152,14 +186,26 @@ class FilesPanel(QWidget):
             self._work.cancel()
         self._work = work = BackgroundTask(function, self)
         work.done.connect(then)
-        work.failed.connect(self.failed)
+        work.failed.connect(self._failed)
         work.start()
+
+    def _failed(self, message: str) -> None:
+        self.look()
+        self.failed.emit(message)
+
+    def _read_again(self) -> None:
+        if self.path is not None:
+            self.open(self.path)
 
     def _take(self, found: object) -> None:
         assert isinstance(found, Drafts)
         self.drafts = found
         self._named = self._names_given()
+        again = bool(self.changed_elsewhere)
+        self.look()
         self._show()
+        if again:
+            self.said.emit(f"read {found.experiment.path}")
         for problem in found.problems:
             self.failed.emit(problem)
         self.opened.emit()
@@ -172,6 +218,7 @@ class FilesPanel(QWidget):
         assert isinstance(path, Path)
         self.said.emit(f"saved {path}")
         self._say()
+        self.look()
         self.saved.emit()
         then, self._after_saving = self._after_saving, None
         if then is not None:
@@ -218,10 +265,17 @@ class FilesPanel(QWidget):
         self.faults_button.setVisible(bool(count))
         self.fault.setText(self._first_fault())
         self.fault.setVisible(bool(count))
+        self._say_outdated()
         self.name.setText(str(self.path) if self.path is not None else "")
         self.name.setToolTip(self.name.text())
         self.save_button.setEnabled(self.changed)
         self.save_as_button.setEnabled(self.drafts is not None)
+
+    def _say_outdated(self) -> None:
+        said = self.outdated_said
+        self.outdated_words.setText(f"\u26a0 {said}")
+        for widget in (self.outdated_words, self.read_again):
+            widget.setVisible(bool(said))
 
     def _first_fault(self) -> str:
         """In whole: beside its field there is room for some words only."""
@@ -261,6 +315,10 @@ class FilesPanel(QWidget):
         column.setContentsMargins(6, 6, 6, 6)
         column.addLayout(buttons)
         column.addWidget(self.name)
+        again = QHBoxLayout()
+        again.addWidget(self.outdated_words, 1)
+        again.addWidget(self.read_again)
+        column.addLayout(again)
         column.addWidget(self.fault)
         column.addWidget(self.nothing)
         column.addWidget(self.tabs, 1)

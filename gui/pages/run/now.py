@@ -15,13 +15,16 @@ from gui.state import SessionState
 from gui.tables import Cell, ReadTable
 from gui.theme import Role
 from gui.widgets import hint
+from instrument.check.forecast import distinct
 from instrument.engine.messages import Ended
 from instrument.files.acceleration import acceleration_unit
+from instrument.files.devices import ranges_of
 from instrument.results.typeset import typeset
+from instrument.stream.raw import SegmentBegan
 
 _COLUMNS = {
     "sweep": "Pass over all segments; 0 is the calibration",
-    "segment": "Its number",
+    "segment": "Its number; of a calibration the vibrometer's range",
     "from / Hz": "Lowest frequency",
     "to / Hz": "Highest frequency",
     "steps": "Measured, of those planned",
@@ -95,7 +98,7 @@ class NowPane(QWidget):
             rows.append(
                 [
                     Cell(str(began.sweep) if began.sweep else "calibration"),
-                    Cell(str(began.segment)),
+                    Cell(_segment_words(state, began)),
                     Cell(f"{began.low_hz:.4g}"),
                     Cell(f"{began.high_hz:.4g}"),
                     Cell(f"{done} of {began.steps}", fill=bar, share=plan.fraction(key), left=True),
@@ -131,6 +134,12 @@ class NowPane(QWidget):
         column.setContentsMargins(6, 6, 6, 6)
         column.addWidget(self.nothing)
         column.addWidget(self._whole, 1)
+
+
+def _segment_words(state: SessionState, began: SegmentBegan) -> str:
+    """Its number; of a calibration, which is numbered among the vibrometer's ranges, its range."""
+    ranges = distinct(ranges_of(state.configuration.rig.vibrometer)) if began.sweep == 0 else ()
+    return ranges[began.segment - 1].name if 0 < began.segment <= len(ranges) else str(began.segment)
 
 
 def ending_words(ending: Ended | None) -> str:

@@ -47,8 +47,14 @@ class RunPage(Page):
         self.export_button = button("Export", "The session's data for other programs", "export")
         self._asked: OperatorAsked | None = None
         self._next: Literal["", "check", "start"] = ""
+        self._check_again = False
+        """Once the files are read again: there was a dry run of them, or one was asked for."""
         self._forecast: CheckResult | None = None
         """Of the experiment as it is on the disk; None where it is not known."""
+        self._read: Path | None = None
+        """The experiment that was read last."""
+        self._looked_into = False
+        """Whether a dry run of these files was asked for, whatever it says."""
         self._looking: BackgroundTask[list[Path]] | None = None
         self._drawn_of: Configuration | None = None
         """Of the session whose specimen is drawn; None where it is that of the forms."""
@@ -98,15 +104,21 @@ class RunPage(Page):
 
     def _save_then(self, what: Literal["check", "start"]) -> None:
         self._next = what
-        if self.files.changed:
+        self.files.look()
+        if self.files.changed and not self.files.changed_elsewhere:
             self.files.save()
         else:
             self._go_on()
 
     def _go_on(self) -> None:
-        """The files are on the disk."""
+        """The files are on the disk, as the forms show them or as another program has them."""
         what, self._next, path = self._next, "", self.files.path
         if path is None or not what:
+            return
+        if self.files.changed_elsewhere:
+            # What would begin is not what the forms show.
+            self._check_again = True
+            self.controller.refused.emit(f"nothing is begun: {self.files.outdated_said}")
             return
         if what == "start":
             self.controller.start(self.starting.order(path))
@@ -114,6 +126,7 @@ class RunPage(Page):
 
     def _look_into(self, path: Path) -> None:
         """A dry run, unless there was one of these files."""
+        self._looked_into = True
         if self._forecast is None:
             self.checked.wait()
             self.check.start(path)
@@ -127,10 +140,20 @@ class RunPage(Page):
         self.drawing.show_drafts(self.files.drafts)
         self.starting.show_experiment(self.files.drafts)
         path = self.files.path
+        again, self._read = path is not None and path == self._read, path
         if path is not None:
-            self.starting.propose(path.parent)
+            if not again:
+                self.starting.propose(path.parent)
             self._look_for_broken_off()
         self._show_what_may_be_done()
+        check, self._check_again = self._check_again, False
+        if path is not None and again and check:
+            self._look_into(path)
+
+    def _outdated(self) -> None:
+        """What was checked is not what is on the disk."""
+        self._check_again |= self._looked_into
+        self._forget_check()
 
     def _mark_moved(self, file: str, place: Place, text: str) -> None:
         if not self.controller.running:
@@ -151,7 +174,7 @@ class RunPage(Page):
         self.controller.refused.emit(message)
 
     def _forget_check(self) -> None:
-        self._forecast = None
+        self._forecast, self._looked_into = None, False
         self.check.cancel()
         self.checked.clear()
 
@@ -226,6 +249,7 @@ class RunPage(Page):
         files.chose.connect(controller.open)
         files.opened.connect(self._opened)
         files.edited.connect(self._edited)
+        files.outdated.connect(self._outdated)
         self.plate.moved.connect(self._mark_moved)
         files.saved.connect(self._saved)
         files.failed.connect(self._failed)

@@ -38,6 +38,7 @@ def draw_amplitude(plot: Pointed, seen: PaneContents) -> None:
         float(np.abs(seen.shown[at])) if at is not None else None,
     )
     plot.frame(seen.band_hz)
+    plot.place_legend()
 
 
 def draw_phase(plot: Pointed, seen: PaneContents) -> None:

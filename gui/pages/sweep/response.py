@@ -62,7 +62,7 @@ class ResponsePane(QWidget):
         self.model.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.model.setWordWrap(True)
         self.amplitude = Pointed(FREQUENCY, Axis("|v/a|"))
-        self.phase = Pointed(FREQUENCY, Axis("Phase of v/a", "\u00b0"), legend=False)
+        self.phase = Pointed(FREQUENCY, Axis("Phase of v/a", "\u00b0", symbol="\u03c6"), legend=False)
         self.phase.setXLink(self.amplitude)
         self.quantity.currentTextChanged.connect(self._changed)
         self.take_away = tool("close", "Take the data of other files away")

@@ -25,7 +25,7 @@ class SamplesPane(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.said = hint(_NONE)
-        self.base = Plot(_TIME, Axis("Base", acceleration_unit().symbol), legend=False)
+        self.base = Plot(_TIME, Axis("Base", acceleration_unit().symbol, symbol="a"), legend=False)
         self.velocity = Plot(_TIME, Axis("Velocity", "mm/s", symbol="v"), legend=False)
         self.velocity.setXLink(self.base)
         self.dwells = Dwells(self)
@@ -73,7 +73,7 @@ class SamplesPane(QWidget):
         self._stack.show()
         self.said.setText(f"Step {step}: the dwell as the sensors gave it, calibration not taken off")
         shown = acceleration_unit()
-        self.base.show_axes(self.base.x, Axis("Base", shown.symbol))
+        self.base.show_axes(self.base.x, Axis("Base", shown.symbol, symbol="a"))
         self.base.trace("base acceleration", samples.time_s, shown.of(samples.base_m_s2), "second")
         self.velocity.trace("velocity", samples.time_s, 1e3 * samples.velocity_m_s, "data")
         span(self.base, samples.time_s)

@@ -29,7 +29,7 @@ _KEY: tuple[tuple[str, Role, str], ...] = (
 _LEAST_PERCENT = 1e-3
 _FACTS = {
     "Drive": "Commanded to the shaker, and its limit",
-    "Level": "Base acceleration of the latest block, the one asked for, and how far it is off (tolerance)",
+    "Level": "How far the base's acceleration of the latest block is off, that, and the one asked for",
     "Transient": "Bound on what is left of it, relative to the response; the limit; what noise alone allows",
     "Range": "Of the vibrometer",
     "Light": "That comes back to the vibrometer, 0 to 1, and the least that counts as good",
@@ -45,11 +45,11 @@ class StepPane(QWidget):
         self.words = QLabel()
         self.words.setWordWrap(True)
         self.facts = {name: ElidedLabel("\u2013", tip) for name, tip in _FACTS.items()}
-        self.base = Plot(_TIME, Axis("Base", acceleration_unit().symbol), legend=False)
+        self.base = Plot(_TIME, Axis("Base", acceleration_unit().symbol, symbol="a"), legend=False)
         self.velocity = Plot(_TIME, Axis("Velocity", "mm/s", symbol="v"), legend=False)
         self.settling = Plot(
             Axis("Time since the last change of drive", "s"),
-            Axis("Transient", "%", log=True),
+            Axis("Transient", "%", log=True, symbol="left"),
             legend=False,
         )
         self.velocity.setXLink(self.base)
@@ -102,7 +102,7 @@ class StepPane(QWidget):
         trace = latest_cycles(step)
         milliseconds = 1e3 * trace.time_s
         shown = acceleration_unit()
-        self.base.show_axes(self.base.x, Axis("Base", shown.symbol))
+        self.base.show_axes(self.base.x, Axis("Base", shown.symbol, symbol="a"))
         self.base.trace("base acceleration", milliseconds, shown.of(trace.base_m_s2), "second")
         self.velocity.trace("velocity", milliseconds, 1e3 * trace.velocity_m_s, "data")
         limits = state.limits.limits
@@ -136,7 +136,8 @@ class StepPane(QWidget):
         if base is not None and began.level_m_s2 is not None:
             off = 100 * (base / began.level_m_s2 - 1)
             shown = acceleration_unit()
-            said["Level"] = f"{shown.of(base):.4g} of {shown.said(began.level_m_s2)}, {off:+z.2f} %"
+            # Where there is no room for all of it the error stays.
+            said["Level"] = f"{off:+z.2f} %, {shown.of(base):.4g} of {shown.said(began.level_m_s2)}"
         _, percent, noise = following.remaining()
         if percent.size:
             limit = f"{100 * limits.settle.tolerance:g}, noise {_little(noise[-1])}"

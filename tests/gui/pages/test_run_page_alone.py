@@ -14,8 +14,12 @@ from gui.form.fields import form_of
 from gui.pages.run import RunPage
 from gui.pages.run import page as module
 from gui.pages.run.check import Check
+from gui.state import SessionState
+from instrument.check.forecast import distinct
 from instrument.engine.messages import Ended, OperatorAsked, Order
+from instrument.files.devices import ranges_of
 from instrument.simulated_case import write_case
+from instrument.stream.raw import SegmentBegan
 
 
 @pytest.fixture
@@ -222,3 +226,14 @@ def test_without_a_session_there_is_nothing_to_report(page):
     assert not page.report_button.isEnabled()
     assert not page.export_button.isEnabled()
     assert [a.data() for a in page.export_button.menu().actions()] == ["csv", "uff", "mat"]
+
+
+def test_a_calibration_is_named_by_the_vibrometers_range_it_is_of(page):
+    shown = SessionState(configuration())
+    shown.take(SegmentBegan(2, 0, 40.0, 280.0, 7))
+    shown.take(SegmentBegan(1, 1, 40.0, 280.0, 7))
+    page.now.show_segments(shown)
+    model = page.now.segments.model()
+    rows = [[model.index(row, k).data() for k in (0, 1)] for row in range(2)]
+    name = distinct(ranges_of(configuration().rig.vibrometer))[1].name
+    assert rows == [["calibration", name], ["1", "1"]]

@@ -74,7 +74,7 @@ def test_a_step_is_followed_to_its_rest(qtbot, alone):
     fed(page, state, index.events[: settled + 1])
     page.tabs.setCurrentWidget(page.step)
     qtbot.waitUntil(lambda: "dwelling" in page.step.words.text())
-    assert page.step.facts["Level"].said.startswith("4.91")
+    assert "%, 4.91" in page.step.facts["Level"].said
     assert page.step.facts["Drive"].said == "0.5 V of 5 V"
     # Curves follow words: they are drawn when the window has time.
     qtbot.waitUntil(lambda: len(shown(page.step.settling, "left")[0]) > 0)

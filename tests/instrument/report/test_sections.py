@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from session_cases import GAIN
 
 from fitting.data.aside import LOST, reasons
+from instrument.errors import NOT_SILENT
 from instrument.interchange.point_table import columns
 from instrument.interchange.read_session import read_session
 from instrument.report.blocks import FigureBlock, Sentence, TableBlock
@@ -48,6 +49,9 @@ def test_each_way_to_end_has_its_sentence(contents):
     assert first(None).startswith("The recording stops without an end")
     assert first(SessionEnded("stopped by the user", "")) == "The user stopped the run."
     assert first(SessionEnded("stopped safely", "too hot")) == "The rig stopped itself: too hot"
+    assert (
+        first(SessionEnded(NOT_SILENT, "SWITCH IT OFF: no word")) == f"SWITCH IT OFF: no word ({NOT_SILENT})."
+    )
 
 
 def test_what_was_not_measured_is_said_part_by_part(contents):

@@ -36,8 +36,18 @@ def test_what_holds_95_percent_is_not_told_from_the_first_pairs_too():
     }
 
 
-def test_what_is_beyond_95_percent_is_another():
-    assert stand(weighed(0.96, 0.03, 0.01, 0.0))["spot_offset"] == "other"
+def test_a_pair_beyond_95_percent_is_another():
+    assert stand(weighed(0.66, 0.33, 0.01, 0.0))["added_mass + spot_offset"] == "other"
+
+
+def test_what_is_not_told_apart_is_what_the_verdict_names_however_likely_it_is():
+    """Of a shear pair no effect is likeliest, and a mass that its law imitates is not excluded."""
+    found = weighed(0.034, 0.032, 0.001, 0.933).but(equivalent={"added_mass": ("added_mass", "none")})
+    assert stand(found)["added_mass"] == "equal"
+    assert stand(found)["spot_offset"] == "other"
+    named = found.but(equivalent={"added_mass": ("added_mass", "spot_offset", "none")})
+    unlikely = named.but(candidates=weighed(0.06, 0.001, 0.0, 0.939).candidates)
+    assert stand(unlikely)["spot_offset"] == "equal"
 
 
 def test_nothing_is_equal_to_what_is_certain():

@@ -11,10 +11,13 @@ from run_at_point import RunAtPoint
 
 from drivers.errors import Refused, TimedOut, Unreachable
 from drivers.shaker import Alarm, ShakerStatus
-from instrument.errors import RigStopped
+from instrument.errors import NOT_SILENT, SWITCH_OFF, RigStopped, ShakerNotSilent
 from instrument.run import runner
 from instrument.run.at_rest import bring_to_rest, came_to_rest, silenced
 from instrument.run.control import RunControl
+from instrument.run.experiment import run_experiment
+from instrument.session.contents import contents_of
+from instrument.session.storage import SessionFile
 
 
 class Deaf:
@@ -113,10 +116,15 @@ def quick_watchdog(monkeypatch):
 def test_a_run_whose_shaker_runs_on_at_its_end_does_not_end_well(tmp_path, quick_watchdog):
     with formula_rig(tmp_path) as (rig, experiment):
         honest = rig.device.stop
-        with pytest.raises(RigStopped, match=r"SWITCH THE AMPLIFIER OFF.*15 steps kept"):
+        with pytest.raises(ShakerNotSilent, match=r"^SWITCH THE AMPLIFIER OFF.*15 steps kept"):
             run(experiment, tmp_path, companion=RunAtPoint(3, lambda: deafen(rig)))
         rig.device.stop = honest
         honest(rig.world.clock()[1])
+    (session,) = tmp_path.glob("*.h5")
+    with SessionFile(session) as file:
+        ended = contents_of(file).ended
+    assert ended.why == NOT_SILENT
+    assert ended.message.startswith(SWITCH_OFF)
 
 
 def test_what_ended_the_run_is_told_too(tmp_path, quick_watchdog):
@@ -128,7 +136,7 @@ def test_what_ended_the_run_is_told_too(tmp_path, quick_watchdog):
 
     with formula_rig(tmp_path) as (rig, experiment):
         honest = rig.device.stop
-        with pytest.raises(RigStopped, match=r"^enough; .*AMPLIFIER OFF"):
+        with pytest.raises(RigStopped, match=r"^SWITCH THE AMPLIFIER OFF: .*; what came before: enough"):
             run(experiment, tmp_path, control=control, companion=RunAtPoint(3, lambda: end(rig)))
         rig.device.stop = honest
         honest(rig.world.clock()[1])

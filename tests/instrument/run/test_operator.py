@@ -32,7 +32,7 @@ def test_anything_else_means_nothing(typed):
 
 def test_nobody_at_the_terminal_ends_the_run_with_what_was_asked(monkeypatch):
     monkeypatch.setattr("sys.stdin", None)
-    with pytest.raises(RigStopped, match="nobody answered: Mount the bare plate"):
+    with pytest.raises(RigStopped, match="nobody answered: Mount the bare specimen"):
         Person().mount("bare")
     assert Person().decided() == []
     assert Person().content(3)

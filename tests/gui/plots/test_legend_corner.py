@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from gui.pages.law.corner import emptiest_corner
 from gui.pages.law.curve import LawCurve
 from gui.pages.law.plots import LawLine, LawPlots
+from gui.plots import Axis, Plot
+from gui.plots.corner import emptiest_corner
 
 F = np.linspace(20.0, 300.0, 60)
 RISING, FALLING = 0.3 + F / 300, 1.3 - F / 300
@@ -53,3 +54,35 @@ def test_a_long_name_is_seen_whole_in_a_narrow_plot_and_in_one_line_in_a_wide_on
         assert ("<br>" in label.text) == broken
         assert label.text.replace("<br>", " ") == name
         assert box.rect().contains(legend.mapRectToItem(box, legend.boundingRect()))
+
+
+def test_beside_a_peak_the_names_hide_nothing_of_it(made, appearance):
+    plot = made(Plot(Axis("frequency", "Hz"), Axis("amplitude")))
+    for peak_hz, corner in ((250.0, (8, 8)), (60.0, (-8, 8))):
+        plot.line("measured", F, 1 / np.hypot(1.0, (F - peak_hz) / 40))
+        plot.place_legend()
+        assert tuple(plot.getPlotItem().legend.opts["offset"]) == corner
+    plot.show_axes(plot.x, Axis("amplitude", log=True))
+    plot.line("measured", F, np.where(F > 100, F, 0.0))
+    plot.place_legend()
+    assert tuple(plot.getPlotItem().legend.opts["offset"]) == (-8, -8)
+
+
+def test_names_and_marks_are_as_small_again_as_the_type(made, appearance, qtbot):
+    plot = made(Plot(Axis("frequency", "Hz"), Axis("amplitude")))
+    plot.line("measured", F, RISING)
+    plot.line("model", F, FALLING)
+    plot.mark([100.0], labels=["dwell"])
+    plot.show()
+    qtbot.waitExposed(plot)
+    legend, ((line,),) = plot.getPlotItem().legend, [g.lines for g in plot.marks.groups.values()]
+
+    def sizes(scale):
+        appearance.resize(scale)
+        qtbot.wait(10)
+        assert line.label.textItem.font().pointSizeF() == plot.font().pointSizeF()
+        return legend.height(), legend.width()
+
+    usual, large = sizes(1.0), sizes(1.5)
+    assert large > usual
+    assert sizes(1.0) == usual
