@@ -10,7 +10,7 @@ from threadpoolctl import threadpool_limits
 from fitting.arrays import Array
 from fitting.errors import OutsideModel
 from fitting.identification.adjusted import Adjusted
-from fitting.identification.result import LawBand
+from fitting.identification.result import LawBand, moved_too_far
 from fitting.identification.uncertainty import Uncertainty
 from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
@@ -74,7 +74,8 @@ class Shifted:
         reach = np.maximum.accumulate([high for _, high in reduced])
         if any(low > before for (low, _), before in zip(reduced[1:], reach, strict=False)):
             said.append("data do not overlap in reduced frequency: there the shift rests on the law's form")
-        return (*said, *self._of_temperatures, *self.remarks)
+        known = self.fit.stated_covariance if self.adjusted else None
+        return (*said, *moved_too_far(self.adjusted, known), *self._of_temperatures, *self.remarks)
 
     @property
     def _of_temperatures(self) -> tuple[str, ...]:
