@@ -6,7 +6,6 @@ from shear_pair_temperatures import alone, fitted, shifted
 
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.result import LawBand
-from fitting.temperature.shifted_fit import ShiftedFit
 from fitting.temperature.simple import judge
 from instrument.models.temperatures import Shifted
 
@@ -35,5 +34,5 @@ def test_a_stated_number_that_was_moved_too_far_is_a_warning(fit_and_each):
 
 
 def test_one_that_stays_within_its_tolerance_is_none(monkeypatch, fit_and_each):
-    monkeypatch.setattr(ShiftedFit, "stated_covariance", np.array([[0.2]]))
+    monkeypatch.setitem(vars(fit_and_each[0]), "stated_covariance", np.array([[0.2]]))
     assert not any("moved" in one for one in made(fit_and_each, adjusted=moved(0.1)).warnings)
