@@ -23,6 +23,7 @@ from fitting.temperature.simple import Verdict, in_doubt, judge, serving
 from fitting.temperature.tables import Tables
 from fitting.temperature.thermometers import each_its_own, rising
 from instrument.errors import BadInput
+from instrument.models.free_layers import remark_on_free_layers
 from instrument.models.members import AtTemperature, Members
 from instrument.models.modal_reads import remark_on_reading
 from instrument.models.other_processes import executor
@@ -172,6 +173,9 @@ def identify_shifted(
     if isinstance(problem.joined, Tables):
         tables = problem.joined.problem.members
         remarks += remark_on_reading(tables, [fit.joint.at(k) for k in range(len(tables))])
+    band = _band(fit)
+    reach_hz = float(band.frequency_hz[0]), float(band.frequency_hz[-1])
+    remarks += remark_on_free_layers(stated, fit.law, fit.law_covariance, reach_hz)
     if reference_c is not None and reference != reference_c:
         remarks += (
             f"one factor a temperature says nothing between them: the law is at {reference:g} degC, the "
@@ -181,7 +185,7 @@ def identify_shifted(
     return Shifted(
         fit,
         verdict,
-        _band(fit),
+        band,
         tuple(alone),
         cause,
         perf_counter() - began,
