@@ -47,7 +47,9 @@ def doubt_at_temperatures(
         # One among many may come nearer by chance: it has to fit.
         better = (chi2 - left > BETTER) & (left < np.minimum(part * chi2, numbers))
         if better.any():
-            at = ", ".join(f"{T:g}" for T in sorted({temperatures_c[k] for k in np.flatnonzero(better)}))
+            at = ", ".join(
+                f"{T:g}" for T in sorted({temperatures_c[k] for k in np.flatnonzero(better).tolist()})
+            )
             rest = float(np.where(better, left, chi2).sum())
             asked.append((rest, f"at {at} degC {words}", float(chi2.sum())))
     if not asked:
