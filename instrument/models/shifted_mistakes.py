@@ -13,6 +13,9 @@ from fitting.mode_tables.table import ModalTable
 from instrument.models.modal_look import modal_doubt
 from instrument.models.modal_mistakes import BETTER, FITS, GROSS, in_other_units
 
+_FITS_ALONE = 2.0
+"""Chi-square per number up to which one temperature follows its own law. A choice."""
+
 Left = Callable[[Sequence[ModalTable]], Array]
 """Chi-square that each table by itself leaves. Shape (tables,)."""
 
@@ -44,8 +47,8 @@ def doubt_at_temperatures(
         if chi2.sum() - whole > BETTER and whole < min(part * chi2.sum(), FITS * numbers.sum()):
             asked.append((whole, words, float(chi2.sum())))
             continue
-        # One among many may come nearer by chance: it has to fit.
-        better = (chi2 - left > BETTER) & (left < np.minimum(part * chi2, numbers))
+        # One among many may come nearer by chance: it has to fit better than all of them together.
+        better = (chi2 - left > BETTER) & (left < np.minimum(part * chi2, _FITS_ALONE * numbers))
         if better.any():
             at = ", ".join(
                 f"{T:g}" for T in sorted({temperatures_c[k] for k in np.flatnonzero(better).tolist()})

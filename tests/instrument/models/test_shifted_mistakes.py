@@ -46,7 +46,7 @@ def test_decrements_are_asked_about_where_much_is_left():
 
 
 def test_what_no_other_reading_makes_far_better_is_not_asked_about():
-    assert asked([30.0, 90.0, 50.0], lambda k, times: 25.0) == ""
+    assert asked([30.0, 90.0, 50.0], lambda k, times: 37.0) == ""
     assert asked([1.0, 2.0, 3.0], None) == ""
 
 
