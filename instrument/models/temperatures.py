@@ -79,7 +79,9 @@ class Shifted:
             said.append("data do not overlap in reduced frequency: there the shift rests on the law's form")
         known = self.fit.stated_covariance if self.adjusted else None
         if not self.verdict.law_stands:
-            said.insert(0, f"no law explains these readings: this one is not to be used, {BIASED}")
+            said.insert(
+                0, f"no law explains these readings as they are: this one is not to be used, {BIASED}"
+            )
         return (*said, *moved_too_far(self.adjusted, known), *self._of_temperatures, *self.remarks)
 
     @property
