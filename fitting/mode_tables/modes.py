@@ -99,6 +99,8 @@ def _sought(A: ModalMatrices, law: CoreLaw, count: int, near_hz: float) -> list[
     for k in range(min(count, len(values))):
         for _ in range(_STEPS):
             values, shapes = elastic(omega)
+            if not len(values):
+                return modes
             # A softer guess may have made one more motion rigid.
             at = min(k, len(values) - 1)
             found = float(np.sqrt(values[at].real))

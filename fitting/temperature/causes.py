@@ -13,6 +13,7 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.inference.marginal import cost
+from fitting.diagnosis.search.stand_in import has_no_size
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.diagnosis.verdict.result import FoundEffect
 from fitting.diagnosis.verdict.stage import found_effects
@@ -49,10 +50,24 @@ class Cause:
     found: FoundEffect
     """The effect with its sizes and their errors."""
 
+    without: ShiftedFit | None = None
+    """The same without it, from where the fit with it ended; None where one law does not serve beside it.
+
+    A fit that was stuck comes off as the effect goes in: what explains the data then is not the effect.
+    """
+    gain: float = 0.0
+    """By how much `cost` is less than without it."""
+
     @property
     def serves(self) -> bool:
-        """Whether one shifted law explains all there is beside it."""
-        return explains(self.fit) and self.fit.p_value >= REFUSED
+        """Whether one shifted law explains all there is beside it, and the effect is there."""
+        one = self.fit.one
+        return one_law_serves(self.fit) and one.converged and self.gain > 0 and not has_no_size(one)
+
+
+def one_law_serves(fit: ShiftedFit) -> bool:
+    """Whether a law of each temperature explains the readings, and one law does as well."""
+    return explains(fit) and fit.p_value >= REFUSED
 
 
 def explains(fit: ShiftedFit) -> bool:
@@ -89,6 +104,12 @@ def causes_of(
     return sorted(found, key=lambda c: (not c.serves, c.cost))
 
 
+def without_any(causes: Sequence[Cause]) -> ShiftedFit | None:
+    """The best fit of one law that serves without the effect it was found beside; None where none does."""
+    bare = [c.without for c in causes if c.without is not None and one_law_serves(c.without)]
+    return min(bare, key=lambda fit: fit.chi2, default=None)
+
+
 def _promising(
     problem: TemperatureProblem, fit: ShiftedFit, effects: Sequence[Effect]
 ) -> list[tuple[Effect, Array]]:
@@ -112,7 +133,12 @@ def _cause(problem: TemperatureProblem, fit: ShiftedFit) -> Cause:
     plate = problem.joined.plate
     (effect,) = fit.one.effects
     (found,) = found_effects(fit.one, plate)
-    return Cause(effect, fit, cost(fit.one, plate), found)
+    cause = Cause(effect, fit, cost(fit.one, plate), found)
+    if not one_law_serves(fit):
+        return cause
+    one, own = (problem.fitted(f.law, f.z) for f in (fit.one, fit.own))
+    without = ShiftedFit(one, own, problem.bands_hz)
+    return replace(cause, without=without, gain=cost(one, plate) - cause.cost)
 
 
 def _of_the_worst(alone: Sequence[Alone], effects: Sequence[Effect], executor: Executor) -> list[Effect]:

@@ -132,11 +132,17 @@ class ShiftedFit:
         assert isinstance(self.own.law, OwnLaws)
         return self.own.law.laws[sweep]
 
+    @cached_property
+    def stated_covariance(self) -> Array:
+        """Of the stated numbers, in standard deviations of their tolerances. Shape (numbers, numbers)."""
+        n = len(self.one.law.names)
+        stated = slice(n, n + self.one.stated)
+        return self.one.covariance[stated, stated]
+
     @property
     def stated_errors(self) -> Array:
         """Of the stated numbers, in standard deviations of their tolerances. Shape (numbers,)."""
-        n = len(self.one.law.names)
-        return np.sqrt(np.maximum(np.diag(self.one.covariance)[n : n + self.one.stated], 0.0))
+        return np.sqrt(np.maximum(np.diag(self.stated_covariance), 0.0))
 
     @property
     def chi2(self) -> float:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.digits import two_digits
-from fitting.temperature.causes import REFUSED, Cause, explains
+from fitting.temperature.causes import Cause, explains, one_law_serves
 from fitting.temperature.shifted_fit import ShiftedFit
 from fitting.temperature.thermometers import Misread, misread, rising
 
@@ -31,11 +31,13 @@ class Verdict:
     words: str
     wrong: Misread | None = None
     """The one temperature that does not go with the others."""
+    law_stands: bool = True
+    """False where nothing explains the readings: then the law of the fit is no material's."""
 
 
 def in_doubt(fit: ShiftedFit) -> bool:
     """Whether a common cause is to be looked for before anything is said."""
-    return not (explains(fit) and fit.p_value >= REFUSED)
+    return not one_law_serves(fit)
 
 
 def serving(causes: Sequence[Cause]) -> list[Cause]:
@@ -61,9 +63,10 @@ def judge(
     """
     if odd and in_doubt(fit):
         said = (
-            f"whether one shifted law serves cannot be told ({_gain(fit)}) before this is: {'; '.join(odd)}"
+            f"whether one shifted law serves cannot be told ({_gain(fit)}), and this law is not to be used, "
+            f"before this is: {'; '.join(odd)}"
         )
-        return Verdict(None, fit.p_value, _wicket(fit)[0], said)
+        return Verdict(None, fit.p_value, _wicket(fit)[0], said, law_stands=False)
     found = _judged(fit, causes, apart, names)
     if scale_known or found.simple is not False:
         return found
@@ -114,12 +117,14 @@ def _judged(
     if other is not None:
         beside = _refusal(other.fit, f"differs even where {story(other)} at all temperatures")
         return told(False, beside, other.fit.p_value)
-    return told(
+    unknown = told(
         None,
         "whether one shifted law serves cannot be told: not even a law for each temperature explains the "
         f"readings (chi-square per degree of freedom {fit.own_chi2_per_dof:.3g}), nor one effect at "
-        "all of them; first 'viscorig diagnose' the data of each temperature by itself",
+        "all of them; this law is not to be used: first 'viscorig diagnose' the data of each temperature by "
+        "itself",
     )
+    return replace(unknown, law_stands=False)
 
 
 def story(cause: Cause) -> str:

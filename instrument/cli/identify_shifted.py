@@ -77,8 +77,8 @@ def identify_tables_shifted(
         question_reference(asked.reference_c, [one.temperature_c for one in every], data)
     found = _fitted(out, every, stated, asked)
     if not insist:
-        question_modes_at(tables, np.exp(found.fit.one.velocity_m_s.real), data)
         question_shift(found, data)
+        question_modes_at(tables, np.exp(found.fit.one.velocity_m_s.real), data)
     _tell(out, found, every)
 
 
@@ -144,7 +144,8 @@ def _print(out: Output, found: Shifted, every_one: Sequence[AtTemperature]) -> N
         for k in range(0, len(b.frequency_hz), every)
     ]
     out.table(
-        f"the law at {fit.shift.reference_c:g} degC, +- one standard error",
+        f"the law at {fit.shift.reference_c:g} degC, +- one standard error"
+        + ("" if found.verdict.law_stands else " (not to be used, see below)"),
         ["reduced frequency/Hz", "G'/MPa", "loss factor"],
         rows,
     )

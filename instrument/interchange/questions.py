@@ -124,7 +124,11 @@ def question_reference(
 
 
 def question_shift(found: Shifted, paths: Sequence[Path]) -> None:
-    """Ask about temperatures that would have the core stiffen as it warms. Raises `BadInput`."""
+    """Ask about columns in another unit, and temperatures that would have the core stiffen as it warms.
+
+    Raises `BadInput`.
+    """
+    _ask(found.otherwise, paths)
     if found.plainly_stiffens:
         _ask(f"{found.stiffens}: are temperatures exchanged?", paths)
 

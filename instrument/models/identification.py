@@ -13,9 +13,10 @@ from fitting.diagnosis.checks.stretches import words_of_stretches
 from fitting.discrepancy.theory_error import TheoryError
 from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import BarePlateFit
-from fitting.identification.result import Identification, summarise
+from fitting.identification.result import Identification, summarise, sweep_range
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
+from instrument.models.free_layers import remark_on_free_layers
 from instrument.models.methods import (
     DirectMethod,
     IdentificationMethod,
@@ -105,6 +106,7 @@ def identify(
         validation = way.validated(fit, report)
     result = summarise(method, sweep, noise, fit, validation, further)
     reading = remarks_on_reading(sweep, way.problem.specimen, result.rms_percent, progress)
-    result = replace(result, warnings=(*reading, *result.warnings))
+    free = remark_on_free_layers([specimen], result.law, result.uncertainty.covariance, sweep_range(sweep))
+    result = replace(result, warnings=(*reading, *result.warnings, *free))
     took = perf_counter() - began
     return Identified(result, sweep, given, why_aside, setup, seconds, took, theory, way.joint, way.bare)

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from fitting.arrays import Array
 from fitting.data.noise import noise_of
 from fitting.data.strays import strays
 from fitting.diagnosis.inference.begin import begin
@@ -32,10 +33,12 @@ from instrument.errors import BadInput
 from instrument.models.diagnosis import effects_among
 from instrument.models.files import File
 from instrument.models.files_at_work import FilesAtWork
-from instrument.models.modal import remark_on_misread, widened
+from instrument.models.modal import widened
 from instrument.models.modal_look import numbering_doubt
+from instrument.models.odd_rows import OddRow, words_of
 from instrument.models.remarks import remarks_on_noise, remarks_on_strays
 from instrument.models.set_up import Hammer, set_up
+from instrument.models.shifted_mistakes import doubt_at_temperatures
 from instrument.progress import quiet
 
 
@@ -92,6 +95,23 @@ class Members:
             report((k + 1) / len(self.every))
         return found
 
+    def read_otherwise(self, alone: Sequence[Alone]) -> str:
+        """What to ask of tables that fit far better in another unit; empty where none does."""
+        tables = [one.data for one in self.every if isinstance(one.data, ModalTable)]
+        if not self.are_tables:
+            return ""
+
+        def left_by(others: Sequence[ModalTable]) -> Array:
+            every = [replace(one, data=table) for one, table in zip(self.every, others, strict=True)]
+            return _left(
+                replace(self, every=every, remarks=[], _plates={}).alone(unheard, with_effects=False)
+            )
+
+        T = [one.temperature_c for one in self.every]
+        near_hz = np.exp(np.concatenate([a.begun.none.velocity_m_s.real for a in alone]))
+        with np.errstate(all="ignore"):
+            return doubt_at_temperatures(tables, T, _left(alone), near_hz, left_by)
+
     def odd_rows(self, alone: Sequence[Alone]) -> list[str]:
         """Of tables, each by itself: a mode that does not go with the others, for people.
 
@@ -99,18 +119,18 @@ class Members:
         """
         if not self.are_tables:
             return []
-        told, ratios = list[str](), []
+        rows, ratios = list[OddRow](), []
         for one, its in zip(self.every, alone, strict=True):
             assert isinstance(one.data, ModalTable)
             near = its.begun.none.velocity_m_s.real
             ratios.append(near - np.log(one.data.frequency_hz))
             odd = misread(its.begun) if isinstance(its.begun, BegunModal) else None
             if odd is not None:
-                told.append(f"at {one.temperature_c:g} degC {remark_on_misread(odd, [one.data])}")
+                rows.append(OddRow(one.temperature_c, one.data, odd))
         doubt = numbering_doubt(ratios)
         if doubt:
             raise BadInput(f"{', '.join(dict.fromkeys(one.name for one in self.every))}: {doubt}")
-        return told
+        return words_of(rows, len(self.every))
 
     def joined(self, begun: Sequence[Any]) -> Joined:
         """Fits of each by itself, side by side."""
@@ -175,3 +195,8 @@ class Members:
         return replace(self._plates[key], table=one.data)
 
     _plates: dict[tuple[int, bool], Member] = field(default_factory=dict)
+
+
+def _left(alone: Sequence[Alone]) -> Array:
+    """Chi-square of each. Shape (members,)."""
+    return np.array([a.begun.none.chi2 for a in alone])

@@ -36,6 +36,7 @@ from fitting.structures.beam import Beam
 from instrument.models.cache import cached
 from instrument.models.clamp_remarks import remarks_on_clamps
 from instrument.models.effect_names import refuse_unknown_effects
+from instrument.models.free_layers import remark_on_free_layers
 from instrument.models.modal_reads import remark_on_reading
 from instrument.models.remarks import (
     remarks_on_damping,
@@ -94,7 +95,10 @@ def identify_tables(
     left = (*remark_on_fit(found, tables), *remarks_on_pulls(found))
     if odd is not None:
         left = (remark_on_misread(odd, tables),)
-    said = (*left, *theory, *reads, *remarks_on_tables(tables, specimens))
+    every_hz = np.concatenate([t.frequency_hz for t in tables])
+    reach_hz = float(every_hz.min()), float(every_hz.max())
+    free = remark_on_free_layers(specimens, found.law, found.uncertainty.covariance, reach_hz)
+    said = (*left, *free, *theory, *reads, *remarks_on_tables(tables, specimens))
     return TablesIdentified(found, seconds, said, formulas, ready - began)
 
 

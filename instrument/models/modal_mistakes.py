@@ -16,17 +16,17 @@ from fitting.mode_tables.table import ModalTable
 from fitting.structures import AnySpecimen
 from instrument.progress import Progress, quiet
 
-_BETTER = 12.0
+BETTER = 12.0
 """In chi-square: e^6 times likelier, four hundred to one."""
 _PART, _PART_OF_HALF = 0.2, 0.4
 """Of chi-square per degree may be left, whatever the errors of the table are; the second of damping ratios,
 the commonest mistake."""
-_FITS = 3.0
+FITS = 3.0
 """Chi-square per degree up to which a table follows its law."""
-_GROSS = 3.0
+GROSS = 3.0
 """Chi-square per degree from which numbers of modes, too, are asked about."""
 
-_Reading = tuple[str, list[ModalTable], float]
+Reading = tuple[str, list[ModalTable], float]
 """In words, the tables, and the part of chi-square per degree that they may leave."""
 
 
@@ -38,18 +38,18 @@ def table_doubt(
 ) -> str:
     """What to ask of tables whose fit leaves so much; empty where no mistake explains it."""
     numbers = 2 * sum(len(t.mode) for t in tables)
-    if not numbers * chi2_per_dof > _BETTER:
+    if not numbers * chi2_per_dof > BETTER:
         return ""
-    gross = chi2_per_dof > _GROSS
+    gross = chi2_per_dof > GROSS
     with progress("reading the modes otherwise"), threadpool_limits(1, "blas"), np.errstate(all="ignore"):
         for some in _readings(tables, gross=gross):
-            most = [min(part * chi2_per_dof, _FITS) for *_, part in some]
+            most = [min(part * chi2_per_dof, FITS) for *_, part in some]
             each = [
                 (_left(one[1], specimens, limit), limit, one[0])
                 for one, limit in zip(some, most, strict=True)
             ]
             left, limit, words = min(each)
-            if numbers * (chi2_per_dof - left) > _BETTER and left < limit:
+            if numbers * (chi2_per_dof - left) > BETTER and left < limit:
                 return (
                     f"the modes follow a law far better (chi-square per degree {left:.2g}, not "
                     f"{chi2_per_dof:.2g}) if {words}: is it so?"
@@ -66,16 +66,26 @@ def _left(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen], most: 
         return float("inf")
 
 
-def _readings(tables: Sequence[ModalTable], *, gross: bool) -> Iterator[list[_Reading]]:
+def _readings(tables: Sequence[ModalTable], *, gross: bool) -> Iterator[list[Reading]]:
     """How they may be meant, the likeliest first: of each list the best counts."""
-    losses: list[_Reading] = [
+    yield in_other_units(tables, gross=gross)
+    if not gross:
+        return
+    for k, table in enumerate(tables):
+        whose = f"{table.name}: " if len(tables) > 1 and table.name else ""
+        for words, other in _renumbered(table):
+            yield [(whose + words, [*tables[:k], other, *tables[k + 1 :]], _PART)]
+
+
+def in_other_units(tables: Sequence[ModalTable], *, gross: bool) -> list[Reading]:
+    """Columns of all tables that are meant otherwise."""
+    losses: list[Reading] = [
         ("loss_factor holds damping ratios, half of it", [_times(t, 2.0) for t in tables], _PART_OF_HALF),
         ("loss_factor is twice what it should be", [_times(t, 0.5) for t in tables], _PART),
     ]
     if not gross:
-        yield losses
-        return
-    yield [
+        return losses
+    return [
         *losses,
         (
             "loss_factor holds logarithmic decrements, pi times it",
@@ -84,10 +94,6 @@ def _readings(tables: Sequence[ModalTable], *, gross: bool) -> Iterator[list[_Re
         ),
         ("frequency_hz is in rad/s", [_slower(t) for t in tables], _PART),
     ]
-    for k, table in enumerate(tables):
-        whose = f"{table.name}: " if len(tables) > 1 and table.name else ""
-        for words, other in _renumbered(table):
-            yield [(whose + words, [*tables[:k], other, *tables[k + 1 :]], _PART)]
 
 
 def _times(table: ModalTable, factor: float) -> ModalTable:

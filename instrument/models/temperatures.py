@@ -10,11 +10,11 @@ from threadpoolctl import threadpool_limits
 from fitting.arrays import Array
 from fitting.errors import OutsideModel
 from fitting.identification.adjusted import Adjusted
-from fitting.identification.result import LawBand
+from fitting.identification.result import BIASED, LawBand, moved_too_far
 from fitting.identification.uncertainty import Uncertainty
 from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
-from fitting.temperature.causes import Cause, causes_of, common, explains
+from fitting.temperature.causes import Cause, causes_of, common, explains, without_any
 from fitting.temperature.joint import TemperatureProblem, fit_shifted
 from fitting.temperature.members import Alone
 from fitting.temperature.shifted_fit import ShiftedFit
@@ -23,6 +23,7 @@ from fitting.temperature.simple import Verdict, in_doubt, judge, serving
 from fitting.temperature.tables import Tables
 from fitting.temperature.thermometers import each_its_own, rising
 from instrument.errors import BadInput
+from instrument.models.free_layers import remark_on_free_layers
 from instrument.models.members import AtTemperature, Members
 from instrument.models.modal_reads import remark_on_reading
 from instrument.models.other_processes import executor
@@ -64,6 +65,8 @@ class Shifted:
     """The stated numbers as the fit has them."""
     predicted_modes: tuple[Array, Array] = (np.zeros(0), np.zeros(0))
     """Frequencies and loss factors of tables under the one law. Shape (all modes,) each."""
+    otherwise: str = ""
+    """What to ask of tables that fit far better in another unit; empty where none does."""
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -74,7 +77,12 @@ class Shifted:
         reach = np.maximum.accumulate([high for _, high in reduced])
         if any(low > before for (low, _), before in zip(reduced[1:], reach, strict=False)):
             said.append("data do not overlap in reduced frequency: there the shift rests on the law's form")
-        return (*said, *self._of_temperatures, *self.remarks)
+        known = self.fit.stated_covariance if self.adjusted else None
+        if not self.verdict.law_stands:
+            said.insert(
+                0, f"no law explains these readings as they are: this one is not to be used, {BIASED}"
+            )
+        return (*said, *moved_too_far(self.adjusted, known), *self._of_temperatures, *self.remarks)
 
     @property
     def _of_temperatures(self) -> tuple[str, ...]:
@@ -148,15 +156,21 @@ def identify_shifted(
         alone, problem, fit = asked.fitted(with_effects=False)
         if in_doubt(fit) and explains(fit):
             fit = asked.freer(problem, fit)
-        # A row that is wrong is no temperature's fault, nor a cause that all have.
-        odd = members.odd_rows(alone) if in_doubt(fit) else []
+        # A column that is meant otherwise is no row's fault, a row that is wrong is no temperature's, nor a
+        # cause that all have.
+        otherwise = asked.read_otherwise(alone) if in_doubt(fit) else ""
+        odd = [otherwise] if otherwise else members.odd_rows(alone) if in_doubt(fit) else []
         apart = asked.each_apart(alone) if in_doubt(fit) and not odd else None
         told = bool(odd) or (apart is not None and not in_doubt(apart))
         causes = asked.common_causes(alone, problem, fit) if in_doubt(fit) and not told else []
+        fit, causes = _off_the_causes(fit, causes)
     verdict = judge(fit, causes, apart, [one.name for one in every], members.scale_known, odd)
     cause = next(iter(serving(causes)), None)
     fit = cause.fit if cause is not None else fit
     remarks = asked.remarks(problem, fit)
+    band = _band(fit)
+    reach_hz = float(band.frequency_hz[0]), float(band.frequency_hz[-1])
+    remarks += remark_on_free_layers(stated, fit.law, fit.law_covariance, reach_hz)
     if reference_c is not None and reference != reference_c:
         remarks += (
             f"one factor a temperature says nothing between them: the law is at {reference:g} degC, the "
@@ -166,14 +180,21 @@ def identify_shifted(
     return Shifted(
         fit,
         verdict,
-        _band(fit),
+        band,
         tuple(alone),
         cause,
         perf_counter() - began,
         remarks,
         joined.adjusted(fit.one.z, fit.stated_errors),
         joined.modes(fit.one.velocity_m_s),
+        otherwise,
     )
+
+
+def _off_the_causes(fit: ShiftedFit, causes: list[Cause]) -> tuple[ShiftedFit, list[Cause]]:
+    """The fit that serves beside a cause and does without it: then none is needed. Else as they are."""
+    bare = without_any(causes)
+    return (fit, causes) if bare is None else (bare, [])
 
 
 def _reference(T: Array, kind: Kind, wanted_c: float | None) -> float:
@@ -233,6 +254,11 @@ class _Asked:
                 break
             problem, fit = again, fit_shifted(again, laws, z)
         return problem, fit
+
+    def read_otherwise(self, alone: Sequence[Alone]) -> str:
+        """As `Members.read_otherwise`."""
+        with self.progress("reading the modes otherwise"):
+            return self.members.read_otherwise(alone)
 
     def freer(self, problem: TemperatureProblem, fit: ShiftedFit) -> ShiftedFit:
         """One law that bends further, where that is all that one law lacks; else the fit as it is."""

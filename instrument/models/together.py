@@ -22,7 +22,7 @@ from fitting.diagnosis.verdict.result import FoundEffect, ParameterEstimate
 from fitting.effects import Effect
 from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import fit_bare_plate
-from fitting.identification.result import summarise
+from fitting.identification.result import summarise, sweep_range
 from fitting.identification.validation import rms
 from fitting.laws import CoreLaw
 from fitting.specimen import Specimen
@@ -37,6 +37,7 @@ from instrument.models.file_remarks import (
 )
 from instrument.models.files import File, mounted, numbers_of, one_plate
 from instrument.models.files_at_work import FilesAtWork, SetAside
+from instrument.models.free_layers import remark_on_free_layers
 from instrument.models.identification import Identified
 from instrument.models.methods import Joint
 from instrument.models.other_processes import executor
@@ -116,7 +117,9 @@ def identify_together(
     result = summarise("direct", sweep, noise, fit, validation, further)
     rest = remarks_on_rest(result.rms_percent, validation.held_out) if not misfit else ()
     reading = remarks_on_reading(files[0].sweep, plate, result.rms_percent, progress)
-    result = replace(result, warnings=(*reading, *misfit, *result.warnings, *rest))
+    stated = [file.specimen for file in files]
+    free = remark_on_free_layers(stated, result.law, result.uncertainty.covariance, sweep_range(sweep))
+    result = replace(result, warnings=(*reading, *misfit, *result.warnings, *free, *rest))
     validated = perf_counter() - checked
     found = Identified(
         result,

@@ -39,8 +39,11 @@ def unsized(fitted: Refitted) -> bool:
 
     A second effect of no significant size may only make up for what the first one's formula lacks.
     """
-    if len(fitted.effects) < 2:
-        return False
+    return len(fitted.effects) > 1 and has_no_size(fitted)
+
+
+def has_no_size(fitted: Refitted) -> bool:
+    """Whether one of its effects, or the only one, has no size that the data tell from nothing."""
     errors = fitted.unknown_errors()
     for effect, own in fitted.each():
         sized = [

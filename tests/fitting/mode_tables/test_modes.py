@@ -74,3 +74,13 @@ def test_a_change_is_added_and_damping_multiplied():
     A = ModalMatrices.of(system, Change(K=1j * one, M=0.5 * one, C=0.1 * one, damping=2.0))
     np.testing.assert_array_equal(A.stiffness(2.0, 10.0), np.diag([3 + 62j, 3 + 2j]))
     np.testing.assert_array_equal(A.M, 1.5 * one)
+
+
+def test_a_stiffness_that_is_lost_on_the_way_leaves_no_modes():
+    near_hz = 5.0
+
+    class Sudden:
+        def modulus(self, omega):
+            return np.where(np.abs(omega / (2 * np.pi * near_hz) - 1) < 1e-9, 1e6, -1e9) + 0j
+
+    assert modes_of(matrices(6), Sudden(), 3, near_hz) == []

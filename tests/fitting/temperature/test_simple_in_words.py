@@ -78,6 +78,9 @@ def test_without_any_law_nothing_is_told():
     unfit = judge(fit(p=0.0, own=50.0))
     assert unfit.simple is None
     assert "not even a law for each temperature" in unfit.words
+    assert "this law is not to be used" in unfit.words
+    assert not unfit.law_stands
+    assert judge(fit()).law_stands
 
 
 def test_a_cause_beside_which_one_law_serves_is_named_with_what_is_as_good():

@@ -156,14 +156,15 @@ def found(monkeypatch):
     band = LawBand(f, G, eta, 0.01 * G, 0.01 * eta)
     asked, told = [], []
 
-    def make(simple=True, softens=True):
-        verdict = Verdict(simple, 0.4, 1.2, "one law serves" if simple else "no one law serves")
+    def make(simple=True, softens=True, *, stands=True, otherwise=""):
+        words = "one law serves" if simple else "no one law serves"
+        verdict = Verdict(simple, 0.4, 1.2, words, law_stands=stands)
 
         def identify(sweeps, specimens, kind, reference_c, progress, *, vertical, hammer, temperature_k):
             asked.append(([s.name for s in sweeps], kind, reference_c, vertical, hammer))
             told.append(([s.specimen for s in sweeps], specimens))
             fit, each = of[softens]
-            return Shifted(fit, verdict, band, alone(each), None, 2.0)
+            return Shifted(fit, verdict, band, alone(each), None, 2.0, otherwise=otherwise)
 
         monkeypatch.setattr(shifting, "identify_at_temperatures", identify)
         return asked
@@ -199,6 +200,24 @@ def test_a_core_that_stiffens_as_it_warms_is_asked_about_unless_someone_insists(
     assert not capsys.readouterr().out
     shift([given(zn1, k) for k in range(3)], insist=True)
     assert "no polymer stiffens as it warms" in " ".join(capsys.readouterr().out.split())
+
+
+def test_columns_that_fit_in_another_unit_are_asked_about_unless_someone_insists(capsys, zn1, found):
+    found(simple=None, stands=False, otherwise="loss_factor holds damping ratios: is it so?")
+    with pytest.raises(BadInput, match="loss_factor holds damping ratios: is it so"):
+        shift([given(zn1, k) for k in range(3)])
+    shift([given(zn1, k) for k in range(3)], insist=True)
+    assert "no one law serves" in " ".join(capsys.readouterr().out.split())
+
+
+def test_a_law_that_nothing_explains_is_printed_as_not_to_be_used(capsys, zn1, found, tmp_path):
+    found(simple=None, stands=False)
+    shift([given(zn1, k) for k in range(3)], out=Output(str(tmp_path / "a.json")))
+    assert "the law at 20 degC, +- one standard error (not to be used, see below)" in " ".join(
+        capsys.readouterr().out.split()
+    )
+    warned = json.loads((tmp_path / "a.json").read_text())["warnings"]
+    assert "this one is not to be used" in warned[0]
 
 
 def test_a_law_that_is_not_simple_is_refused_after_its_figures_are_saved(

@@ -15,7 +15,6 @@ from instrument.errors import NOT_SILENT, SWITCH_OFF, RigStopped, ShakerNotSilen
 from instrument.run import runner
 from instrument.run.at_rest import bring_to_rest, came_to_rest, silenced
 from instrument.run.control import RunControl
-from instrument.run.experiment import run_experiment
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
