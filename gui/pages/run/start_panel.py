@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
 )
 
 from gui.asking import ask_folder
-from gui.form.draft import Drafts
+from gui.form.drafts import Drafts
 from gui.widgets import button
 from instrument.engine import Order
 from instrument.run.part import Part

@@ -9,7 +9,8 @@ from PySide6.QtWidgets import QSizePolicy, QStackedWidget, QWidget
 from fitting.errors import FittingError
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
-from gui.form.draft import Draft, Drafts
+from gui.form.draft import Draft
+from gui.form.drafts import Drafts
 from gui.pages.run.plate_view import PlateView
 from gui.theme import Role, Theme, current_theme
 from instrument.errors import BadInput

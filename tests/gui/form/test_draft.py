@@ -4,7 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gui.form.draft import Draft, Drafts
+from gui.form.draft import Draft
+from gui.form.drafts import Drafts
 from gui.form.fields import Field, FormSection, form_of, law_fields, section_of
 from instrument.errors import BadInput
 from instrument.files.experiment_file import ExperimentDocument

@@ -8,7 +8,7 @@ import pytest
 from PySide6.QtWidgets import QMessageBox
 
 from gui.controller import AppController
-from gui.form.draft import Drafts
+from gui.form.drafts import Drafts
 from gui.pages.run import RunPage
 from gui.pages.run.check import Check
 from gui.pages.run.disk_watch import DiskWatch

@@ -2,7 +2,8 @@
 
 import pytest
 
-from gui.form.draft import Draft, Drafts
+from gui.form.draft import Draft
+from gui.form.drafts import Drafts
 from gui.pages.run.plate_view import PlateView
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.specimen_file import SpecimenDocument, read_specimen

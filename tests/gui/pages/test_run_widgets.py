@@ -5,7 +5,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from gui.form.draft import Draft, Drafts
+from gui.form.draft import Draft
+from gui.form.drafts import Drafts
 from gui.form.form import Form
 from gui.form.labels import LABELS
 from gui.pages.run.banner import Banner

@@ -2,7 +2,8 @@
 
 import pytest
 
-from gui.form.draft import Draft, Drafts
+from gui.form.draft import Draft
+from gui.form.drafts import Drafts
 from gui.pages.run.structure_view import Drawing
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.new_file import write_new
