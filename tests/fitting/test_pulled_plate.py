@@ -72,7 +72,7 @@ def test_both_faces_are_pulled_or_under_patches_the_substrate(zn1):
 @pytest.mark.parametrize(("form", "along"), [(AxialStressEffect(), "x"), (AxialStressEffect("y"), "y")])
 def test_the_effect_changes_a_plate_to_one_that_states_as_much_more(zn1, form, along):
     framed = replace(zn1, boundary="clamped-clamped-clamped-clamped")
-    count = sum(names_of(framed).counts)
+    count = sum(names_of(framed).counts.each)
     plate = SimpleNamespace(
         specimen=framed,
         coefficients=coefficients(framed, framed),
