@@ -29,6 +29,8 @@ _NEWTON = 40
 """Steps to a pole: a handful are taken."""
 _STILL = 1e-13
 """A step to a pole that is smaller than this is the last one: rounding."""
+_COME_TO = 1e-6
+"""A step above which the last one has come to no pole: those that have one end at rounding."""
 _OUT = 8.0
 """How far from a peak its half-power points are searched, in ln omega: within it any mode has come down."""
 
@@ -54,14 +56,15 @@ class Stiffness:
         return self.rest + core + viscous - heavy, self.sigma * core + viscous - 2 * heavy
 
     def pole(self) -> Complex:
-        """In ln x."""
+        """In ln x; NaN where a mode has none. Shape (modes,)."""
         t: Complex = np.asarray(np.log(self.rest + self.core + self.viscous) / 2, complex)
         for _ in range(_NEWTON):
             D, D_1 = self.denominator(t)
             t = np.asarray(t - D / D_1, complex)
             if np.abs(D / D_1).max() < _STILL:
                 break
-        return t
+        # What oscillates no more has none: steps go on, or end where it would gain.
+        return np.where((np.abs(D / D_1) < _COME_TO) & (t.imag >= 0), t, np.nan)
 
     def size(self, t: Array) -> tuple[Array, Array]:
         """Ln of the velocity's amplitude, and its slope over t."""

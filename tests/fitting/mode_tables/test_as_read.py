@@ -112,9 +112,9 @@ def test_whatever_a_search_comes_by_is_a_number_and_with_losses_up_to_one_that_o
     for how in READS:
         ln_f, as_eta = as_read(how, k)
         assert np.isfinite([ln_f, as_eta]).all()
+        assert as_eta[0] > 0
         if how == "model" or eta > 1 or (ln_f[0], as_eta[0]) == (0.0, k.loss_factor[0]):
             continue
-        assert as_eta[0] > 0
         if how == "poles":
             turned = np.arcsin(as_eta / 2)
             off = [abs(k.denominator(ln_f + 1j * angle)[0]) for angle in (turned, np.pi - turned)]
