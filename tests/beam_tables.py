@@ -20,8 +20,8 @@ BEAM = Beam(
 )
 
 
-def read(true, count=6, seed=0):
-    modes, rng = small_modes(true, LAW, count), np.random.default_rng(seed)
+def read(true, count=6, seed=0, law=LAW):
+    modes, rng = small_modes(true, law, count), np.random.default_rng(seed)
     f, eta = (np.array([getattr(m, name) for m in modes]) for name in ("frequency_hz", "loss_factor"))
     return ModalTable(
         np.arange(1.0, count + 1),

@@ -15,6 +15,7 @@ from fitting.arrays import Array
 from fitting.depth.intervals import Intervals, of_draws
 from fitting.depth.many import ManyResiduals
 from fitting.depth.quantities import Quantities
+from fitting.diagnosis.inference.begin import Begun
 
 Kind = Literal["points", "segments"]
 _STEPS = 40
@@ -34,11 +35,11 @@ def bootstrap(
 ) -> Intervals:
     """Percentile intervals of refits."""
     rng = np.random.default_rng([seed, draws])
-    task = quantities.task
+    task = many.task
     at = many(task.mode[None])[0]
     drawn = rng.standard_normal((draws, len(at)))
     if kind == "segments":
-        drawn[:, : task.begun.evidence.count] = _stretches(quantities, at, draws, rng)
+        drawn[:, : task.begun.evidence.count] = _stretches(task.begun, at, draws, rng)
     X = refitted(many, drawn - at)
     return Intervals.of_logs(f"bootstrap of {kind}", quantities, of_draws(quantities.of_many(X)))
 
@@ -82,9 +83,8 @@ def _settled(many: ManyResiduals, shift: Array) -> Array:
     return X
 
 
-def _stretches(quantities: Quantities, at: Array, draws: int, rng: np.random.Generator) -> Array:
+def _stretches(begun: Begun, at: Array, draws: int, rng: np.random.Generator) -> Array:
     """Whitened residuals of the readings, drawn again. Shape (draws, readings)."""
-    begun = quantities.task.begun
     sweep, count = begun.problem.sweep, begun.evidence.count
     parts = count // len(sweep)
     r = at[:count].reshape(parts, len(sweep))

@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.depth.task import DepthTask
+from fitting.depth.sweep_task import SweepTask
 from fitting.nuisances.moved_plate import moved_plate
 from fitting.reduced.rational import RationalSweep, rational_sweep
 from fitting.reduced.reduced_plate import ReducedPlate
@@ -30,7 +30,7 @@ _H = 1e-6
 class ManyResiduals:
     """Of one task; `reduced` is the plate as stated."""
 
-    task: DepthTask
+    task: SweepTask
     reduced: ReducedPlate
 
     @cached_property

@@ -13,7 +13,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex, Mask
 from fitting.depth.many import ManyResiduals
-from fitting.depth.task import DepthTask
+from fitting.depth.sweep_task import SweepTask
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class MarginalLaw:
     many: ManyResiduals
 
     @property
-    def task(self) -> DepthTask:
+    def task(self) -> SweepTask:
         """The joint fit that is marginalised."""
         return self.many.task
 

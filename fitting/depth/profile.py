@@ -13,6 +13,7 @@ from scipy.optimize import least_squares
 from fitting.arrays import Array
 from fitting.depth.intervals import LEVELS, Intervals
 from fitting.depth.quantities import Quantities
+from fitting.errors import OutsideModel
 from fitting.progress import Report
 
 _STIFF = 300.0
@@ -64,7 +65,11 @@ def _along(quantities: Quantities, k: int, sign: int) -> tuple[Array, Array]:
     looks = list(_LOOKS)
     while looks and len(found) < len(_LOOKS) + _FURTHER + 1:
         to = q_0 + sign * looks.pop(0) * stretch * error
-        x = _held(quantities, k, to, x + step * (to - quantities.logs(x)[k]), error)
+        try:
+            x = _held(quantities, k, to, x + step * (to - quantities.logs(x)[k]), error)
+        except OutsideModel:
+            # No specimen has such modes: what is told ends here.
+            break
         rise = np.sqrt(max(float(np.sum(task.residuals(x) ** 2)) - least, 0.0))
         q = float(quantities.logs(x)[k])
         found.append(q)

@@ -10,9 +10,10 @@ from functools import cached_property
 import numpy as np
 
 from fitting.arrays import Array, Mask
-from fitting.diagnosis.inference.begin import Begun
+from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.joint_problem import JointProblem
-from fitting.diagnosis.several.responses import response_of
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.response.response import Response
 from fitting.identification.uncertainty import limits_reached
 from fitting.laws import CoreLaw
 
@@ -21,21 +22,18 @@ from fitting.laws import CoreLaw
 class DepthTask:
     """One joint fit; `x` holds its unknowns that may move."""
 
-    begun: Begun
     problem: JointProblem
+    fitted: Refitted
 
     @classmethod
-    def of(cls, begun: Begun) -> "DepthTask":
-        """Of the fit without effects."""
-        none = begun.none
-        return cls(
-            begun, JointProblem(response_of(begun.problem, ()), begun.evidence, none.law, none.u, None)
-        )
+    def of(cls, response: Response, evidence: Evidence, fitted: Refitted) -> "DepthTask":
+        """Of a fit by a response and its evidence, of whatever specimens and data."""
+        return cls(JointProblem(response, evidence, fitted.law, fitted.u, None), fitted)
 
     @property
     def law(self) -> CoreLaw:
         """Where the fit ended."""
-        return self.begun.none.law
+        return self.fitted.law
 
     @cached_property
     def whole(self) -> Array:
@@ -66,14 +64,12 @@ class DepthTask:
 
         Shape (rows,).
         """
-        none = self.begun.none
-        chi2 = none.chi2_per_dof
+        fitted = self.fitted
+        chi2 = fitted.chi2_per_dof
         scale = chi2 if np.isfinite(chi2) and chi2 > 0 else 1.0
-        found = np.ones(len(none.residuals))
-        if none.noise_known:
-            found *= np.sqrt(max(1.0, scale))
-        else:
-            found[: none.data] *= np.sqrt(scale)
+        scale = max(1.0 if fitted.noise_known else fitted.least_scale, scale)
+        found = np.ones(len(fitted.residuals))
+        found[slice(None) if fitted.noise_known else slice(fitted.data)] *= np.sqrt(scale)
         return found
 
     @cached_property

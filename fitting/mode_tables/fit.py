@@ -10,6 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.depth.quantities import Quantities
+from fitting.depth.task import DepthTask
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.posterior import posterior
 from fitting.diagnosis.inference.refit import ROUGH, refit
@@ -60,6 +62,12 @@ class BegunModal:
     none: Refitted
     start: CoreLaw
     """What the fit began with: where the law found is lost, other explanations begin there too."""
+
+    def quantities(self, frequency_hz: Array, fitted: Refitted | None = None) -> Quantities:
+        """What intervals may be asked for, of a fit or the one without effects. Shape (frequencies,)."""
+        fitted = fitted or self.none
+        task = DepthTask.of(self.problem.response(fitted.effects), self.evidence, fitted)
+        return Quantities.of(task, frequency_hz)
 
 
 def fit_modes(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> ModalFit:

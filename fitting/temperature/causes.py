@@ -126,7 +126,7 @@ def _promising(
 def _beside(problem: TemperatureProblem, fit: ShiftedFit, effect: Effect, u: Array) -> Cause:
     one = problem.fitted(fit.one.law, np.append(fit.one.u, u), [effect])
     own = problem.fitted(fit.own.law, np.append(fit.own.u, one.of(effect)), [effect])
-    return _cause(problem, ShiftedFit(one, own, problem.bands_hz))
+    return _cause(problem, ShiftedFit(one, own, problem.joined))
 
 
 def _cause(problem: TemperatureProblem, fit: ShiftedFit) -> Cause:
@@ -137,7 +137,7 @@ def _cause(problem: TemperatureProblem, fit: ShiftedFit) -> Cause:
     if not one_law_serves(fit):
         return cause
     one, own = (problem.fitted(f.law, f.z) for f in (fit.one, fit.own))
-    without = ShiftedFit(one, own, problem.bands_hz)
+    without = ShiftedFit(one, own, problem.joined)
     return replace(cause, without=without, gain=cost(one, plate) - cause.cost)
 
 

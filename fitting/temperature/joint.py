@@ -117,7 +117,7 @@ class TemperatureProblem:
             return None
         start = replace(joint, law=joint.law.freer(FREER))
         one = self.fitted(start, fit.one.u, fit.one.effects)
-        return ShiftedFit(one, fit.own, fit.bands_hz)
+        return ShiftedFit(one, fit.own, fit.joined)
 
     def stated(self, each: Sequence[Array]) -> Array:
         """The mean of what members say by themselves of the stated numbers. Shape (numbers,)."""
@@ -153,4 +153,4 @@ def fit_shifted(
     start = np.concatenate([z, np.empty(0) if u is None else u])
     own = problem.fitted(OwnLaws(tuple(laws), problem.points), start, effects)
     one = problem.fitted(problem.one_law(laws), start, effects)
-    return ShiftedFit(one, own, problem.bands_hz)
+    return ShiftedFit(one, own, problem.joined)

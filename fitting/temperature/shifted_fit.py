@@ -4,11 +4,15 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fitting.arrays import Array
+from fitting.depth.quantities import Quantities
+from fitting.depth.task import DepthTask
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.laws import CoreLaw
 from fitting.numerics.chances import chi2_above, f_above
+from fitting.temperature.members import Joined
 from fitting.temperature.one_law import OneLaw, OwnLaws
 from fitting.temperature.shifts import Shift
 
@@ -22,8 +26,13 @@ class ShiftedFit:
 
     one: Refitted
     own: Refitted
-    bands_hz: list[tuple[float, float]]
-    """Lowest and highest frequency of each sweep."""
+    joined: Joined
+    """What was fitted."""
+
+    @property
+    def bands_hz(self) -> list[tuple[float, float]]:
+        """Lowest and highest frequency of each sweep."""
+        return self.joined.bands_hz
 
     @property
     def joint(self) -> OneLaw:
@@ -123,9 +132,20 @@ class ShiftedFit:
     @property
     def law_covariance(self) -> Array:
         """Of the law's log parameters, its bend's among them. Shape (names, names)."""
-        v = self._shifts.stop + len(self.joint.b)
-        at = [*range(self._own), *range(v, v + self.law.bend_count)]
+        at = self._law_columns
         return self._covariance[np.ix_(at, at)]
+
+    @property
+    def _law_columns(self) -> NDArray[np.intp]:
+        """Where the law's parameters and its bend stand among those of the one law."""
+        v = self._shifts.stop + len(self.joint.b)
+        return np.r_[: self._own, v : v + self.law.bend_count]
+
+    def quantities(self, frequency_hz: Array) -> Quantities:
+        """What intervals may be asked for of the law at the reference temperature. Shape (frequencies,)."""
+        response = self.joined.around(self.joint).response(self.one.effects)
+        task = DepthTask.of(response, self.joined.evidence, self.one)
+        return Quantities(task, frequency_hz, self.law, self._law_columns)
 
     def own_law(self, sweep: int) -> CoreLaw:
         """Of one temperature by itself, the plate shared with all others."""

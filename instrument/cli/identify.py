@@ -157,7 +157,7 @@ def _identify_tables(
     out: Output, data: Sequence[Path], specimen: Sequence[Path], asked: Asked, *, insist: bool
 ) -> None:
     if asked.shift is None:
-        identify_modes(out, data, specimen, asked.bare, insist=insist)
+        identify_modes(out, data, specimen, asked.bare, profiled=bool(asked.depths), insist=insist)
         return
     identify_tables_shifted(
         out,

@@ -55,9 +55,12 @@ class Asked:
                 "--with": self.dma is not None,
                 "--hammer": hammer,
                 "--budget": self.with_budget,
-                "--uncertainty": bool(self.depths),
             }
         )
+        if set(self.depths) - {"profile"}:
+            raise click.UsageError(
+                "--uncertainty posterior and bootstrap with tables of modes: expected profile"
+            )
         if self.shift is not None and (self.bare is not None or self.no_viscous_damping):
             raise click.UsageError(
                 "--bare and --no-viscous-damping with --shift: expected tables of treated specimens alone"
@@ -65,9 +68,12 @@ class Asked:
 
     def check_shift(self) -> None:
         """Of sweeps at several temperatures."""
-        if self._of_one_sweep or self.no_viscous_damping or self._looks_deeper:
+        if set(self.depths) - {"profile"}:
+            raise click.UsageError("--uncertainty posterior and bootstrap with --shift: expected profile")
+        if self._of_one_sweep or self.no_viscous_damping or self.with_budget:
             raise click.UsageError(
-                "--shift goes with --reference-c, --temperature-k, --vertical, --hammer and --figures alone"
+                "--shift goes with --reference-c, --temperature-k, --vertical, --uncertainty profile, "
+                "--hammer and --figures alone"
             )
 
     def check_together(self, files: Sequence[File]) -> None:
@@ -83,7 +89,3 @@ class Asked:
     @property
     def _of_one_sweep(self) -> bool:
         return self.pointwise or self.method == "paper" or self.dma is not None
-
-    @property
-    def _looks_deeper(self) -> bool:
-        return self.with_budget or bool(self.depths)

@@ -8,6 +8,7 @@ import click
 from fitting.structures.beam import Beam
 from instrument.cli.output import Output
 from instrument.cli.print_modes import print_formulas, print_modal_law, print_modes
+from instrument.cli.print_uncertainty import print_in_depth
 from instrument.cli.reading import read_tables
 from instrument.files.modal_table import read_modal_table
 from instrument.interchange.questions import question_modes
@@ -15,6 +16,7 @@ from instrument.models.modal import identify_tables
 from instrument.progress import bar
 from instrument.results.modal_from import modal_from
 from instrument.results.numbers import to_error
+from instrument.results.uncertainty_facts import by_profile, in_depth_facts, looked_at_hz
 
 
 def identify_modes(
@@ -23,6 +25,7 @@ def identify_modes(
     specimens: Sequence[Path],
     bare: Path | None = None,
     *,
+    profiled: bool = False,
     insist: bool = False,
 ) -> None:
     """One law from all tables, each with its specimen. Raises `BadInput`, `FittingError`, `UsageError`.
@@ -46,6 +49,11 @@ def identify_modes(
     by = "" if all(t.states_its_noise for t in tables) else ", by errors of the modes that are assumed"
     out.say(f"chi-square per degree of freedom {found.fit.uncertainty.chi2_per_dof:.3g}{by}")
     print_formulas(out, result.formulas)
+    if profiled:
+        f = found.begun.problem.frequency_hz
+        looked = by_profile(found.begun.quantities(looked_at_hz(float(f.min()), float(f.max()))), bar)
+        print_in_depth(out, looked)
+        result = result.but(uncertainty=tuple(in_depth_facts(looked)))
     for text in result.warnings:
         out.say(f"note: {text}")
     out.result(result)

@@ -11,6 +11,7 @@ from fitting.mode_tables.table import ModalTable
 from fitting.structures import AnySpecimen
 from instrument.cli.identify_asked import Asked
 from instrument.cli.output import Output
+from instrument.cli.print_uncertainty import print_in_depth
 from instrument.cli.reading import read_tables_at, sweeps_at
 from instrument.errors import BadInput
 from instrument.files.hammer_file import HammerModes
@@ -27,8 +28,11 @@ from instrument.models.temperatures import identify_shifted as identify_at_tempe
 from instrument.progress import bar
 from instrument.results.numbers import to_error, with_error
 from instrument.results.shifted_from import shifted_from
+from instrument.results.uncertainty_facts import by_profile, in_depth_facts
 
 _ROWS = 9
+_PROFILED = 5
+"""Reduced frequencies at which intervals are looked for: each is a dozen fits of all temperatures."""
 
 
 def identify_shifted(
@@ -55,7 +59,7 @@ def identify_shifted(
     found = _fitted(out, sweeps, stated, asked, modes)
     if not insist:
         question_shift(found, data)
-    _tell(out, found, sweeps)
+    _tell(out, found, sweeps, asked)
 
 
 def identify_tables_shifted(
@@ -79,7 +83,7 @@ def identify_tables_shifted(
     if not insist:
         question_shift(found, data)
         question_modes_at(tables, np.exp(found.fit.one.velocity_m_s.real), data)
-    _tell(out, found, every)
+    _tell(out, found, every, asked)
 
 
 def _fitted(
@@ -108,11 +112,16 @@ def _fitted(
     return found
 
 
-def _tell(out: Output, found: Shifted, every: Sequence[AtTemperature]) -> None:
+def _tell(out: Output, found: Shifted, every: Sequence[AtTemperature], asked: Asked) -> None:
     if found.verdict.simple is False:
         raise OutsideModel(found.verdict.words)
     result = shifted_from(found, every)
     _print(out, found, every)
+    if asked.depths:
+        b = found.band.frequency_hz
+        looked = by_profile(found.fit.quantities(np.geomspace(b[0], b[-1], _PROFILED)), bar)
+        print_in_depth(out, looked)
+        result = result.but(uncertainty=tuple(in_depth_facts(looked)))
     out.result(result)
 
 

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from math import nan
 
 from instrument.facts.identification import PointFitted
+from instrument.facts.intervals import IntervalsFound
 from instrument.facts.number import MaybeNumber, Number
 from instrument.facts.result import Result
 from instrument.facts.rows import AdjustedNumber, HeldOut, LawKnown, LawRow
@@ -74,6 +75,8 @@ class ModalResult(Result):
     adjusted: tuple[AdjustedNumber, ...] = ()
     formulas: tuple[FormulaRow, ...] = ()
     """Of beams, where a formula can be asked."""
+    uncertainty: tuple[IntervalsFound, ...] | None = None
+    """By profile likelihood, where it was asked for (docs/uncertainty.md)."""
     warnings: tuple[str, ...] = ()
     temperature_c: MaybeNumber = None
     """Mean of the rows that state one."""

@@ -3,6 +3,7 @@
 from typing import Literal
 
 from instrument.facts.diagnosis import EffectFound
+from instrument.facts.intervals import IntervalsFound
 from instrument.facts.number import Number
 from instrument.facts.result import Result
 from instrument.facts.rows import AdjustedNumber, LawRow
@@ -68,5 +69,7 @@ class ShiftedResult(Result):
     adjusted: tuple[AdjustedNumber, ...] = ()
     """The stated numbers as the joint fit has them, those of a specimen once for all its temperatures."""
     words: str
+    uncertainty: tuple[IntervalsFound, ...] | None = None
+    """By profile likelihood, where it was asked for (docs/uncertainty.md)."""
     warnings: tuple[str, ...]
     seconds: Number

@@ -106,7 +106,10 @@ def identify(
         validation = way.validated(fit, report)
     result = summarise(method, sweep, noise, fit, validation, further)
     reading = remarks_on_reading(sweep, way.problem.specimen, result.rms_percent, progress)
-    free = remark_on_free_layers([specimen], result.law, result.uncertainty.covariance, sweep_range(sweep))
-    result = replace(result, warnings=(*reading, *result.warnings, *free))
+    result = replace(result, warnings=(*reading, *result.warnings))
+    if way.joint is not None:
+        covariance, reach_hz = result.uncertainty.covariance, sweep_range(sweep)
+        free = remark_on_free_layers([specimen], result.law, covariance, reach_hz, way.joint.quantities)
+        result = replace(result, warnings=(*result.warnings, *free))
     took = perf_counter() - began
     return Identified(result, sweep, given, why_aside, setup, seconds, took, theory, way.joint, way.bare)

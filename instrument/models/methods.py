@@ -6,8 +6,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.arrays import Mask
+from fitting.arrays import Array, Mask
 from fitting.data.noise import Noise
+from fitting.depth.quantities import Quantities
+from fitting.depth.sweep_task import SweepTask
 from fitting.diagnosis.checks.overstated_noise import with_own_noise
 from fitting.diagnosis.checks.prediction import held_out
 from fitting.diagnosis.checks.stretches import parts_held_out
@@ -47,6 +49,15 @@ class Joint:
     begun: Begun
     reduced: ReducedPlate | None
     """As stated; None where several were fitted together."""
+
+    @property
+    def task(self) -> SweepTask:
+        """For a deeper look at its uncertainty."""
+        return SweepTask.begun_with(self.begun)
+
+    def quantities(self, frequency_hz: Array) -> Quantities:
+        """What intervals may be asked for. Shape (frequencies,)."""
+        return Quantities.of(self.task, frequency_hz)
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from fitting.laws import CoreLaw
 from fitting.laws.constant import ConstantModulus
 from fitting.mode_tables.build import member_of, own_motions
 from fitting.mode_tables.diagnose import DiagnosedModes, diagnose_modes
-from fitting.mode_tables.fit import ModalFit, begin_modal, modal_fit_of, problem_of, start_of
+from fitting.mode_tables.fit import BegunModal, ModalFit, begin_modal, modal_fit_of, problem_of, start_of
 from fitting.mode_tables.formulas import ByFormula, by_formula
 from fitting.mode_tables.misread import Misread, misread
 from fitting.mode_tables.problem import ModalProblem
@@ -62,6 +62,7 @@ class TablesIdentified:
     """A law from tables."""
 
     fit: ModalFit
+    begun: BegunModal
     seconds: float
     remarks: tuple[str, ...]
     formulas: tuple[tuple[ByFormula, ...], ...] = ()
@@ -97,9 +98,10 @@ def identify_tables(
         left = (remark_on_misread(odd, tables),)
     every_hz = np.concatenate([t.frequency_hz for t in tables])
     reach_hz = float(every_hz.min()), float(every_hz.max())
-    free = remark_on_free_layers(specimens, found.law, found.uncertainty.covariance, reach_hz)
+    covariance = found.uncertainty.covariance
+    free = remark_on_free_layers(specimens, found.law, covariance, reach_hz, begun.quantities)
     said = (*left, *free, *theory, *reads, *remarks_on_tables(tables, specimens))
-    return TablesIdentified(found, seconds, said, formulas, ready - began)
+    return TablesIdentified(found, begun, seconds, said, formulas, ready - began)
 
 
 @dataclass(frozen=True)

@@ -170,7 +170,7 @@ def identify_shifted(
     remarks = asked.remarks(problem, fit)
     band = _band(fit)
     reach_hz = float(band.frequency_hz[0]), float(band.frequency_hz[-1])
-    remarks += remark_on_free_layers(stated, fit.law, fit.law_covariance, reach_hz)
+    remarks += remark_on_free_layers(stated, fit.law, fit.law_covariance, reach_hz, fit.quantities)
     if reference_c is not None and reference != reference_c:
         remarks += (
             f"one factor a temperature says nothing between them: the law is at {reference:g} degC, the "

@@ -118,7 +118,8 @@ def identify_together(
     rest = remarks_on_rest(result.rms_percent, validation.held_out) if not misfit else ()
     reading = remarks_on_reading(files[0].sweep, plate, result.rms_percent, progress)
     stated = [file.specimen for file in files]
-    free = remark_on_free_layers(stated, result.law, result.uncertainty.covariance, sweep_range(sweep))
+    joint, covariance = Joint(begun, None), result.uncertainty.covariance
+    free = remark_on_free_layers(stated, result.law, covariance, sweep_range(sweep), joint.quantities)
     result = replace(result, warnings=(*reading, *misfit, *result.warnings, *free, *rest))
     validated = perf_counter() - checked
     found = Identified(
@@ -129,7 +130,7 @@ def identify_together(
         ready - began,
         seconds,
         validated,
-        joint=Joint(begun, None),
+        joint=joint,
         bare=bare,
     )
     return Together(found, tuple(work.aside))

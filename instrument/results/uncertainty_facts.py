@@ -6,13 +6,13 @@ from typing import Literal
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from fitting.arrays import Array
 from fitting.depth.bootstrap import bootstrap
 from fitting.depth.intervals import Intervals
 from fitting.depth.many import ManyResiduals
 from fitting.depth.posterior import SAMPLES, Posterior, sample
 from fitting.depth.profile import profile
 from fitting.depth.quantities import Quantities
-from fitting.depth.task import DepthTask
 from fitting.identification.quoted import REFERENCE_FREQUENCIES_HZ
 from instrument.facts.intervals import IntervalsFound, QuantityInterval
 from instrument.models.identification import Identified
@@ -40,16 +40,22 @@ def in_depth(
     quantities = quantities_of(found)
     if quantities is None or found.joint is None:
         return None
+    if method == "profile":
+        return by_profile(quantities, progress)
+    if found.joint.reduced is None:
+        return None
     with threadpool_limits(1, "blas"), progress(f"uncertainty by {method}") as report:
-        if method == "profile":
-            return InDepth((profile(quantities, report),))
-        if found.joint.reduced is None:
-            return None
-        many = ManyResiduals(quantities.task, found.joint.reduced)
+        many = ManyResiduals(found.joint.task, found.joint.reduced)
         if method == "bootstrap":
             return InDepth((bootstrap(quantities, many), bootstrap(quantities, many, "segments")))
         drawn = sample(quantities, many, samples, report=report)
         return InDepth((drawn.intervals,), drawn)
+
+
+def by_profile(quantities: Quantities, progress: Progress = quiet) -> InDepth:
+    """Look at a fit of sweeps, tables or temperatures, whatever the quantities are of."""
+    with threadpool_limits(1, "blas"), progress("uncertainty by profile") as report:
+        return InDepth((profile(quantities, report),))
 
 
 def quantities_of(found: Identified) -> Quantities | None:
@@ -57,9 +63,12 @@ def quantities_of(found: Identified) -> Quantities | None:
     if found.joint is None or np.isnan(found.result.uncertainty.covariance).any():
         return None
     f = found.result.band.frequency_hz
-    low, high = float(f[0]), float(f[-1])
-    at = sorted({low, high, *(r for r in REFERENCE_FREQUENCIES_HZ if low < r < high)})
-    return Quantities(DepthTask.of(found.joint.begun), np.array(at))
+    return found.joint.quantities(looked_at_hz(float(f[0]), float(f[-1])))
+
+
+def looked_at_hz(low: float, high: float) -> Array:
+    """The ends of a band, and the reference frequencies inside. Shape (frequencies,)."""
+    return np.array(sorted({low, high, *(r for r in REFERENCE_FREQUENCIES_HZ if low < r < high)}))
 
 
 def in_depth_facts(looked: InDepth) -> list[IntervalsFound]:

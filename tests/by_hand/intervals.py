@@ -45,7 +45,7 @@ def looked_at(seed, samples):
     line["chi2_per_dof"] = found.result.uncertainty.chi2_per_dof
     line["largest_pull"] = max(abs(a.pull) for a in found.result.fit.adjusted)
     quantities = quantities_of(found)
-    many = ManyResiduals(quantities.task, found.joint.reduced)
+    many = ManyResiduals(found.joint.task, found.joint.reduced)
     error = np.linalg.norm(quantities.gradient(quantities.task.mode) @ quantities.task.root, axis=1)
     only = [
         k

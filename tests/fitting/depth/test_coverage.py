@@ -14,7 +14,7 @@ from fitting.depth.many import ManyResiduals
 from fitting.depth.posterior import sample
 from fitting.depth.profile import profile
 from fitting.depth.quantities import Quantities
-from fitting.depth.task import DepthTask
+from fitting.depth.sweep_task import SweepTask
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.inference.whitening import SHARE
 from fitting.diagnosis.problem.model_error import model_error
@@ -54,7 +54,7 @@ def drawn(ready, seed):
 def inside(ready, seed, samples):
     """Whether each interval of G' and eta holds the truth. Shape (methods, levels, quantities)."""
     begun, truth = drawn(ready, seed)
-    quantities = Quantities(DepthTask.of(begun), AT)
+    quantities = Quantities.of(SweepTask.begun_with(begun), AT)
     many = ManyResiduals(quantities.task, ready.reduced)
     looked = [
         profile(quantities, only=(-6, -3)),

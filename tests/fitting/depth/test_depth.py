@@ -16,7 +16,7 @@ from fitting.depth.marginal import MarginalLaw
 from fitting.depth.posterior import sample
 from fitting.depth.profile import profile
 from fitting.depth.quantities import Quantities
-from fitting.depth.task import DepthTask
+from fitting.depth.sweep_task import SweepTask
 from instrument.files.sweep_file import read_sweep
 from instrument.models.identification import identify
 
@@ -33,7 +33,7 @@ def found(coarse, mesh_is_right):
 
 @pytest.fixture(scope="module")
 def quantities(found):
-    return Quantities(DepthTask.of(found.joint.begun), AT)
+    return Quantities.of(SweepTask.begun_with(found.joint.begun), AT)
 
 
 @pytest.fixture(scope="module")
@@ -80,7 +80,7 @@ def test_a_posterior_of_one_seed_is_the_same_again(quantities, many):
 def test_where_the_law_is_all_that_is_not_known_the_posterior_is_of_the_law(coarse):
     whole = read_sweep(DATA / "practice-002.csv").sweep(coarse.base_acceleration_m_s2)
     exact = identify(whole.take(np.arange(len(whole)) % 6 == 0), replace(coarse, exact=True))
-    alone = Quantities(DepthTask.of(exact.joint.begun), AT)
+    alone = Quantities.of(SweepTask.begun_with(exact.joint.begun), AT)
     drawn = sample(alone, ManyResiduals(alone.task, exact.joint.reduced), 2_000)
     # The short cut is all but exact there: what is evaluated in full weighs as it was drawn.
     assert drawn.checked == 60

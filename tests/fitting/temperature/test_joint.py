@@ -119,3 +119,20 @@ def test_a_law_bends_where_the_specimen_is_not_exact_over_all_reduced_frequencie
     reduced = [f * k for band, k in zip(task.bands_hz, a, strict=True) for f in band]
     assert start.law.knots_hz[0] <= 1.01 * min(reduced)
     assert start.law.knots_hz[-1] >= 0.99 * max(reduced)
+
+
+def test_the_law_s_quantities_move_as_their_gradients_say_and_are_as_uncertain_as_the_law(found):
+    _, fit, _ = found
+    quantities = fit.quantities(np.array([20.0, 200.0]))
+    task, x = quantities.task, quantities.task.mode
+    slope = quantities.gradient(x)
+    step = 1e-6 * np.random.default_rng(0).standard_normal(len(x))
+    moved = quantities.logs(x + step) - quantities.logs(x - step)
+    np.testing.assert_allclose(moved, 2 * slope @ step, rtol=1e-5)
+    assert quantities.names[: len(fit.law.plain.names)] == list(fit.law.plain.names)
+    own = len(quantities.names) - 4
+    known = np.sqrt(np.diag(fit.law_covariance))[:own]
+    np.testing.assert_allclose(np.linalg.norm(slope[:own] @ task.root, axis=1), known, rtol=1e-3)
+    assert np.sum(task.residuals(x) ** 2) == pytest.approx(
+        fit.chi2 / max(1.0, fit.one.chi2_per_dof), rel=1e-6
+    )

@@ -28,7 +28,6 @@ PLAIN = Asked(
     figures=None,
 )
 ONE_SWEEP = [{"pointwise": True}, {"method": "paper"}, {"dma": Path("dma.csv")}]
-DEEPER = [{"with_budget": True}, {"depths": ("profile",)}]
 
 
 def asked(**options):
@@ -39,7 +38,7 @@ def files(*kinds):
     return [SimpleNamespace(specimen=SimpleNamespace(kind=kind)) for kind in kinds]
 
 
-@pytest.mark.parametrize("options", [*ONE_SWEEP, *DEEPER])
+@pytest.mark.parametrize("options", [*ONE_SWEEP, {"with_budget": True}])
 def test_what_looks_at_sweeps_is_refused_with_tables(options):
     with pytest.raises(click.UsageError, match="with tables of modes: expected sweeps"):
         asked(**options).check_tables(hammer=False)
@@ -54,7 +53,7 @@ def test_tables_have_no_hammer_test_and_no_bare_beam_at_several_temperatures():
         asked(shift="wlf", bare=Path("bare.csv")).check_tables(hammer=False)
 
 
-@pytest.mark.parametrize("options", [*ONE_SWEEP, *DEEPER, {"no_viscous_damping": True}])
+@pytest.mark.parametrize("options", [*ONE_SWEEP, {"with_budget": True}, {"no_viscous_damping": True}])
 def test_a_shift_goes_with_its_own_options_alone(options):
     asked(shift="wlf", reference_c=20.0, vertical=True).check_shift()
     with pytest.raises(click.UsageError, match="--shift goes with"):
@@ -87,5 +86,14 @@ def test_what_the_papers_method_cannot_say_is_said_and_left_out(coarse, table5, 
 
 
 def test_only_what_was_given_is_named_where_tables_refuse_it():
-    with pytest.raises(click.UsageError, match=r"^--budget and --uncertainty with tables of modes"):
-        asked(with_budget=True, depths=("profile",)).check_tables(hammer=False)
+    with pytest.raises(click.UsageError, match=r"^--hammer and --budget with tables of modes"):
+        asked(with_budget=True, depths=("profile",)).check_tables(hammer=True)
+
+
+def test_only_profiles_look_deeper_at_tables_or_at_temperatures():
+    asked(depths=("profile",)).check_tables(hammer=False)
+    asked(depths=("profile",), shift="wlf").check_shift()
+    with pytest.raises(click.UsageError, match="tables of modes: expected profile"):
+        asked(depths=("posterior",)).check_tables(hammer=False)
+    with pytest.raises(click.UsageError, match="--shift: expected profile"):
+        asked(depths=("bootstrap",), shift="wlf").check_shift()

@@ -135,6 +135,21 @@ def test_the_bare_beam_s_modes_go_along_and_of_a_plate_are_refused(monkeypatch, 
         identifying.identify_modes(Output(None), [FILE], [], Path("bare.csv"))
 
 
+def test_intervals_of_a_law_of_modes_are_told_where_they_are_asked_for(capsys, questions, tmp_path):
+    out = Output(str(tmp_path / "a.json"))
+    identifying.identify_modes(out, [FILE], [Path("beam.toml")], profiled=True)
+    assert "intervals by profile" in capsys.readouterr().out
+    written = json.loads((tmp_path / "a.json").read_text())
+    (one,) = written["uncertainty"]
+    assert one["method"] == "profile"
+    g, eta = one["quantities"][:2]
+    assert (g["quantity"], eta["quantity"]) == ("g_pa", "loss_factor")
+    half = written["standard_errors"]["g_pa"]
+    low, high = g["interval_68_percent"]
+    assert g["value"] - low == pytest.approx(half, rel=0.1)
+    assert high - g["value"] == pytest.approx(half, rel=0.1)
+
+
 # Several temperatures
 
 
@@ -173,9 +188,11 @@ def found(monkeypatch):
     return make
 
 
-def shift(given_, figures=None, out=None, files=FILES, *, insist=False):
+def shift(given_, figures=None, out=None, files=FILES, *, depths=(), insist=False):
     out = out or Output(None)
-    asked = SimpleNamespace(shift="wlf", reference_c=20.0, figures=figures, vertical=True, temperature_k=None)
+    asked = SimpleNamespace(
+        shift="wlf", reference_c=20.0, figures=figures, vertical=True, temperature_k=None, depths=depths
+    )
     shifting.identify_shifted(out, files, given_, asked, insist=insist)
 
 
@@ -191,6 +208,19 @@ def test_shifts_and_law_are_told_and_written(capsys, zn1, found, tmp_path):
     written = json.loads((tmp_path / "a.json").read_text())
     assert [one["name"] for one in written["temperatures"]] == ["10.csv", "20.csv", "30.csv"]
     assert written["simple"] is True
+    assert "uncertainty" not in written
+
+
+def test_intervals_of_a_shifted_law_are_told_over_its_reduced_frequencies(capsys, zn1, found, tmp_path):
+    found()
+    out = Output(str(tmp_path / "a.json"))
+    shift([given(zn1, k) for k in range(3)], out=out, depths=("profile",))
+    assert "intervals by profile" in capsys.readouterr().out
+    (one,) = json.loads((tmp_path / "a.json").read_text())["uncertainty"]
+    quantities = [q["quantity"] for q in one["quantities"]]
+    assert "storage_modulus_pa at 50 Hz" in quantities
+    assert quantities[-1] == "loss_factor at 4000 Hz"
+    assert all(q["interval_95_percent"][0] < q["value"] for q in one["quantities"])
 
 
 def test_a_core_that_stiffens_as_it_warms_is_asked_about_unless_someone_insists(capsys, zn1, found):
