@@ -97,7 +97,7 @@ class ManyResiduals:
         """Derivatives of the rows. Shapes (any, kept) to (any, rows, kept)."""
         task, evidence = self.task, self.task.begun.evidence
         v, dv = self._with_derivatives(X)
-        change = evidence.over_sigma(v[:, None], dv)[:, task.kept]
+        change = evidence.over_sigma(v[:, None], dv)[:, task.kept] * task.slope(X)[:, :, None]
         many, kept, count = change.shape
         readings = evidence.whitening(change.reshape(-1, count).T).T.reshape(many, kept, count)
         readings = (readings / task.worth[:count]).transpose(0, 2, 1)

@@ -24,6 +24,8 @@ _FURTHER = 3
 """Looks more, where chi-square has not risen far enough."""
 _STRETCH = 3.0
 """Times that a look goes further or less far than the linear error says; a choice against wild jumps."""
+_BY_VALUE = 1.0
+"""Error of a logarithm, from which a quantity goes by factors: it rests on what is next to nothing."""
 _MOST_EVALUATIONS = 40
 """A bound on time: a fit starts at most a few standard errors beside its end."""
 
@@ -61,12 +63,15 @@ def _along(quantities: Quantities, k: int, sign: int) -> tuple[Array, Array]:
     found, rises = [q_0], [0.0]
     if not error > 0:
         return np.array(found), np.array(rises)
-    stretch = 1.0
+    stretch, by_value = 1.0, error > _BY_VALUE
     looks = list(_LOOKS)
     while looks and len(found) < len(_LOOKS) + _FURTHER + 1:
-        to = q_0 + sign * looks.pop(0) * stretch * error
+        further = looks.pop(0) * stretch * error
+        to = q_0 + sign * (float(np.log1p(further)) if by_value else further)
+        before = quantities.logs(x)[k]
+        off = np.exp(abs(to - q_0)) - np.exp(abs(before - q_0)) if by_value else sign * (to - before)
         try:
-            x = _held(quantities, k, to, x + step * (to - quantities.logs(x)[k]), error)
+            x = _held(quantities, k, to, x + sign * off * step, min(error, _BY_VALUE))
         except OutsideModel:
             # No specimen has such modes: what is told ends here.
             break
@@ -74,7 +79,7 @@ def _along(quantities: Quantities, k: int, sign: int) -> tuple[Array, Array]:
         q = float(quantities.logs(x)[k])
         found.append(q)
         rises.append(rise)
-        linear = abs(q - q_0) / error
+        linear = abs(np.expm1(abs(q - q_0)) if by_value else q - q_0) / error
         stretch = float(np.clip(linear / max(rise, 1e-3), 1 / _STRETCH, _STRETCH))
         if not looks and rise < LEVELS[95]:
             looks = [2.2]

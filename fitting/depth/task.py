@@ -1,7 +1,12 @@
 """What the deeper looks share: the joint fit's residuals in units of what they are worth, and where it ended.
 
 The rows are those of the linear errors (`Refitted.weighted`): readings and priors over their misfit, below
-them the ranges that are searched, about the fit. A parameter at its limit stays there.
+them the ranges that are searched, about the fit. A parameter at its upper limit stays there; one of the law
+that ran below the range that is searched moves by its value over that range's end, not by its logarithm:
+
+    x = p / p_high    d/dx = (1 / x) d/d(ln p)
+
+where it has next to no effect a logarithm would never leave it (as in `CoreLaw.open_widths`).
 """
 
 from dataclasses import dataclass
@@ -43,20 +48,53 @@ class DepthTask:
     @cached_property
     def kept(self) -> Mask:
         """Which of them may move. Shape (unknowns,)."""
-        fixed = limits_reached(self.law)
+        fixed = {name for name, side in limits_reached(self.law).items() if side != "lower"}
         names = self.law.names
         return np.array([n not in fixed for n in names] + [True] * (len(self.whole) - len(names)))
 
     @cached_property
     def mode(self) -> Array:
         """Where the fit ended. Shape (kept,)."""
-        return self.whole[self.kept]
+        return self._to_x(self.whole[self.kept])
+
+    @cached_property
+    def _by_value(self) -> Mask:
+        """Which of those that may move do so by their values. Shape (kept,)."""
+        own = self._searched
+        found = np.zeros(len(self.whole), dtype=bool)
+        found[: len(own)] = self.law.values[: len(own)] < own[:, 0]
+        return found[self.kept]
+
+    @cached_property
+    def _log_high(self) -> Array:
+        """Logarithms of the ends of the ranges of these. Shape (by value,)."""
+        own = self._searched
+        high = np.full(len(self.whole), np.nan)
+        high[: len(own)] = np.log(own[:, 1])
+        return high[self.kept][self._by_value]
+
+    @cached_property
+    def _searched(self) -> Array:
+        """The ranges of the law's parameters. Shape (parameters, 2)."""
+        searched = self.law.limits[: len(self.law.search_widths)]
+        return np.array([q.search for q in searched]).reshape(-1, 2)
+
+    def _to_x(self, logs: Array) -> Array:
+        found = np.array(logs)
+        found[self._by_value] = np.exp(found[self._by_value] - self._log_high)
+        return found
+
+    def slope(self, x: Array) -> Array:
+        """Derivatives of the fit's own unknowns to those here. Shape of `x`, (..., kept)."""
+        found = np.ones(x.shape)
+        found[..., self._by_value] = 1 / x[..., self._by_value]
+        return found
 
     @cached_property
     def limits(self) -> tuple[Array, Array]:
         """Least and largest values of the unknowns that may move. Shape (kept,) each."""
         low, high = self.problem.limits
-        return low[self.kept], high[self.kept]
+        return self._to_x(low[self.kept]), self._to_x(high[self.kept])
 
     @cached_property
     def worth(self) -> Array:
@@ -78,12 +116,14 @@ class DepthTask:
         found = np.full(len(self.whole), np.inf)
         own = self.law.search_widths
         found[: len(own)] = own
-        return found[self.kept]
+        return np.where(self._by_value, 1.0, found[self.kept])
 
     def full(self, x: Array) -> Array:
         """All unknowns. Shapes (..., kept) to (..., unknowns)."""
         found = np.broadcast_to(self.whole, (*x.shape[:-1], len(self.whole))).copy()
-        found[..., self.kept] = x
+        own = np.array(x)
+        own[..., self._by_value] = np.log(own[..., self._by_value]) + self._log_high
+        found[..., self.kept] = own
         return found
 
     def residuals(self, x: Array) -> Array:
@@ -93,7 +133,7 @@ class DepthTask:
 
     def jacobian(self, x: Array) -> Array:
         """Shape (rows, kept)."""
-        J = self.problem.jacobian(self.full(x))[:, self.kept] / self.worth[:, None]
+        J = self.problem.jacobian(self.full(x))[:, self.kept] * self.slope(x) / self.worth[:, None]
         return np.vstack([J, np.diag(1 / self.widths)])
 
     @cached_property
