@@ -9,6 +9,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array
+from fitting.diagnosis.inference.refitted import Refitted
 from fitting.digits import two_digits, written_out
 from fitting.dynamics.damping import viscous_damping
 from fitting.effects import all_spans, span_modules
@@ -96,11 +97,13 @@ def identify_tables(
     left = (*remark_on_fit(found, tables), *remarks_on_pulls(found))
     if odd is not None:
         left = (remark_on_misread(odd, tables),)
-    every_hz = np.concatenate([t.frequency_hz for t in tables])
-    reach_hz = float(every_hz.min()), float(every_hz.max())
-    covariance = found.uncertainty.covariance
-    free = remark_on_free_layers(specimens, found.law, covariance, reach_hz, begun.quantities)
-    said = (*left, *free, *theory, *reads, *remarks_on_tables(tables, specimens))
+    said = (
+        *left,
+        *_remark_on_free_layers(specimens, begun, begun.none),
+        *theory,
+        *reads,
+        *remarks_on_tables(tables, specimens),
+    )
     return TablesIdentified(found, begun, seconds, said, formulas, ready - began)
 
 
@@ -144,11 +147,26 @@ def diagnose_tables(
         with progress("tracing what is left") as report:
             found = diagnose_modes(ModalProblem.of(members), effects, start, report)
     accepted = found.judgement.accepted
-    law = accepted.fitted.law if accepted else found.begun.none.law
+    fitted = accepted.fitted if accepted else found.begun.none
+    law = fitted.law
     reads = remark_on_reading(members, [law] * len(members))
     remarks = (*check_theories(law, tables, specimens), *reads, *remarks_on_tables(tables, specimens))
+    remarks = (*_remark_on_free_layers(specimens, found.begun, fitted), *remarks)
     odd = remark_on_misread(found.odd, tables) if found.odd is not None else ""
     return TablesDiagnosed(found, effects, ready - began, perf_counter() - ready, remarks, odd)
+
+
+def _remark_on_free_layers(
+    specimens: Sequence[AnySpecimen], begun: BegunModal, fitted: Refitted
+) -> tuple[str, ...]:
+    f, n = begun.problem.frequency_hz, len(fitted.law.names)
+    return remark_on_free_layers(
+        specimens,
+        fitted.law,
+        fitted.covariance[:n, :n],
+        (float(f.min()), float(f.max())),
+        partial(begun.quantities, fitted=fitted),
+    )
 
 
 def widened(specimen: Specimen, V: Array, report: Report, reach_hz: float) -> EnrichedReducedPlate:

@@ -10,8 +10,10 @@ from beam_tables import BEAM, read
 from fitting.depth.profile import profile
 from fitting.laws.constant import ConstantModulus
 from fitting.mode_tables.fit import begin_modal, modal_fit_of, problem_of, start_of
+from fitting.mode_tables.standing import standing
 from fitting.stated.layers import Core
 from instrument.models.free_layers import remark_on_free_layers
+from instrument.models.modal import diagnose_tables, identify_tables
 
 TRUE = ConstantModulus(1e8, 0.3)
 BAND_HZ = (30.0, 1000.0)
@@ -23,10 +25,14 @@ def free(thickness_m):
     return replace(BEAM, constraining=None, exact=False, core=Core(thickness_m, 0.49, 1000.0, TRUE))
 
 
-def fitted(stated, *, thicker=1.0):
-    """A table of the beam whose metal is so many times as thick as stated."""
+def table_of(stated, *, thicker=1.0):
+    """Modes of the beam whose metal is so many times as thick as stated."""
     face = replace(stated.substrate, thickness_m=thicker * stated.substrate.thickness_m)
-    tables = [read(replace(stated, substrate=face, exact=True), law=TRUE)]
+    return read(replace(stated, substrate=face, exact=True), law=TRUE)
+
+
+def fitted(stated, *, thicker=1.0):
+    tables = [table_of(stated, thicker=thicker)]
     return begin_modal(problem_of(tables, [stated]), start_of(tables, [stated]))
 
 
@@ -46,6 +52,16 @@ def test_metal_two_tolerances_thicker_leaves_the_loss_factor_inside_the_interval
     assert words.startswith("G' of a free layer is hardly known: at ")
     assert "by profile likelihood" in words
     assert "a thicker layer, thinner metal, or the metal's stiffness measured bare" in words
+
+
+def test_a_law_from_tables_says_so_and_so_does_their_diagnosis():
+    stated = free(1.5e-3)
+    tables = [table_of(stated, thicker=1.01)]
+    (identified,) = (r for r in identify_tables(tables, [stated]).remarks if "free layer" in r)
+    others = frozenset(e.name for e in standing([stated])) - {"added_mass"}
+    (diagnosed,) = (r for r in diagnose_tables(tables, [stated], others).remarks if "free layer" in r)
+    assert "with 95 % " in identified
+    assert "with 95 % " in diagnosed
 
 
 def test_nothing_is_said_of_a_thick_layer():
