@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import pytest
 
+from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Specimen
-from fitting.stated.layers import Face
+from fitting.stated.layers import Core, Face
 from fitting.structures import Beam
 from instrument.models.clamp_remarks import remarks_on_clamps
 
@@ -26,6 +27,20 @@ def test_what_two_clamps_pull_is_said_of_a_beam_between_them():
     assert "allowed for is 0.5 MPa" in remarks_on_clamps(replace(beam, tolerances={"axial": 0.5e6}))[1]
     assert "allowed for is nothing, it is exact" in remarks_on_clamps(replace(beam, exact=True))[1]
     assert not any("pull" in one for one in remarks_on_clamps(replace(beam, boundary="clamped-free")))
+
+
+def test_a_constraining_layer_that_two_clamps_may_not_grip_is_asked_to_be_looked_at():
+    core = Core(0.5e-3, 0.49, 1000.0, ConstantModulus(1e6, 0.5))
+    beam = Beam(0.25, 0.02, "clamped-clamped", STEEL, STEEL, core)
+    (said,) = [one for one in remarks_on_clamps(beam) if "grip" in one]
+    assert "where it ends short of both nothing shows" in said
+    others = (
+        replace(beam, exact=True),
+        replace(beam, constraining=None),
+        replace(beam, boundary="clamped-free"),
+        replace(beam, boundary="free-free"),
+    )
+    assert not any("grip" in one for other in others for one in remarks_on_clamps(other))
 
 
 def test_of_a_plate_with_clamps_on_opposite_edges_too():
