@@ -172,32 +172,32 @@ def run(arguments: list[str] | None = None, program: click.Command = viscorig, n
         click.echo(asked.format_message(), err=True)
         return BAD_INPUT
     except click.ClickException as error:
-        return _refuse(error.format_message())
+        return _refuse(program, error.format_message())
     except (BadInput, FittingError) as error:
-        return _refuse(str(error))
+        return _refuse(program, str(error))
     except (RigStopped, DriverError) as error:
-        _say(str(error))
+        _say(program, str(error))
         return RIG_STOPPED
     except StoppedByUser as stop:
-        _say(f"stopped: {stop}")
+        _say(program, f"stopped: {stop}")
         return STOPPED_BY_USER
     except (click.Abort, KeyboardInterrupt):
-        _say("stopped")
+        _say(program, "stopped")
         return STOPPED_BY_USER
     except BrokenPipeError:
         # The reader of our output has gone; nothing is left to say.
         sys.stderr.close()
         return 0
     except OSError as error:
-        return _refuse(f"{error.filename or 'output'}: {system_words(error)}")
+        return _refuse(program, f"{error.filename or 'output'}: {system_words(error)}")
 
 
-def _refuse(message: str) -> int:
-    _say(message)
+def _refuse(program: click.Command, message: str) -> int:
+    _say(program, message)
     return BAD_INPUT
 
 
-def _say(message: str) -> None:
-    """One line on standard error; a terminal that is gone hears nothing."""
+def _say(program: click.Command, message: str) -> None:
+    """One line on standard error, by the program's name; a terminal that is gone hears nothing."""
     with suppress(OSError):
-        click.echo("viscorig: " + printable(" ".join(message.split())), err=True)
+        click.echo(f"{program.name}: {printable(' '.join(message.split()))}", err=True)

@@ -1,4 +1,4 @@
-"""`python -m campaign`: its help, and refusals in a line as every command of the program has them."""
+"""`python -m campaign`: its help, and refusals in a line under its own name."""
 
 import subprocess
 import sys
@@ -17,7 +17,7 @@ def test_a_refusal_is_a_line_and_a_status(tmp_path, capsys):
     asked = ["plates", str(tmp_path), "--law-alone", "--shows", "20"]
     assert run(asked, campaign, "python -m campaign") == BAD_INPUT
     assert capsys.readouterr().err.splitlines() == [
-        "viscorig: --shows is of diagnoses, expected no --law-alone beside it"
+        "campaign: --shows is of diagnoses, expected no --law-alone beside it"
     ]
 
 
