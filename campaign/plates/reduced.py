@@ -5,7 +5,7 @@ modulus; static responses to the base, to points and to the air; and K^-1 K_1 of
 change with the modulus. Checked against solutions on every degree of freedom in `tests/instrument`.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -108,42 +108,86 @@ def reduced(
     modes
         How many are taken.
     """
-    free = solid.free
-    loads, extra = _loads(solid, points_m)
-    M, K_0 = solid.M[free][:, free], solid.K_0[free][:, free]
-    treated = solid.plate.core is not None
-    K_1 = solid.K_1[free][:, free] if treated else None
-    if solid.build.free:
-        # Six motions strain nothing: what is spanned answers a plate on a soft ground.
-        K_0 = K_0 + _FREE_RAD_S**2 * M
-    others = [A[free][:, free] for A in stirred]
-    lattice = _Air.of(solid, air_density_kg_m3) if air_density_kg_m3 else None
-    order = sorted(moduli_pa, key=lambda g: abs(np.log(g / moduli_pa[len(moduli_pa) // 2])))
-    columns: list[Array] = []
-    shapes = np.zeros((len(free), 0))
-    for g in order if treated else [0.0]:
-        K = (K_0 + g * K_1).tocsr() if K_1 is not None else K_0
-        solve = factorised(K).solve
-        if not columns:
-            operator = LinearOperator(K.shape, matvec=solve, dtype=float)
-            start = np.sin(np.arange(1, len(free) + 1))
-            # Of a free plate the rigid motions are the first six.
-            count = modes + (6 if solid.build.free else 0)
-            _, shapes = eigsh(K, count, M, sigma=0.0, OPinv=operator, v0=start)
-            columns += [solid.rigid[free], shapes] if solid.build.free else [shapes]
-        first = g == order[0] or not treated
-        forces = [loads[free], extra[free]] if first else [loads[free], M @ shapes]
-        forces += [extra[free]] if solid.build.free and not first else []
-        forces += [K_1 @ shapes] if K_1 is not None else []
-        forces += [A @ shapes for A in others]
-        forces += [lattice.force(shapes, free)] if lattice is not None else []
-        columns.append(solve(np.ascontiguousarray(np.hstack(forces))))
-    middle = K_0 + order[0] * K_1 if K_1 is not None else K_0
-    basis = _independent(np.hstack(columns), middle)
+    plate = _Moving.of(solid, points_m, air_density_kg_m3, stirred)
+    middle = moduli_pa[len(moduli_pa) // 2]
+    first, *further = sorted(moduli_pa, key=lambda g: abs(np.log(g / middle))) if plate.has_core else [0.0]
+    K = plate.stiffness(first)
+    solve = factorised(K).solve
+    shapes = plate.modes(K, solve, modes)
+    columns = [solid.rigid[solid.free], shapes] if solid.build.free else [shapes]
+    columns.append(solve(plate.forces(shapes, [plate.loads, plate.points])))
+    # M times the modes: a step of inverse iteration.
+    again = [plate.loads, plate.M @ shapes, *([plate.points] if solid.build.free else [])]
+    for g in further:
+        columns.append(factorised(plate.stiffness(g)).solve(plate.forces(shapes, again)))
+    basis = _independent(np.hstack(columns), K)
     V = np.zeros((solid.size, basis.shape[1]))
-    V[free] = basis
+    V[solid.free] = basis
     out = _projected(solid, V, groups)
-    return lattice.added(out, V) if lattice is not None else out
+    return plate.air.added(out, V) if plate.air is not None else out
+
+
+@dataclass(frozen=True)
+class _Moving:
+    """A solid's degrees of freedom that move, and what its basis answers."""
+
+    solid: Solid
+    M: sp.csr_array
+    K_0: sp.csr_array
+    """Of a free plate, whose six motions strain nothing, on a soft ground."""
+    K_1: sp.csr_array | None
+    """None without a core."""
+    loads: Array
+    """M times the base's motions. Shape (n, 3)."""
+    points: Array
+    """A force at each point. Shape (n, points)."""
+    stirred: list[sp.csr_array]
+    air: "_Air | None"
+
+    @classmethod
+    def of(
+        cls,
+        solid: Solid,
+        points_m: Sequence[tuple[float, float]],
+        air_density_kg_m3: float,
+        stirred: Sequence[sp.csr_array],
+    ) -> "_Moving":
+        free = solid.free
+        loads, points = _loads(solid, points_m)
+        M, K_0 = solid.M[free][:, free], solid.K_0[free][:, free]
+        return cls(
+            solid=solid,
+            M=M,
+            K_0=K_0 + _FREE_RAD_S**2 * M if solid.build.free else K_0,
+            K_1=solid.K_1[free][:, free] if solid.plate.core is not None else None,
+            loads=loads[free],
+            points=points[free],
+            stirred=[A[free][:, free] for A in stirred],
+            air=_Air.of(solid, air_density_kg_m3) if air_density_kg_m3 else None,
+        )
+
+    @property
+    def has_core(self) -> bool:
+        return self.K_1 is not None
+
+    def stiffness(self, modulus_pa: float) -> sp.csr_array:
+        """At a real modulus of the core. Shape (n, n)."""
+        return self.K_0 if self.K_1 is None else (self.K_0 + modulus_pa * self.K_1).tocsr()
+
+    def modes(self, K: sp.csr_array, solve: Callable[[Array], Array], count: int) -> Array:
+        """The first shapes, of a free plate beside its six rigid motions. Shape (n, count or count + 6)."""
+        operator = LinearOperator(K.shape, matvec=solve, dtype=float)
+        start = np.sin(np.arange(1, K.shape[0] + 1))
+        every = count + (6 if self.solid.build.free else 0)
+        return np.asarray(eigsh(K, every, self.M, sigma=0.0, OPinv=operator, v0=start)[1])
+
+    def forces(self, shapes: Array, outer: list[Array]) -> Array:
+        """Those from outside, and what core, `stirred` and air exert on the modes. Shape (n, forces)."""
+        forces = list(outer)
+        forces += [self.K_1 @ shapes] if self.K_1 is not None else []
+        forces += [A @ shapes for A in self.stirred]
+        forces += [self.air.force(shapes, self.solid.free)] if self.air is not None else []
+        return np.ascontiguousarray(np.hstack(forces))
 
 
 def _loads(solid: Solid, points_m: Sequence[tuple[float, float]]) -> tuple[Array, Array]:
