@@ -1,5 +1,6 @@
 """A case: a sweep of one of the plates as a lab would hand it in, and what was hidden in it."""
 
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import reduce
 from typing import Any
@@ -163,26 +164,16 @@ def draw_case(
         schedule = draw_schedule(rng("schedule"), moved, levels)
         middle = schedule.middles_hz
     schedule = reduce(lambda s, h: h.paused(s), hidden, schedule)
-    noise, chance = draw_noise(rng("noise figures")), rng("stated")
+    noise = draw_noise(rng("noise figures"))
     if one_piece:
         noise = of_one_range(rng("floor"), noise)
-    stated = draw_stated(chance, true)
-    off = *chance.standard_normal(2), rng("phase").standard_normal()
-    channel = ChannelError() if exact else ChannelError.within(CAREFUL, off)
-    stated = true if exact else stated
+    stated, channel = (true, ChannelError()) if exact else _believed(rng("stated"), rng("phase"), true)
     text = toml(stated, None if exact else CAREFUL, middle[1])
-    chance = rng("hammer")
-    test = None
-    if chance.random() < _HAMMER_SHARE:
-        test = struck(true, hidden, chance, 0.0 if exact else CAREFUL.damping, yields=not exact)
+    test = _hammer_test(rng("hammer"), true, hidden, exact=exact)
     shares = [_share(clean_plate(true), found, r.frequency_hz) for r in chosen]
     truth = PlateTruth(true, hidden, found, noise, channel, middle, min(shares))
     sweep = measured(truth, plate_built, schedule, rng("noise"))
-    commanded = schedule.level_g * PUBLISHED_G_M_S2
-    silent = Silent(
-        commanded * _ratios(truth, plate_built, schedule),
-        commanded * _ratios(replace(truth, effects=()), clean_plate(true), schedule),
-    )
+    silent = _silent(truth, plate_built, schedule)
     return PlateCase(kind, seed, exact, sweep, specimen_from(text), text, test, truth, silent)
 
 
@@ -221,6 +212,33 @@ def _swept(
         return chosen, judged_of(chosen), draw_whole(rng, chosen, levels)
     chosen = measured_resonances(clean, true.spot_m, law)
     return chosen, chosen, draw_schedule(rng, chosen, levels)
+
+
+def _believed(
+    chance: np.random.Generator, phase: np.random.Generator, true: TruePlate
+) -> tuple[TruePlate, ChannelError]:
+    """The plate as a careful laboratory states it, and how far its channel is off."""
+    stated = draw_stated(chance, true)
+    off = *chance.standard_normal(2), phase.standard_normal()
+    return stated, ChannelError.within(CAREFUL, off)
+
+
+def _hammer_test(
+    chance: np.random.Generator, true: TruePlate, hidden: Sequence[Hidden], *, exact: bool
+) -> HammerTest | None:
+    """Of the bare plate, where the case has one."""
+    if chance.random() >= _HAMMER_SHARE:
+        return None
+    return struck(true, hidden, chance, 0.0 if exact else CAREFUL.damping, yields=not exact)
+
+
+def _silent(truth: PlateTruth, plate: ReducedSolid, schedule: Schedule) -> Silent:
+    """What noise is added to, with and without effects."""
+    commanded = schedule.level_g * PUBLISHED_G_M_S2
+    return Silent(
+        commanded * _ratios(truth, plate, schedule),
+        commanded * _ratios(replace(truth, effects=()), clean_plate(truth.plate), schedule),
+    )
 
 
 def _share(clean: ReducedSolid, law: TrueLaw, frequency_hz: float) -> float:
