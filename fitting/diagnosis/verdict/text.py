@@ -6,6 +6,7 @@ from fitting.arrays import Complex
 from fitting.diagnosis.checks.structure import in_words
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.search.catalogue_search import ScoredFit
 from fitting.diagnosis.several.parts_with import part_with
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.several.several_problem import SeveralProblem
@@ -45,32 +46,58 @@ def explain(
     """What was left, what explains it, how sure that is, what it did to the material."""
     said = [_left(problem, before)]
     scored = judgement.accepted
-    if judgement.verdict == "none" and judgement.by_hand:
-        said.append("No effect is accepted, by your word.")
-        return tuple(said)
     if judgement.verdict == "none":
-        model = "a layer-wise plate" if problem.specimen.kind == "plate" else "the model"
-        said.append(f"That is what noise and {model}'s own error leave: no effect is called for.")
-        said += _beside_none(judgement)
-        if judgement.refused:
-            said.append(f"The nearest, {' with '.join(judgement.refused)}, {judgement.why}.")
-        return tuple(said)
-    if scored is None:
-        worst = _worst_segment(problem, before)
-        said.append(
-            "There is structure, but nothing in the catalogue explains it. What remains is largest in "
-            f"segment {worst}: {'; '.join(before.structure) or 'see the residual over frequency'}."
-        )
-        if judgement.refused:
-            said.append(f"What comes nearest, {' with '.join(judgement.refused)}, {judgement.why}.")
-        return tuple(said)
-    if judgement.verdict == "ambiguous" and judgement.note:
+        said += _without_effect(problem, judgement)
+    elif scored is None:
+        said += _unexplained(problem, judgement, before)
+    elif judgement.verdict == "ambiguous" and judgement.note:
         said.append(judgement.note)
-        return tuple(said)
+    else:
+        said += _what_it_is(problem, judgement, scored, found)
+        said += _what_it_may_stand_for(judgement, scored)
+        said += _what_it_may_be_besides(judgement)
+        said += _what_it_leaves(before, after, found)
+    return tuple(said)
+
+
+def _without_effect(problem: DiagnosisProblem, judgement: Judgement) -> list[str]:
+    """Where no effect is called for, or none wanted."""
+    if judgement.by_hand:
+        return ["No effect is accepted, by your word."]
+    model = "a layer-wise plate" if problem.specimen.kind == "plate" else "the model"
+    said = [f"That is what noise and {model}'s own error leave: no effect is called for."]
+    said += _beside_none(judgement)
+    if judgement.refused:
+        said.append(f"The nearest, {' with '.join(judgement.refused)}, {judgement.why}.")
+    return said
+
+
+def _unexplained(problem: DiagnosisProblem, judgement: Judgement, before: Stage) -> list[str]:
+    """Where there is something that no effect explains."""
+    worst = _worst_segment(problem, before)
+    said = [
+        "There is structure, but nothing in the catalogue explains it. What remains is largest in "
+        f"segment {worst}: {'; '.join(before.structure) or 'see the residual over frequency'}."
+    ]
+    if judgement.refused:
+        said.append(f"What comes nearest, {' with '.join(judgement.refused)}, {judgement.why}.")
+    return said
+
+
+def _what_it_is(
+    problem: DiagnosisProblem, judgement: Judgement, scored: ScoredFit, found: tuple[FoundEffect, ...]
+) -> list[str]:
+    """The accepted effects, and how far they move the response."""
     stories = [story(e, f) for e, f in zip(scored.fitted.effects, found, strict=True)]
-    said.append(f"{how_likely(judgement, scored.names)} {', and besides '.join(stories)}.")
+    said = [f"{how_likely(judgement, scored.names)} {', and besides '.join(stories)}."]
     if not all(e.replaces_law for e in scored.fitted.effects):
         said.append(_moved(problem, scored.fitted))
+    return said
+
+
+def _what_it_may_stand_for(judgement: Judgement, scored: ScoredFit) -> list[str]:
+    """What makes the accepted explanation doubtful by itself."""
+    said = []
     if scored.stands_in and not judgement.by_hand:
         said.append(f"It may stand in for what is not known: {scored.stands_in}.")
     if scored.too_large and judgement.by_hand:
@@ -80,6 +107,12 @@ def explain(
             f"It has stated numbers as far off as they are {seldom(scored.strains)}, and may "
             "stand in for what is not known."
         )
+    return said
+
+
+def _what_it_may_be_besides(judgement: Judgement) -> list[str]:
+    """What the data cannot exclude in its place: another effect, an unknown one, none, or its kin."""
+    said = []
     for name, group in judgement.equivalent.items():
         others = [n for n in group if n not in (name, NONE, UNLISTED)]
         if others:
@@ -91,15 +124,18 @@ def explain(
         )
     if any(NONE in group for group in judgement.equivalent.values()):
         said.append(f"That there is no effect at all keeps {_percent(judgement.probability[()])}.")
-    said += beside_kin(judgement)
-    said.append(
+    return said + beside_kin(judgement)
+
+
+def _what_it_leaves(before: Stage, after: Stage, found: tuple[FoundEffect, ...]) -> list[str]:
+    """The fit and the core's law without and with it."""
+    said = [
         f"With it the fit leaves {two_digits(after.rms_percent)} % rms instead of "
         f"{two_digits(before.rms_percent)} %" + _chi2(before, after) + _held_out(before, after, found)
-    )
+    ]
     if after.chi2_per_dof >= before.chi2_per_dof:
         said.append("What speaks for it is not what is left, but how near it leaves stated numbers and law.")
-    said.append(_law(before, after))
-    return tuple(said)
+    return [*said, _law(before, after)]
 
 
 def how_likely(judgement: Judgement, names: tuple[str, ...]) -> str:
