@@ -17,6 +17,8 @@ from fitting.sweep import Sweep
 _INCH_M, _POUND_N = 0.0254, 4.448222
 _SAME = 0.1
 """Of ln of a factor: what the nearest core leaves open of a unit."""
+_BEYOND_HABITS = 2.0
+"""ln of a factor that none of `_HABITS` comes near, 7: what is beyond is hardly anything else than a unit."""
 _FAR = 4.0
 """ln of a factor that no effect, spot or habit comes near: 50."""
 _NO_PHASE = 1e-6
@@ -97,8 +99,8 @@ class Mistake:
 
 
 def _is_same(size: float, value: float) -> bool:
-    """Whether a factor is a known one. What is far from one is hardly anything else, and may be less near."""
-    return bool(abs(np.log(size / value)) < (_SAME if abs(np.log(value)) < _FAR else 2 * _SAME))
+    """Whether a factor is a known one; beyond habits it may be less near."""
+    return bool(abs(np.log(size / value)) < (_SAME if abs(np.log(value)) < _BEYOND_HABITS else 2 * _SAME))
 
 
 def _units(drive: Drive) -> dict[float, str]:

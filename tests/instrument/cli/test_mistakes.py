@@ -56,14 +56,8 @@ def test_a_mistake_is_one_line_with_its_cure(capsys, here, mistake):
     assert ("--force" in line) == mistake.plausibility
 
 
-@pytest.mark.parametrize("mistake", DATA[:3], ids=lambda m: m.name)
-def test_data_of_another_unit_are_questioned(capsys, here, mistake):
-    assert "--force" in refused(capsys, here, mistake)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("mistake", DATA[3:], ids=lambda m: m.name)
-def test_data_of_another_sign_cable_or_plate_are_questioned(capsys, here, mistake):
+@pytest.mark.parametrize("mistake", DATA, ids=lambda m: m.name)
+def test_data_of_another_unit_sign_cable_or_plate_are_questioned(capsys, here, mistake):
     assert "--force" in refused(capsys, here, mistake)
 
 
@@ -74,7 +68,6 @@ def test_whoever_knows_better_insists(capsys, here):
     assert "frequency/Hz" in capsys.readouterr().out
 
 
-@pytest.mark.long
 def test_data_may_be_insisted_on(here):
     mistake = column("velocity in mm/s", lambda c: velocity(c, 1e3), "mm/s")
     mistake.do(here)
