@@ -3,8 +3,6 @@
 import subprocess
 import sys
 
-import pytest
-
 from campaign.__main__ import campaign
 from instrument.cli.main import BAD_INPUT, BY_NAME, run
 
@@ -21,7 +19,6 @@ def test_a_refusal_is_a_line_and_a_status(tmp_path, capsys):
     ]
 
 
-@pytest.mark.long
 def test_it_runs_as_a_module():
     done = subprocess.run(
         [sys.executable, "-m", "campaign", "-h"], capture_output=True, text=True, check=True

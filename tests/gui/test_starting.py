@@ -52,7 +52,6 @@ def test_a_picture_stands_in_until_the_window_comes(qtbot, appearance):
     assert len(colors) > 5
 
 
-@pytest.mark.long
 def test_the_window_loads_nothing_that_only_fits_need():
     done = subprocess.run(
         [sys.executable, "-c", "import sys, gui.window; print(*sys.modules)"],

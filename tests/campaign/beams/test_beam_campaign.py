@@ -95,7 +95,6 @@ def test_the_solid_weighs_what_the_beam_does():
         assert 0.94 < heave @ found.basis.M @ heave / beam.mass_kg < 1.0
 
 
-@pytest.mark.long
 def test_without_poissons_ratio_the_solid_is_the_beam_of_the_fit():
     """With it a clamp holds the beam flat across, as if it were shorter by some 3 % of its width."""
     flat = replace(
@@ -263,7 +262,6 @@ def test_the_command_runs_it(tmp_path, monkeypatch):
     assert "| none | identify |" in said.output
 
 
-@pytest.mark.long
 def test_what_shows_is_what_no_law_takes_up():
     moved = draw_case("spot_offset", 4, beam="strip")
     assert visible_chi2(moved) > 5

@@ -161,7 +161,6 @@ def test_struck_in_its_clamp_it_is_a_file_beside_the_first_whatever_was_clamped_
     assert abs(int(np.argmax(v[0] * first.sweep.frequency_hz)) - int(np.argmax(v[1]))) <= 1
 
 
-@pytest.mark.long
 def test_hung_free_it_has_left_its_clamp_and_is_read_about_its_own_resonances():
     f = np.linspace(20.0, 200.0, 8)
     one = rig(CLAMP, HIDDEN["added_mass"](0.01, 0.3, 0.15, 8e-3))

@@ -56,7 +56,6 @@ def found(sweep):
     return mains_hum(sweep, noise_of(sweep))
 
 
-@pytest.mark.long
 def test_300_clean_sweeps_raise_no_alarm():
     # Longer runs, 1500 sweeps or more of each of twelve kinds (levels, densities, amplitudes, peaks a few
     # points wide): 1 alarm in 19400, at a peak of 1 % loss one hertz from 300 Hz.

@@ -61,7 +61,6 @@ def test_many_residuals_are_those_in_full_near_the_fit(quantities, many):
     assert np.median(off) < 0.15
 
 
-@pytest.mark.long
 def test_chains_have_seen_enough_and_the_profile_is_near_the_linear_errors(quantities, many):
     with threadpool_limits(1, "blas"):
         by_profile = profile(quantities)

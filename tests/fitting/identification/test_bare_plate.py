@@ -72,7 +72,6 @@ def hammer(bare_hz, seed):
     return bare_hz * (1 + 5e-4 * np.random.default_rng(seed).normal(size=8))
 
 
-@pytest.mark.long
 def test_stiffness_is_found_within_half_a_percent_and_its_error_is_honest(zn1, bare_hz):
     fits = [fit_bare_plate(zn1, hammer(bare_hz, seed), np.array(zn1.modal_ratios)) for seed in range(30)]
     error = np.log([f.young_scale for f in fits]) - np.log(1.06)

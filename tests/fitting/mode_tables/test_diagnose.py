@@ -37,7 +37,6 @@ def test_a_stiffer_face_is_named_and_its_factor_found():
     assert found.temper >= 1.0
 
 
-@pytest.mark.long
 def test_two_effects_are_not_certain_by_the_few_numbers_of_a_table_however_well_they_fit():
     both = replace(
         BEAM, substrate=replace(FACE, young_pa=1.35 * 70e9), constraining=replace(FACE, thickness_m=1.5e-3)

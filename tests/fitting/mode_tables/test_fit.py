@@ -84,7 +84,6 @@ def test_what_a_metal_may_lose_is_in_the_band_of_a_core_that_loses_little():
     assert abs(off[False]) < 2
 
 
-@pytest.mark.long
 def test_what_a_mesh_gets_wrong_of_a_plate_s_modes_is_taken_off():
     fine = complex_modes(Plate(tapped(replace(PLATE, elements=(48, 32)))), LAW, 6)
     rows = ModalTable(np.arange(1.0, 7), np.full(6, 50.0), np.full(6, 0.1), read="model")

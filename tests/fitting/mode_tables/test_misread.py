@@ -24,7 +24,7 @@ def with_row(table, k, f=1.0, eta=1.0):
     )
 
 
-@pytest.mark.parametrize("k", [0, 3, *(pytest.param(k, marks=pytest.mark.long) for k in (1, 2, 4, 5))])
+@pytest.mark.parametrize("k", range(6))
 @pytest.mark.parametrize(("f", "eta"), [(1.05, 1.0), (1.0, 1.9), (0.93, 0.7)])
 def test_the_odd_row_is_found_and_where_the_others_have_it(k, f, eta):
     table = read(BEAM)
@@ -36,9 +36,7 @@ def test_the_odd_row_is_found_and_where_the_others_have_it(k, f, eta):
     assert odd.others.chi2_per_dof < 3
 
 
-@pytest.mark.parametrize(
-    "seed", [*range(5), *(pytest.param(k, marks=pytest.mark.long) for k in range(5, 12))]
-)
+@pytest.mark.parametrize("seed", range(12))
 def test_of_noise_no_row_is_odd(seed):
     assert misread(begun(read(BEAM, seed=seed)).begun) is None
 
@@ -57,7 +55,6 @@ def test_two_odd_rows_are_none():
     assert misread(begun(table).begun) is None
 
 
-@pytest.mark.long
 def test_no_effect_is_named_for_a_row_that_is_misread():
     table = with_row(read(BEAM), 2, 1.05)
     problem = ModalProblem.of([member_of(table, BEAM)])

@@ -311,7 +311,6 @@ def test_the_heading_of_a_pane_shows_that_resonance_alone(qtbot, looked_at):
     assert page.response.amplitude.isVisible()
 
 
-@pytest.mark.long
 def test_the_foreseen_curve_is_what_predict_says_of_the_stated_specimen(qtbot, page):
     qtbot.waitUntil(lambda: page.foreseen.curve is not None, timeout=PATIENCE_MS)
     assert page.foreseen.failure == ""

@@ -138,7 +138,6 @@ def test_a_hammer_test_is_named_on_its_button_and_taken_away_by_its_cross(qtbot,
     assert not files.bare.isVisible()
 
 
-@pytest.mark.long
 def test_one_file_alone_is_identified_too(qtbot, page, masses):
     page.together.add(masses[:1])
     qtbot.waitUntil(lambda: "..." not in page.chosen.table.texts(3))

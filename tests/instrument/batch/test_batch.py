@@ -80,7 +80,6 @@ def test_a_row_says_what_identify_says(tmp_path, sweeps, plate):
     assert float(row["rms_percent"]) == pytest.approx(alone["rms_percent"], rel=1e-9)
 
 
-@pytest.mark.long
 def test_a_sweep_in_another_unit_is_a_row_that_fails_unless_someone_insists(tmp_path, sweeps, plate):
     head, *rows = (line.split(",") for line in sweeps[0].read_text().splitlines())
     lines = [head] + [[row[0], *(repr(1e3 * float(x)) for x in row[1:])] for row in rows]

@@ -29,7 +29,7 @@ def about(found):
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-@pytest.mark.parametrize("bandwidths", [0.7, pytest.param(1.0, marks=pytest.mark.long)])
+@pytest.mark.parametrize("bandwidths", [0.7, 1.0])
 def test_a_pair_less_than_a_bandwidth_apart_is_two_modes(bandwidths, sign):
     off = []
     for seed in range(3):
@@ -44,9 +44,7 @@ def test_a_pair_less_than_a_bandwidth_apart_is_two_modes(bandwidths, sign):
     assert np.sqrt(np.mean(np.square(off))) < 2.5
 
 
-@pytest.mark.parametrize(
-    ("bandwidths", "sign"), [(1.9, -1.0), (1.9, -0.5), pytest.param(3.5, -0.25, marks=pytest.mark.long)]
-)
+@pytest.mark.parametrize(("bandwidths", "sign"), [(1.9, -1.0), (1.9, -0.5), (3.5, -0.25)])
 def test_a_pair_of_opposite_sign_that_has_one_peak_is_two_modes(bandwidths, sign):
     f, ratio, amplitude = pair(bandwidths, sign, (RATIO, 1.3 * RATIO))
     two = about(found_in(f, ratio, amplitude, 0))

@@ -35,7 +35,6 @@ def absolute(frequency_hz=FREQUENCY_HZ):
     return Sweep(frequency_hz, v, 9.81 * ones, ones, ones, base_m_s2=9.81 * ones + 0j)
 
 
-@pytest.mark.long
 def test_stated_numbers_that_a_lost_fit_had_moved_do_not_stay_where_the_cause_is_found():
     others = [name for name in CATALOGUE if name != "absolute_velocity"]
     found = diagnose_together([File(absolute(), OBERST)], others).found.result

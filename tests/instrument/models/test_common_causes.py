@@ -61,7 +61,6 @@ def within(found, key, truth):
     return abs(it.value - truth) < 3.5 * it.standard_error
 
 
-@pytest.mark.long
 def test_a_delay_of_all_sweeps_is_named_and_the_law_found_beside_it(exact):
     found = asked(exact, SIMPLE, late)
     assert found.cause.effect.name == "channel_delay"
@@ -72,7 +71,6 @@ def test_a_delay_of_all_sweeps_is_named_and_the_law_found_beside_it(exact):
     assert np.all(np.abs(off) < 3.5 * found.fit.log_shift_errors + 1e-9)
 
 
-@pytest.mark.long
 def test_a_wrong_gain_of_all_sweeps_is_named(exact):
     found = asked(exact, SIMPLE, loud)
     assert found.cause.effect.name == "gain_error"

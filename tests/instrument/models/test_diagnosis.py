@@ -130,7 +130,6 @@ def test_where_all_that_lead_fail_every_place_is_tried():
     assert np.hypot(place[0] - truth["x_m"], place[1] - truth["y_m"]) < 5e-3
 
 
-@pytest.mark.long
 def test_one_mass_is_not_taken_for_two():
     """From the law without it a single mass ends elsewhere; a search for two comes upon its place."""
     found = diagnose(

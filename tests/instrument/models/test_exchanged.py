@@ -46,7 +46,6 @@ def test_a_mass_that_is_stated_wrongly_is_no_exchange():
     assert exchanged([*given[:2], replace(given[2], specimen=wrong)]) is None
 
 
-@pytest.mark.long
 def test_identify_says_so_first():
     said = identify_together(files((0, 2, 1))).found.result.warnings[0]
     assert said.startswith("0.573 kg and 1.196 kg seem to have each other's specimens")
@@ -62,7 +61,6 @@ def test_a_fit_that_leaves_as_much_as_its_readings_is_asked_whatever_its_noise()
     assert leaves_much(begun)
 
 
-@pytest.mark.long
 def test_diagnose_names_no_temperature_in_its_place():
     with pytest.raises(OutsideModel, match=r"each other's specimens.*exchange them"):
         diagnose_together(files((0, 2, 1)))

@@ -56,15 +56,7 @@ def write(path, name, f, values, *, force=False):
     )
 
 
-@pytest.mark.parametrize(
-    "data",
-    [
-        pytest.param("acceleration"),
-        pytest.param("displacement", marks=pytest.mark.long),
-        pytest.param("accelerance", marks=pytest.mark.long),
-        pytest.param("receptance"),
-    ],
-)
+@pytest.mark.parametrize("data", ["acceleration", "displacement", "accelerance", "receptance"])
 def test_a_struck_free_plate_gives_its_law_from_any_reading(folder, capsys, data):
     line = ["identify", str(folder / f"{data}.csv"), "--specimen", str(folder / "start.toml")]
     assert run([*line, "--json", "-"]) == 0

@@ -61,7 +61,7 @@ def of_the_whole_plate(specimen, mass, omega, law):
     return np.array(found)
 
 
-@pytest.mark.parametrize("exact", [pytest.param(True, marks=pytest.mark.long), False])
+@pytest.mark.parametrize("exact", [True, False])
 def test_a_heavy_one_is_as_on_the_whole_plate(exact):
     heavy = PlacedMass(60e-3, 0.25, 0.06)
     plate = replace(plate_of_the_rig(), exact=exact)

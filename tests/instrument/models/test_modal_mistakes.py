@@ -51,7 +51,6 @@ def test_a_right_table_is_not_asked_about(seed):
     assert doubt(read(seed)) == ""
 
 
-@pytest.mark.long
 def test_a_mode_that_is_missing_is_asked_about():
     rest = RIGHT.mode != 3
     columns = {name: v[rest] for name, v in vars(RIGHT).items() if isinstance(v, np.ndarray)}

@@ -78,7 +78,7 @@ def test_a_refusal_reaches_the_caller(two):
         list(two.each(Squares().refuse, list(range(20))))
 
 
-@pytest.mark.parametrize("others", [pytest.param(1, marks=pytest.mark.long), 2])
+@pytest.mark.parametrize("others", [1, 2])
 def test_processes_that_are_killed_leave_their_work_to_the_first(others):
     with SeveralProcesses(others) as executor:
         for _ in range(3):

@@ -65,7 +65,6 @@ def said(capsys, arguments):
     return json.loads(capsys.readouterr().out)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("other", ["struck", "free"])
 def test_what_a_base_and_a_force_drive_gives_one_law(folder, capsys, other):
     result = said(capsys, line("identify", folder, "right", other))

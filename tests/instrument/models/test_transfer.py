@@ -24,7 +24,7 @@ def law_off(band):
     return np.abs(found / G - 1).max()
 
 
-@pytest.mark.parametrize("alike", [True, pytest.param(False, marks=pytest.mark.long)])
+@pytest.mark.parametrize("alike", [True, False])
 def test_only_what_all_files_have_in_common_is_listed_and_changes_the_law(alike):
     given = files(alike=alike)
     # Nothing searched: as where the catalogue has explained nothing.

@@ -177,7 +177,6 @@ def uneven(clamps):
     return replace(clamps, each=((clamp, 0.5), (other, 0.5)), temper=1.0)
 
 
-@pytest.mark.long
 def test_where_the_plate_twists_a_spot_beside_the_axis_tells_whether_a_clamp_is_uneven(uneven):
     asked = RivalForecasts(uneven, 6)
     template = Template.of(asked, SweepSettings())

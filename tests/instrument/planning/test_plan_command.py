@@ -176,7 +176,6 @@ def test_a_law_without_numbers_or_without_loss_is_refused_in_one_line(capsys, sp
     assert len(err.splitlines()) == 1
 
 
-@pytest.mark.long
 def test_below_the_first_resonance_it_is_that_which_rings(capsys, specimen):
     status, out, err = call(capsys, "plan", specimen, "--band", "2:6", "--no-spots", "--json", "-")
     assert status == 0, err
@@ -184,7 +183,6 @@ def test_below_the_first_resonance_it_is_that_which_rings(capsys, specimen):
     assert [steps[0]["frequency_hz"], steps[-1]["frequency_hz"]] == [2.0, 6.0]
 
 
-@pytest.mark.long
 def test_a_spot_beside_the_clamp_is_planned_for(capsys, specimen, tmp_path):
     # A shorter free length puts it onto the clamp, where nothing moves.
     path = tmp_path / "specimen.toml"

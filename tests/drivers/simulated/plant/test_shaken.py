@@ -80,7 +80,6 @@ def integrated(plate, pieces, times):
     return np.array(out).T
 
 
-@pytest.mark.long
 @one_thread
 def test_agrees_with_an_independent_integration():
     plate = ShakenPlate(ALL_IN_ONE)

@@ -42,7 +42,6 @@ def test_it_weighs_what_it_is_made_of_and_shakes_as_one():
         np.testing.assert_allclose(K @ solid.rigid, 0, atol=1e-9 * abs(K).max())
 
 
-@pytest.mark.long
 def test_a_finer_mesh_says_the_same():
     core = Sheet(0.5e-3, 2 * 1.49 * 1e6, 0.49, 1000.0)
     stated = BeamStated(0.2, 0.02, "clamped-free", (METAL, core, METAL), (1,), 0.15)

@@ -31,7 +31,6 @@ def test_a_thin_disc_shears_and_a_thick_one_gives_way_at_its_edges():
     assert thick == pytest.approx(0.936, abs=2e-3)
 
 
-@pytest.mark.long
 def test_a_finer_mesh_says_the_same():
     assert shear_share(pair(6e-3)) == pytest.approx(shear_share(pair(6e-3), (10, 8), 4), rel=1e-3)
 

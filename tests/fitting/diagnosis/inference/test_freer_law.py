@@ -106,7 +106,6 @@ def test_beside_an_effect_a_material_far_from_the_formula_gets_its_freedom_and_p
     assert again.cost == pytest.approx(tempered + rare)
 
 
-@pytest.mark.long
 def test_an_effect_is_named_though_its_core_is_off_any_formula_and_that_is_said():
     start = begun(0.8, LATER_S)
     v = start.problem.sweep.velocity_m_s

@@ -56,7 +56,6 @@ def test_rows_are_those_of_the_plate_as_it_was_found(struck):
     assert np.linalg.norm(moved - expected) < 0.05 * np.linalg.norm(stated - expected)
 
 
-@pytest.mark.long
 def test_a_shaken_plate_and_one_that_is_exact_are_asked_as_stated(struck, zn1):
     assert not ready(replace(struck, exact=True, tolerances={})).problem.errs_as_found
     assert not ready(replace(zn1, elements=(8, 6), exact=False)).problem.errs_as_found

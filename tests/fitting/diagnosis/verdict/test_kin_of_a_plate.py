@@ -88,7 +88,6 @@ def test_readings_that_say_less_leave_more_kin(ready):
     assert sharp < blunt < 1.2 * ODDS
 
 
-@pytest.mark.long
 def test_within_the_error_of_an_effects_own_formula_kin_is_the_effect_itself(ready, monkeypatch):
     task = late(ready, gains=(1.004, 0.996, 1.004))
     much = odds(task, ready.reduced)
@@ -106,7 +105,6 @@ def test_where_the_noise_is_not_known_there_is_none(ready):
     assert kin_of(search, fitted, 1.0) is None
 
 
-@pytest.mark.long
 def test_files_of_one_plate_have_their_resonances_in_common(ready):
     """Two files that are off alike speak for it together."""
     tasks = [late(ready, gains=(1.01, 0.99, 1.01), seed=k) for k in (1, 2)]

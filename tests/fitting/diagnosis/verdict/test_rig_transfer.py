@@ -42,11 +42,10 @@ def test_what_all_masses_have_in_common_is_found_and_leaves_the_law():
     assert law_error(after.none.law).max() < 0.4 * law_error(begun.none.law).max()
 
 
-@pytest.mark.long
 @pytest.mark.parametrize(
     ("first_seeds", "within"),
     # One draw of noise may leave twice as much.
-    [((0,), 0.02), ((0, 10, 20), 0.01)],
+    [((0,), 0.02), pytest.param((0, 10, 20), 0.01, marks=pytest.mark.long)],
     ids=["one draw", "three draws"],
 )
 def test_it_is_found_within_a_percent_or_so(first_seeds, within):
@@ -61,7 +60,6 @@ def test_it_is_found_within_a_percent_or_so(first_seeds, within):
     assert np.median(off) < within
 
 
-@pytest.mark.long
 def test_files_that_wander_each_by_itself_have_nothing_in_common():
     problem, noise = task(sweeps_of_masses(120, alike=False))
     begun = begin(problem, None, noise, None, LAW)
@@ -69,7 +67,6 @@ def test_files_that_wander_each_by_itself_have_nothing_in_common():
     assert rig_transfer(begun.problem, begun.evidence, begun.none) is None
 
 
-@pytest.mark.long
 def test_held_out_it_predicts_better_than_a_law_alone():
     problem, noise = task(sweeps_of_masses(120, alike=True))
     begun = begin(problem, None, noise, None, LAW)
