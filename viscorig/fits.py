@@ -97,13 +97,14 @@ def diagnose(
     """Which effect the residual of a sweep or a session shows, and the law without and with it.
 
     Effects in `without` are not considered; those in `accept` are fitted on your word and nothing is
-    searched for. `resamples` sweeps without effects give the p-value, by default where points are few. The
-    same numbers as `viscorig diagnose`. Raises `BadInput`, `OutsideModel`, `TooFewPoints`.
+    searched for. `resamples` sweeps without effects give the p-value, with one pickup only, and by default
+    where points are few. The same numbers as `viscorig diagnose`. Raises `BadInput`, `OutsideModel`,
+    `TooFewPoints`.
     """
     given = _given(data, specimen, hammer)
     points, model, declined = given.points, given.plate.model, frozenset(without)
     if points.pickup is not None:
-        _whole_sweeps_alone(given)
+        _whole_sweeps_alone(given, resamples=resamples)
         spots = spots_of(points, model)
         several = diagnose_together(spots, declined, bar, accept)
         return Diagnosis(with_open_questions(diagnosed_together_from(several, spots), several.found))
@@ -111,8 +112,12 @@ def diagnose(
     return Diagnosis(given.said(with_open_questions(diagnosis_from(found, points), found)))
 
 
-def _whole_sweeps_alone(given: Given, *, pointwise: bool = False, method: Method = "direct") -> None:
+def _whole_sweeps_alone(
+    given: Given, *, pointwise: bool = False, method: Method = "direct", resamples: int | None = None
+) -> None:
     """Raises `BadInput`."""
+    if resamples is not None:
+        raise BadInput("resamples with several pickups, expected one pickup")
     if pointwise or method == "paper" or given.modes is not None:
         raise BadInput("several pickups with pointwise, method 'paper' or a hammer test, expected one pickup")
 

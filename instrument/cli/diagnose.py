@@ -41,7 +41,7 @@ from instrument.results.together_from import diagnosed_together_from
     "--resamples",
     type=click.IntRange(0, 1000),
     help="Repeat the search on so many sweeps drawn without any effect (p-value), and with segments held "
-    "out. Always done for 30 points or fewer; 0 for never.",
+    "out. For one sweep of a plate at one spot, and always done there for 30 points or fewer; 0 for never.",
 )
 @figures_option("Save residual, evidence and law as PNG.")
 @json_option
@@ -81,6 +81,11 @@ def diagnose(
     declined, accepted = frozenset(without), _accepted(accept)
     files, given = together(every, data), every[0]
     if files is not None:
+        if resamples is not None:
+            raise click.UsageError(
+                "--resamples with several files or spots, a beam or a shear pair: "
+                "expected one sweep of a plate at one spot"
+            )
         several = diagnose_together(files, declined, bar, accepted, given.modes)
         result = with_open_questions(diagnosed_together_from(several, files), several.found)
     else:

@@ -65,6 +65,11 @@ def test_what_is_of_one_pickup_is_refused(loaded, keywords):
         vr.identify(*loaded, **keywords)
 
 
+def test_a_search_is_not_repeated_for_several_pickups(loaded):
+    with pytest.raises(BadInput, match=r"resamples with several pickups, expected one pickup"):
+        vr.diagnose(*loaded, resamples=2)
+
+
 def test_a_beam_is_refused_by_its_name(tmp_path):
     path = tmp_path / "beam.toml"
     write_new("beam", path)

@@ -1,6 +1,7 @@
 """`viscorig diagnose` as a user calls it: what it reads, refuses, prints, saves."""
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -150,6 +151,16 @@ def test_bad_input_is_one_line(capsys, arguments, word):
     status, out, err = call(capsys, "diagnose", *arguments)
     assert (status, err.count("\n"), out) == (2, 1, "")
     assert word in err
+
+
+def test_repeats_of_the_search_are_refused_with_several_files(capsys, coarse, tmp_path):
+    other = tmp_path / "other.csv"
+    other.write_text(re.sub(r"\d,(\d)\n", r"0,\1\n", Path(TABLE5).read_text()))
+    words = ("diagnose", TABLE5, other, "--specimen", coarse, "--force", "--resamples", "1")
+    status, _, err = call(capsys, *words)
+    assert status == 2
+    assert "--resamples with several files or spots, a beam or a shear pair" in err
+    assert err.count("\n") == 1
 
 
 def test_a_sweep_keeps_its_times_and_a_hammer_test_takes_part(capsys, given, tmp_path):
