@@ -63,6 +63,8 @@ class Card:
                 "WARNING: the fit says that this law may be biased beyond its band: see its warnings, and "
                 "'viscorig diagnose'"
             )
+        if not law.converged:
+            lines.append("WARNING: the fit has not come to its end: values and their errors are provisional")
         assumed = (
             " (assumed: not stated in the source; --specimen states it)"
             if self.poisson_is_assumed

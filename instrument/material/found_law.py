@@ -72,6 +72,7 @@ class _LawFound(BaseModel):
     standard_errors: dict[str, float | None] = {}
     law: list[_Row] = Field(min_length=2)
     temperature_c: Warmth | None = None
+    converged: bool = True
 
 
 class _Warm(BaseModel):
@@ -143,6 +144,8 @@ class MaterialLaw:
     """The numbers with a tolerance that it rests on."""
     is_doubted: bool = False
     """Whether its fit, not diagnosed, says of itself that it may be biased."""
+    converged: bool = True
+    """Whether its fit came to its end."""
 
     @property
     def same(self) -> str | None:
@@ -318,4 +321,5 @@ def _law(path: Path, found: _LawFound, verdict: str) -> MaterialLaw | None:
         storage_error,
         loss_error,
         found.temperature_c,
+        converged=found.converged,
     )

@@ -21,6 +21,8 @@ def remarks_on_law(law: MaterialLaw, *, beside_spread: bool) -> list[str]:
         said.append(f"its fit says that this law may be biased beyond its band{beside}")
     elif law.verdict == "ambiguous":
         said.append(f"verdict ambiguous ({law.found}): its band spans the laws of all of these")
+    if not law.converged:
+        said.append("its fit has not come to its end: values and their errors are provisional")
     if doubt := kelvin_doubt(law.temperature_c):
         said.append(doubt)
     return said

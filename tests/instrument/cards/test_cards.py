@@ -297,3 +297,10 @@ def test_a_fit_that_doubts_itself_says_so_in_its_card(tmp_path):
     assert any("WARNING: the fit says" in line for line in Card.of(law).header())
     (tmp_path / "b.json").write_text(json.dumps(facts(warnings=["tolerances not named"])), encoding="utf-8")
     assert not read_law(tmp_path / "b.json").is_doubted
+
+
+def test_a_fit_that_has_not_come_to_its_end_says_so_in_its_card(tmp_path):
+    for converged, warned in ((False, 1), (True, 0)):
+        (tmp_path / "a.json").write_text(json.dumps(facts(converged=converged)), encoding="utf-8")
+        header = Card.of(read_law(tmp_path / "a.json")).header()
+        assert sum("WARNING: the fit has not come to its end" in line for line in header) == warned

@@ -257,7 +257,7 @@ def test_stopped_by_the_user_is_130(capsys, monkeypatch):
 
 def test_a_pipe_sees_no_progress(tmp_path):
     done = subprocess.run(
-        [sys.executable, "-m", "instrument.cli", "modes", ZN1, "--count", "1"],
+        [sys.executable, "-m", "viscorig", "modes", ZN1, "--count", "1"],
         capture_output=True,
         text=True,
         check=True,

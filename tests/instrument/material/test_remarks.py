@@ -37,6 +37,11 @@ def test_a_law_with_an_unknown_verdict_may_be_biased(law_of, beside_spread, endi
     assert "is it in K?" in kelvin
 
 
+def test_a_law_whose_fit_has_not_come_to_its_end_is_provisional(law_of):
+    (said,) = remarks_on_law(law_of(TABLE_4, converged=False), beside_spread=False)
+    assert said.startswith("its fit has not come to its end")
+
+
 def test_laws_that_differ_do_so_at_ranges_of_frequency(law_of):
     (said,) = remarks_on_pair(compare(law_of(TABLE_4), law_of(SOFTER)))
     assert said.startswith("G' differs beyond 1.96 joint standard errors at 14 to 300 Hz")
