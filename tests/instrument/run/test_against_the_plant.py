@@ -82,7 +82,6 @@ def test_every_step_reads_the_plants_steady_state(quiet_run, plant):
         assert abs(np.degrees(np.angle(ratio))) < 0.2
 
 
-@pytest.mark.long
 def test_the_level_holds_at_every_step_though_the_shaker_varies_twenty_decibels(quiet_run, demo_run, plant):
     gains = [abs(plant.steady_state(f)["base_acceleration"]) for f in np.linspace(14, 310, 300)]
     assert 20 * np.log10(max(gains) / min(gains)) > 18
@@ -90,7 +89,6 @@ def test_the_level_holds_at_every_step_though_the_shaker_varies_twenty_decibels(
         assert max(abs(p.control_error_percent) for p in steps(run)) < 1.0
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("which", ["quiet_run", "demo_run"])
 def test_a_sweep_takes_little_more_than_the_plant_needs_to_settle(which, request, plant):
     """Least time: the slowest vibration falls to 0.1 %, and the dwell. Loop checks and sentinels count."""

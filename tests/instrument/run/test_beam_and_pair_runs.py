@@ -70,7 +70,6 @@ def beam_run(tmp_path_factory):
     return run_experiment(experiment, folder, ("sweep",), fit=no_fit)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize(("kind", "which"), [("beam", "beam_run"), ("shear-pair", "pair_run")])
 def test_every_step_reads_the_plants_steady_state(kind, which, request, tmp_path):
     run = request.getfixturevalue(which)
@@ -83,7 +82,6 @@ def test_every_step_reads_the_plants_steady_state(kind, which, request, tmp_path
         assert ratio == pytest.approx(1.0, abs=1e-2)
 
 
-@pytest.mark.long
 def test_the_pairs_law_is_found_live_what_free_edges_give_way_counted(pair_run, tmp_path):
     """The plant is a solid: its discs are softer by 6 to 7 % than G A / t, which the template counts."""
     write_new("shear-pair", tmp_path / "true.toml")
@@ -97,7 +95,6 @@ def test_the_pairs_law_is_found_live_what_free_edges_give_way_counted(pair_run, 
     assert not set(pair_run.diagnosis.result.equivalent) - {"none", "added_mass"}
 
 
-@pytest.mark.long
 def test_a_session_of_a_pair_is_replayed_read_and_reported(pair_run, tmp_path):
     with SessionFile(pair_run.session) as session:
         assert replay(session).differences == []
@@ -114,7 +111,6 @@ def test_a_session_of_a_pair_is_replayed_read_and_reported(pair_run, tmp_path):
         _ = given.plate
 
 
-@pytest.mark.long
 def test_a_fits_curve_goes_through_the_points_of_its_session(pair_run, tmp_path):
     """`predict --fit`, which the window draws its curve by."""
     with SessionFile(pair_run.session) as session:
@@ -134,7 +130,6 @@ def test_a_fits_curve_goes_through_the_points_of_its_session(pair_run, tmp_path)
         assert 0 < point.velocity_standard_error_m_s < 0.01 * point.velocity_m_s
 
 
-@pytest.mark.long
 def test_a_pair_is_driven_across_the_rigs_own_resonance_in_coarse_steps(tmp_path):
     """The fixture's, at 162 Hz beside an anti-resonance: seven times the gain from 150 to 160 Hz."""
     path = write_files(tmp_path, "shear-pair")
