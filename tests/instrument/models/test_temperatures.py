@@ -189,7 +189,6 @@ def test_one_wrong_temperature_is_named_and_the_material_is_not_blamed(plate):
     assert any("the factor of 43 degC is above that of 36 degC" in one for one in free.warnings)
 
 
-@pytest.mark.long
 def test_three_temperatures_leave_wlf_nothing_that_checks_one(plate):
     made = stated_otherwise(sweeps(plate, [OneProcess(a) for a in wlf()])[:3], [0, 0, 20.0])
     found = identify_shifted(made, plate, "wlf", REFERENCE)

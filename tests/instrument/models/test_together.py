@@ -89,7 +89,6 @@ def test_a_common_mass_is_named_where_channels_wander_too():
     assert found.after.rms_percent < 0.5 * found.before.rms_percent
 
 
-@pytest.mark.long
 def test_one_mass_with_wandering_channels_names_nothing():
     given = files([0.573], more_kg=0.05 * 0.573, wander=1e-3, points=160)
     found = diagnose_together(given).found.result
