@@ -35,6 +35,7 @@ from fitting.structures.beam_error import (
 )
 from fitting.structures.beam_parts import carrying, parts_of
 from fitting.structures.beam_section import PARTS, BeamSection
+from fitting.structures.beam_shapes import ORDER, ORDER_OF_FORCED
 from fitting.structures.small import Parts
 from fitting.structures.stated_beam import StatedBeam
 
@@ -89,6 +90,8 @@ class Beam(StatedBeam):
     def section(self) -> BeamSection:
         """What its matrices are made of: the same at all temperatures."""
         layers = (self.substrate, self.core, self.constraining)
+        at = self.places if "force" in self.places else {}
+        forced_at = tuple(x / self.span_m for x in at.values())
         return BeamSection(
             ends="clamped-free" if self.boundary == "centre-driven" else self.boundary,
             length_m=self.span_m,
@@ -103,6 +106,8 @@ class Beam(StatedBeam):
             poisson=tuple(0.0 if x is None else x.poisson for x in layers),  # type: ignore[arg-type]
             share=self.share,
             is_slender=self.slender,
+            order=ORDER_OF_FORCED if forced_at else ORDER,
+            forced_at=forced_at,
         )
 
     def coefficients(self, by: Mapping[str, Number]) -> Complex:

@@ -25,7 +25,6 @@ from fitting.structures.beam_let_go import hold_above, treatment_let_go
 from fitting.structures.beam_reading import ELEMENTS, deflection, read_otherwise, row_at
 from fitting.structures.beam_section import PARTS, SLIP, BeamSection
 from fitting.structures.beam_shapes import (
-    ORDER,
     BeamMatrices,
     gauss,
     matrices_of,
@@ -50,6 +49,8 @@ _MODES = 10
 """Of each modulus, that the basis holds."""
 _MODULI_PA = (1e5, 3e6, 1e8, 3e9)
 """From a core that only stores to a free layer as stiff as a plastic: the modes of each are in the basis."""
+_BESIDE_MODES = 1e-6
+"""Of how a beam yields to a force at a point: what its modes do not have already."""
 _NEGLIGIBLE = 1e-9
 """Of the basis' vectors, relative: what is in the others."""
 _APART = 1e-5
@@ -63,10 +64,14 @@ def _summed(section: BeamSection, which: str) -> Array:
     return np.tensordot(section.coefficients[PARTS[which]], getattr(sectioned(section), which), axes=1)
 
 
-@lru_cache(maxsize=64)
 def sectioned(section: BeamSection) -> BeamMatrices:
     """Those of its ends with what its width does; K_0 has what is more where that is held before the pull."""
-    plain = matrices_of(section.ends, section.share, section.arms)
+    return _sectioned(replace(section, forced_at=()))
+
+
+@lru_cache(maxsize=64)
+def _sectioned(section: BeamSection) -> BeamMatrices:
+    plain = matrices_of(section.ends, section.share, section.arms, section.order)
     faces, pull = plain.K_0[:4], plain.K_0[4:]
     if section.is_slender:
         return replace(plain, K_0=np.concatenate([faces, np.zeros_like(faces), pull]))
@@ -87,7 +92,7 @@ def _core_across(section: BeamSection) -> Array:
     """What a width adds to a core's shear, and what width and shear do to a free layer. As K_1."""
     s, L = section.shapes, section.length_m
     (nu_b, nu_v, _), h_v = section.poisson, section.thickness_m[1]
-    bend, found = s.rows("w", PLACES, 2), np.zeros_like(matrices_of(section.ends).K_1)
+    bend, found = s.rows("w", PLACES, 2), np.zeros_like(matrices_of(section.ends, order=section.order).K_1)
     if section.is_sandwich:
         # Its faces narrow by what it lets them slip, and it shears across.
         nu = section.faces_poisson
@@ -234,20 +239,36 @@ def _columns(section: BeamSection) -> tuple[NDArray[np.str_], Array, Array]:
 
 @lru_cache(maxsize=64)
 def _modes(section: BeamSection) -> Array:
-    """Of a few moduli, and what rests, in units of each unknown's own size. Shape (moving, k)."""
+    """Of a few moduli, and what rests, in units of each unknown's own size. Shape (moving, k).
+
+    Where a force drives at a point its beam yields there as many modes more do: that is in the basis too, as
+    the answers to the force (and to one where it is read) while its own inertia holds it.
+    """
     kept = np.flatnonzero(section.moves & section.shapes.is_held)
     square = np.ix_(kept, kept)
     stiff, core, mass = (_summed(section, name)[square] for name in ("K_0", "K_1", "M"))
     # Equal sizes of all polynomials: their squares differ by many orders.
     size = 1 / np.sqrt(np.diag(mass))
-    found = []
+    rows = [row_at(section, np.eye(section.shapes.size)[:, kept], x) for x in section.forced_at]
+    # A held end does not yield.
+    rows = [row * size for row in rows if row.any()]
+    found, yielding = [], []
     for G in _MODULI_PA if core.any() else (0.0,):
-        K = (stiff + G * core) * np.outer(size, size)
-        _, V = la.eigh(K, mass * np.outer(size, size), subset_by_index=[0, min(_MODES, len(kept)) - 1])
+        K, M = (A * np.outer(size, size) for A in (stiff + G * core, mass))
+        squares, V = la.eigh(K, M, subset_by_index=[0, min(_MODES, len(kept)) - 1])
         found.append(V)
+        if rows:
+            # A free beam does not rest under a force; held softly and firmly they span how it yields between.
+            held = (squares[len(squares) // 2], squares[-1])
+            yielding += [la.solve(K + by * M, np.transpose(rows), assume_a="pos") for by in held]
     whole = np.hstack(found)
     Q, values, _ = np.linalg.svd(whole / np.linalg.norm(whole, axis=0), full_matrices=False)
     Q = np.asarray(Q[:, values > _NEGLIGIBLE * values[0]])
+    if yielding:
+        more = np.hstack(yielding)
+        more = more / np.linalg.norm(more, axis=0)
+        beside, values, _ = np.linalg.svd(more - Q @ (Q.T @ more), full_matrices=False)
+        Q = np.hstack([Q, beside[:, values > _BESIDE_MODES]])
     # How far faces part goes with 1/G, beside what moves with it.
     return np.hstack([Q, _alone(Q, section.of_core[kept], _PARTED)])
 
@@ -279,7 +300,7 @@ def _faces_apart(section: BeamSection, own: Array, size: Array) -> Array:
 def _asked_for(section: BeamSection) -> dict[str, Array]:
     """Matrices over all unknowns by the names that effects know. Shape (size, size) each."""
     s, L = section.shapes, section.length_m
-    x, weight = gauss(2 * ORDER)
+    x, weight = gauss(2 * s.order)
     w = s.rows("w", x)
     moving = L * np.asarray((w * weight) @ w.T)
     found = {"air.M": _air_kg_m(section) * moving, "air.film": section.copies * section.width_m * moving}
@@ -296,7 +317,7 @@ def _asked_for(section: BeamSection) -> dict[str, Array]:
     if section.is_doubled:
         return found
     by_pieces = np.einsum(
-        "p,kpij->kij", section.coefficients[SLIP], slip_by_pieces(section.ends, section.arms)
+        "p,kpij->kij", section.coefficients[SLIP], slip_by_pieces(section.ends, section.arms, section.order)
     )
     found |= {f"strips_x.{k:03d}": A for k, A in enumerate(by_pieces)}
     found["grading_x.K_1"] = _slip(section, x - 0.5)
@@ -307,7 +328,7 @@ def _asked_for(section: BeamSection) -> dict[str, Array]:
 
 def _slip(section: BeamSection, share: Array | float = 1.0) -> Array:
     """The core's shear for a modulus of one, times a share at every place of quadrature."""
-    x, weight = gauss(2 * ORDER)
+    x, weight = gauss(2 * section.shapes.order)
     return np.tensordot(
         section.coefficients[SLIP], section.shapes.slip(x, weight * share, section.arms), axes=1
     )

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.structures.beam_shapes import NO_ARMS, Arms, Shapes, shapes_of
+from fitting.structures.beam_shapes import NO_ARMS, ORDER, Arms, Shapes, shapes_of
 from fitting.structures.beam_width import reach
 
 PARTS = {"K_0": slice(0, 9), "K_1": slice(9, 23), "M": slice(23, 38)}
@@ -38,6 +38,10 @@ class BeamSection:
     """Of the substrate in how far the faces move apart."""
     is_slender: bool = False
     """Whether nothing of its width, nor of its faces' own shear and how they move apart, is counted."""
+    order: int = ORDER
+    """Of its polynomials."""
+    forced_at: tuple[float, ...] = ()
+    """Where a force drives it and where it is read then, in shares of its length; empty without a force."""
 
     @property
     def is_sandwich(self) -> bool:
@@ -52,7 +56,7 @@ class BeamSection:
     @property
     def shapes(self) -> Shapes:
         """Its polynomials."""
-        return shapes_of(self.ends)
+        return shapes_of(self.ends, self.order)
 
     @property
     def moves(self) -> NDArray[np.bool_]:

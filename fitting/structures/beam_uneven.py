@@ -5,7 +5,7 @@ from numpy.polynomial import Polynomial
 
 from fitting.arrays import Array
 from fitting.structures.beam_section import MASSES, BeamSection
-from fitting.structures.beam_shapes import ORDER, gauss
+from fitting.structures.beam_shapes import gauss
 
 THICKER = {"wedge": Polynomial((-0.5, 1.0)), "bow": Polynomial((-2 / 3, 4.0, -4.0))}
 """How much thicker than in the mean, over x from 0 to 1."""
@@ -22,7 +22,7 @@ def uneven(section: BeamSection, shape: Polynomial) -> dict[str, Array]:
     to the third. The outer face lies as high as the core is thick: it stretches by u_c' + H delta' w'
     (`tilted`). Over all unknowns, shape (size, size) each.
     """
-    (h_b, H, h_c), (x, weight) = section.thickness_m, gauss(2 * ORDER)
+    (h_b, H, h_c), (x, weight) = section.thickness_m, gauss(2 * section.shapes.order)
     L, a, width = section.length_m, (h_b + h_c) / 2, section.copies * section.width_m
     by_inverse = width * np.array([L / H, a / H, a**2 / H / L])
     w, turned, stretched = (section.shapes.rows(*one) for one in (("w", x), ("w", x, 1), ("c", x, 1)))
@@ -41,7 +41,7 @@ def where_uneven(section: BeamSection, own: Array, size: Array, shape: Polynomia
     """How the outer face slides as far as it is higher where the beam is turned. Shape (size, any)."""
     if not section.is_sandwich or section.is_doubled:
         return np.zeros((len(own), 0))
-    s, (x, weight) = section.shapes, gauss(2 * ORDER)
+    s, (x, weight) = section.shapes, gauss(2 * section.shapes.order)
     at = np.arange(s.size)[s.place["c"]]
     at = at[s.is_held[at]]
     slides = shape(x)[:, None] * (s.rows("w", x, 1).T @ own)
@@ -60,13 +60,13 @@ def where_uneven(section: BeamSection, own: Array, size: Array, shape: Polynomia
 
 def loads_of_uneven(section: BeamSection, V: Array) -> dict[str, Array]:
     """What a moving base drives more, `V` the columns. Shape (k,) each."""
-    x, weight = gauss(2 * ORDER)
+    x, weight = gauss(2 * section.shapes.order)
     moves = -_core_mass(section) * (V.T @ section.shapes.rows("w", x)) * weight
     return {f"uneven_{name}.load": moves @ shape(x) for name, shape in THICKER.items()}
 
 
 def _sheared(section: BeamSection, coefficients: Array, share: Array | float) -> Array:
-    x, weight = gauss(2 * ORDER)
+    x, weight = gauss(2 * section.shapes.order)
     return np.tensordot(coefficients, section.shapes.slip(x, weight * share, section.arms), axes=1)
 
 

@@ -1,6 +1,7 @@
 """`import viscorig`: at once, with every name in sight, loaded when it is used."""
 
 import ast
+import runpy
 import subprocess
 import sys
 from importlib.metadata import version
@@ -81,3 +82,11 @@ def test_errors_are_the_projects_own():
 def test_an_example_that_is_not_there_is_refused():
     with pytest.raises(vr.errors.BadInput, match=r"zn1\.toml"):
         vr.example_file("zn2.toml")
+
+
+def test_the_package_runs_as_the_command(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["viscorig", "--version"])
+    with pytest.raises(SystemExit) as ended:
+        runpy.run_module("viscorig.__main__", run_name="__main__")
+    assert ended.value.code == 0
+    assert "version" in capsys.readouterr().out

@@ -8,6 +8,7 @@ from beam_tables import BEAM, read
 
 from fitting.depth.intervals import Intervals
 from fitting.depth.profile import profile
+from fitting.depth.task import DepthTask
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.mode_tables.fit import begin_modal, problem_of
 
@@ -26,6 +27,7 @@ def quantities():
 
 def test_it_moves_by_its_value_over_the_end_of_its_range(quantities):
     task = quantities.task
+    assert isinstance(task, DepthTask)
     assert task.mode[0] == pytest.approx(100.0 / LAW.limits[0].search[1], rel=1e-3)
     np.testing.assert_allclose(task.full(task.mode), task.whole)
     assert task.widths[0] == 1.0
