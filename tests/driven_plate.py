@@ -9,13 +9,13 @@ from fitting.dynamics.damping import viscous_damping
 from fitting.dynamics.direct import solve_direct
 from fitting.effects.added_mass import PointMass
 from fitting.effects.amplitude_softening import CoreStrain
-from fitting.effects.enriching import enriched
-from fitting.effects.full_plate import FullPlate
 from fitting.plate.plate import Plate
 from fitting.reduced.domain import domain_of
 from fitting.reduced.rational import rational_sweep
 from fitting.reduced.reduced_plate import reduce_plate
 from fitting.sweep import Sweep
+from fitting.widened.enriching import enriched
+from fitting.widened.full_plate import FullPlate
 
 F_HZ = np.array([31.0, 58.0, 104.0, 161.0, 247.0])
 OMEGA = 2 * np.pi * F_HZ

@@ -9,11 +9,11 @@ import scipy.sparse.linalg as sla
 from fitting.diagnosis.problem.plate_answer import answer
 from fitting.dynamics.damping import viscous_damping
 from fitting.effects import CATALOGUE
-from fitting.effects.enriching import enriched
-from fitting.effects.full_plate import FullPlate
 from fitting.plate.plate import Plate
 from fitting.reduced.domain import domain_of
 from fitting.reduced.reduced_plate import reduce_plate
+from fitting.widened.enriching import enriched
+from fitting.widened.full_plate import FullPlate
 from instrument.files.specimen_file import read_specimen
 from instrument.paper_case import case_file
 

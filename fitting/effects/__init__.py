@@ -8,11 +8,11 @@ from pkgutil import iter_modules
 from typing import Any
 
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.change import Change
 from fitting.effects.given import Points
-from fitting.effects.span import Span
 from fitting.plugins import NoPlugin, Registry, derived_from
 from fitting.specimen import StatedSpecimen
+from fitting.widened.change import Change
+from fitting.widened.span import Span
 
 for _module in iter_modules(__path__):
     import_module(f"{__name__}.{_module.name}")

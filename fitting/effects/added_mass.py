@@ -8,11 +8,11 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.effects.along_a_beam import AlongABeam
 from fitting.effects.base import ONE_PIECE, Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import Points
-from fitting.effects.span import Span
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.full_plate import FullPlate, Snapshot
+from fitting.widened.span import Span
 
 _TYPICAL_KG = 5e-3
 """Of a small accelerometer with its wax: the response to it is what is spanned."""

@@ -8,9 +8,9 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.effects.added_mass import AddedMassEffect, near
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _PLACES = [(x, y) for x in (0.4, 0.7, 0.97) for y in (0.2, 0.8)]
 """Shares of length and width. Fifteen pairs: most do little that the others do not."""

@@ -8,11 +8,11 @@ import scipy.sparse as sp
 from fitting.arrays import Array, Complex
 from fitting.dynamics.air import StillAir, still_air
 from fitting.effects.base import PLATE_AND_BEAM, Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import BarePlateModes, Points
-from fitting.effects.span import Span
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.full_plate import FullPlate, Snapshot
+from fitting.widened.span import Span
 
 
 class Air(Span):

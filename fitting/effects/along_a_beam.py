@@ -4,8 +4,8 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.effects.base import Effect
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 class AlongABeam(Effect):

@@ -9,12 +9,12 @@ import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.full_plate import FullPlate
 from fitting.effects.given import ModulusAt, Points, Strain
-from fitting.effects.kraus import HALF, Kraus, strained
-from fitting.effects.span import Span
+from fitting.laws.kraus import HALF, Kraus, strained
 from fitting.plate.element import core_shear_stiffness
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.full_plate import FullPlate
+from fitting.widened.span import Span
 
 _LEVELS = 1.2
 """Of the largest force over the least: over less, strain is a function of frequency, as the law is."""

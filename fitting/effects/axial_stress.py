@@ -5,15 +5,15 @@ from collections.abc import Mapping
 from fitting.arrays import Array, Complex
 from fitting.digits import two_digits
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import Points
 from fitting.effects.number_off import changed_by_numbers
-from fitting.effects.other_plates import changed_to, forces
-from fitting.effects.span import Span
 from fitting.plate.plate_numbers import moved as restated
 from fitting.specimen import Specimen
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.full_plate import FullPlate, Snapshot
+from fitting.widened.other_plates import changed_to, forces
+from fitting.widened.span import Span
 
 _STRESSES_PA = (-3e6, 20e6)
 """Whose motions are spanned. A choice."""

@@ -18,13 +18,13 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.data.noise import Noise
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import BarePlateModes, ModulusAt, Points
-from fitting.effects.span import Span
 from fitting.laws import CoreLaw
 from fitting.specimen import KINDS, Kind, StatedSpecimen
 from fitting.sweep import Sweep
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.span import Span
 
 Entry = Literal["stiffness", "mass", "load", "observation", "channel", "time", "level", "core law", "damping"]
 """Where an effect enters. It decides, beside what people are told:

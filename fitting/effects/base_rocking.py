@@ -6,8 +6,8 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.effects.base import BASE, PLATE_AND_BEAM, Effect, EffectParameter
-from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.effects.span import UnitSpan
+from fitting.widened.full_plate import FullPlate, Snapshot
+from fitting.widened.span import UnitSpan
 
 
 class Pitch(UnitSpan):

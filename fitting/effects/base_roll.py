@@ -6,12 +6,12 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.effects.base import BASE, Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import Points
-from fitting.effects.span import UnitSpan
 from fitting.plate.element import THETA_X, V_C, W
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.full_plate import FullPlate, Snapshot
+from fitting.widened.span import UnitSpan
 
 _MOST_RAD_M = 10.0
 """The edges of a plate 200 mm wide move as its base does: no rig is like that. A bound on the search."""

@@ -12,15 +12,15 @@ import scipy.sparse as sp
 
 from fitting.arrays import Array
 from fitting.effects.base import CLAMP, PLATE_AND_BEAM, Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.clamp_span import ClampSpan, on_a_rim
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.full_plate import FullPlate
 from fitting.effects.given import Points
-from fitting.effects.released_rim import clamped_edges, on_edge, treated_along
-from fitting.effects.released_root import along_root, on_root
 from fitting.plate.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
 from fitting.specimen import Specimen
+from fitting.widened.change import Change
+from fitting.widened.clamp_span import ClampSpan, on_a_rim
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.full_plate import FullPlate
+from fitting.widened.released_rim import clamped_edges, on_edge, treated_along
+from fitting.widened.released_root import along_root, on_root
 
 _SPANNED = (4e12, 1e13, 3e13, 1e14, 1e15)
 """N/m^3, from softer than a clamp ought to be to nearly rigid."""

@@ -6,10 +6,10 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.effects.base import CLAMP, PLATE_AND_BEAM, Effect, EffectParameter
-from fitting.effects.change import Change
 from fitting.effects.clamp_compliance import STARTS_N_M3, BesideCompliance, ClampComplianceEffect, springs
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 class ClampFrictionEffect(BesideCompliance, Effect):

@@ -7,14 +7,14 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.effects.base import CLAMP, ROOT, Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import Points
 from fitting.effects.number_off import changed_by_numbers
-from fitting.effects.other_plates import changed_to, forces
-from fitting.effects.span import UNIT_RESPONSE, Span
 from fitting.specimen import Specimen
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.full_plate import FullPlate, Snapshot
+from fitting.widened.other_plates import changed_to, forces
+from fitting.widened.span import UNIT_RESPONSE, Span
 
 _MOUNTING_M = 3e-4
 """A jaw bites at its edge, however hard: put to the same mark a plate comes back to some tenths of a mm."""

@@ -5,13 +5,13 @@ from dataclasses import replace
 
 from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.number_off import NumberOffEffect
-from fitting.effects.other_plates import changed_to, forces
-from fitting.effects.span import Span
 from fitting.specimen import Specimen
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.full_plate import FullPlate, Snapshot
+from fitting.widened.other_plates import changed_to, forces
+from fitting.widened.span import Span
 
 _SCALES = (0.85, 1.15)
 """Of the thickness: twice the spread of the prior, so that the basis follows any likely one."""

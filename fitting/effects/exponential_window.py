@@ -6,9 +6,9 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.effects.base import FORCE, PLATE_AND_BEAM, Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import ModulusAt, Points
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _H = 1e-3
 """Step of ln omega for the modulus' slope."""

@@ -7,9 +7,9 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.effects.base import BASE, PLATE_AND_BEAM, Effect, EffectParameter
 from fitting.effects.base_rocking import BaseRockingEffect
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
-from fitting.effects.span import Span
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.span import Span
 
 _OUTSIDE = (0.6, 1.6)
 """Times the lowest and the highest frequency: one further off is hardly told from rocking in fixed

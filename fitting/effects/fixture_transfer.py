@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 
 from fitting.effects.base import Effect
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 class FixtureTransferEffect(Effect):

@@ -8,13 +8,13 @@ import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
 from fitting.effects.base import WHOLE, Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.partial_debond import strips
-from fitting.effects.span import Span
 from fitting.numerics.linear import times
 from fitting.plate.element import core_shear
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.full_plate import FullPlate, Snapshot
+from fitting.widened.span import Span
 
 _GRADE = 2.0
 """Of the motions spanned."""

@@ -7,9 +7,9 @@ import numpy as np
 from fitting.data.level import level_error
 from fitting.data.noise import Noise
 from fitting.effects.base import BASE, EVERY_STRUCTURE, ChannelFinding, Effect
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
 from fitting.sweep import Sweep
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 class LevelErrorEffect(Effect):

@@ -17,10 +17,10 @@ from fitting.arrays import Array, Complex
 from fitting.effects.added_mass import PLACE, AddedMassEffect, MassOnBeamEffect, PointMass, near
 from fitting.effects.along_a_beam import AlongABeam
 from fitting.effects.base import ONE_PIECE, Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
-from fitting.effects.span import Span
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.span import Span
 
 _START_KG = 1e-3
 """To begin with: a clip, a screw."""

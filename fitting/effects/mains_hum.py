@@ -8,10 +8,10 @@ from fitting.data.hum import SPREAD_HZ, HumSeen, mains_hum
 from fitting.data.noise import Noise, noise_of
 from fitting.data.strays import strays
 from fitting.effects.base import EVERY_STRUCTURE, ChannelFinding, Effect
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
 from fitting.numerics.chances import binomial_above
 from fitting.sweep import Sweep
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _BY_CHANCE = 0.01
 """How likely stray readings must be to lie near multiples by chance, for no hum to be named. A choice."""

@@ -11,10 +11,10 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.effects.added_mass import PLACE, PointMass, near
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
-from fitting.effects.span import Span
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.span import Span
 
 _START_KG = 2e-3
 """To begin with."""

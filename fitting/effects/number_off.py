@@ -11,9 +11,9 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.effects.base import Effect, as_its_own
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.span import Span
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.span import Span
 
 
 @runtime_checkable

@@ -7,16 +7,16 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import BarePlateModes, Points
-from fitting.effects.other_plates import mixed
-from fitting.effects.span import Span
 from fitting.plate.element import U_B, V_B, face_stiffness
 from fitting.plate.part_names import STIFFNESS
 from fitting.plate.parts import substrate_coefficients
 from fitting.stated.layers import Face, Orthotropy
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.full_plate import FullPlate, Snapshot
+from fitting.widened.other_plates import mixed
+from fitting.widened.span import Span
 
 _RATIOS = (0.85, 1.15)
 """E_y over E_x: five times the spread of the prior, so that the basis follows any likely one."""

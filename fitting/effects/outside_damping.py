@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from fitting.arrays import Array
 from fitting.effects.air_added_mass import Air
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 class OutsideDampingEffect(Effect):

@@ -7,15 +7,15 @@ import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
 from fitting.effects.base import ONE_SIDE, WHOLE, Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import Points
-from fitting.effects.span import Span
 from fitting.numerics.linear import times
 from fitting.plate.element import core_shear_stiffness
 from fitting.specimen import StatedSpecimen
 from fitting.stated.patches import Patch
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.full_plate import FullPlate, Snapshot
+from fitting.widened.span import Span
 
 LEFT = 0.01
 """Share of the shear stiffness that a loose strip keeps."""

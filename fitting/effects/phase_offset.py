@@ -6,8 +6,8 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 class PhaseOffsetEffect(Effect):

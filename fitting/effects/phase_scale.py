@@ -8,8 +8,8 @@ import numpy as np
 
 from fitting.arrays import Array, Complex, Places, as_slice
 from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _HIGHEST = np.pi / 2
 """Of a peak's phase, rad; the lowest lies a turn below."""

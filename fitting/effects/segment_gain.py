@@ -7,8 +7,8 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.data.levels import are_of, by_level
 from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _EVERY = 0.0
 """In the place of a level: all of them."""

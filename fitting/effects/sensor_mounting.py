@@ -11,8 +11,8 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.effects.base import BASE, Effect, EffectParameter
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _DAMPING_RATIO = 0.03
 """Of wax and of bolted brackets, to begin with."""

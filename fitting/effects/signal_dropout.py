@@ -7,9 +7,9 @@ import numpy as np
 from fitting.data.noise import Noise
 from fitting.data.strays import strays
 from fitting.effects.base import EVERY_STRUCTURE, ChannelFinding, Effect
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
 from fitting.sweep import Sweep
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 class SignalDropoutEffect(Effect):

@@ -7,11 +7,11 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.effects.along_a_beam import AlongABeam
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import Points
-from fitting.effects.span import Span, UnitSpan
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.full_plate import FullPlate, Snapshot
+from fitting.widened.span import Span, UnitSpan
 
 _AROUND_M = ((8e-3, 0.0), (-8e-3, 0.0), (0.0, 8e-3), (0.0, -8e-3))
 """Pushes about the pickup: between them the answer at a shifted spot is nearly linear. A choice."""

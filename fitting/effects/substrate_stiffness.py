@@ -7,14 +7,14 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.given import BarePlateModes
 from fitting.effects.number_off import NumberOffEffect
-from fitting.effects.other_plates import changed_to
-from fitting.effects.span import Span
 from fitting.numerics.linear import times
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.full_plate import FullPlate, Snapshot
+from fitting.widened.other_plates import changed_to
+from fitting.widened.span import Span
 
 _TYPICAL = 0.1
 """Of the stiffness: twice the spread of the prior, so that the basis follows any likely one."""

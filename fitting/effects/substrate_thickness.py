@@ -7,13 +7,13 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import BarePlateModes
 from fitting.effects.number_off import NumberOffEffect
-from fitting.effects.other_plates import changed_to
 from fitting.effects.substrate_stiffness import Substrate
 from fitting.specimen import Specimen
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.other_plates import changed_to
 
 
 def with_substrate(specimen: Specimen, scale: float) -> Specimen:

@@ -6,9 +6,9 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import ModulusAt, Points
 from fitting.effects.temperature_drift import time_scale
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 class TemperatureDifferenceEffect(Effect):

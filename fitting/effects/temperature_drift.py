@@ -7,8 +7,8 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.digits import two_digits
 from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import ModulusAt, Points
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 C_1, C_2_K = 9.0, 120.0
 """Of a damping polymer well above its glass transition; another pair scales the kelvins found."""

@@ -16,10 +16,10 @@ from fitting.arrays import Array
 from fitting.effects.added_mass import PLACE, PointMass, near
 from fitting.effects.along_a_beam import AlongABeam
 from fitting.effects.base import ONE_PIECE, Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
-from fitting.effects.span import Span
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.span import Span
 
 _LOSS = 0.2
 """To begin with: a cable's sheath loses much."""

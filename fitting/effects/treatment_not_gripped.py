@@ -11,18 +11,18 @@ import scipy.sparse as sp
 
 from fitting.arrays import Array
 from fitting.effects.base import CLAMP, CONSTRAINED, WHOLE, Effect, EffectParameter
-from fitting.effects.change import Change
 from fitting.effects.clamp_compliance import YieldingRoot
-from fitting.effects.clamp_span import ClampSpan, on_a_rim
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.full_plate import FullPlate
 from fitting.effects.given import Points
 from fitting.effects.number_off import changed_by_numbers
-from fitting.effects.released_rim import clamped_edges, on_edge
-from fitting.effects.released_root import along_root, on_root
-from fitting.effects.span import Span
 from fitting.plate.element import DOFS, U_C, V_C
 from fitting.specimen import StatedSpecimen
+from fitting.widened.change import Change
+from fitting.widened.clamp_span import ClampSpan, on_a_rim
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.full_plate import FullPlate
+from fitting.widened.released_rim import clamped_edges, on_edge
+from fitting.widened.released_root import along_root, on_root
+from fitting.widened.span import Span
 
 _SPANNED = (1e6, 1e8, 4e8, 3e9)
 """N/m^2, from nearly free to nearly gripped."""

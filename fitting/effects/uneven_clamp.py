@@ -7,19 +7,19 @@ import scipy.sparse as sp
 
 from fitting.arrays import Array
 from fitting.effects.base import ROOT, Effect, EffectParameter
-from fitting.effects.change import Change
 from fitting.effects.clamp_compliance import (
     STARTS_N_M3,
     BesideCompliance,
     ClampComplianceEffect,
     root_springs,
 )
-from fitting.effects.clamp_span import RootSpan
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.full_plate import FullPlate
 from fitting.effects.given import Points
-from fitting.effects.released_root import along_root
 from fitting.plate.element import THETA_Y, U_B, U_C, W
+from fitting.widened.change import Change
+from fitting.widened.clamp_span import RootSpan
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.full_plate import FullPlate
+from fitting.widened.released_root import along_root
 
 _MOST = 50.0
 """Springs of one edge over those of the other: where they are softer still, that edge is free."""

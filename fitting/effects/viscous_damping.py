@@ -4,9 +4,9 @@ from collections.abc import Mapping
 
 from fitting.arrays import Array
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 class ViscousDampingEffect(Effect):

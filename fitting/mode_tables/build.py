@@ -11,7 +11,6 @@ from fitting.discrepancy.model_error import model_error_at
 from fitting.dynamics.damping import viscous_damping
 from fitting.dynamics.real_modes import real_modes
 from fitting.dynamics.unstated_damping import with_unstated_damping
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.mode_tables.member import Member
 from fitting.mode_tables.table import ModalTable
@@ -25,6 +24,7 @@ from fitting.stated.tolerances import PLATE
 from fitting.structures import AnySpecimen
 from fitting.structures.small import nuisances_of as small_nuisances_of
 from fitting.structures.small import widened_system_of
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 MODULI_PA = (2e4, 3e5, 4e6, 5e7, 5e8, 5e9)
 """Whose real modes a plate is spanned by, from gels to glass: up to 1 GPa f to 1e-4 and eta to 1e-3.

@@ -13,8 +13,6 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.dynamics.complex_modes import ComplexMode
 from fitting.effects.base import Effect
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 from fitting.mode_tables.as_read import Read, Stiffness, as_read
@@ -22,6 +20,8 @@ from fitting.mode_tables.modes import ModalMatrices, modes_of
 from fitting.mode_tables.table import ModalTable
 from fitting.nuisances.nuisances import Nuisances
 from fitting.structures import AnySpecimen
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _H = 1e-4
 """Relative step of a frequency: for the law's slope."""

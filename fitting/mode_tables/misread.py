@@ -9,10 +9,10 @@ from fitting.diagnosis.inference.refit import refit
 from fitting.diagnosis.inference.refitted import Refitted, by_chi2
 from fitting.diagnosis.search.catalogue_search import ScoredFit
 from fitting.diagnosis.thresholds import VERDICT
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.errors import OutsideModel
 from fitting.mode_tables.fit import BegunModal
 from fitting.numerics.chances import chi2_exceeded
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _WITHIN = 3.0
 """Times what the errors of the others explain, up to which they go with one law: errors are seldom known."""

@@ -13,9 +13,9 @@ import scipy.linalg as la
 
 from fitting.arrays import Array, Complex, Mask
 from fitting.dynamics.complex_modes import ComplexMode
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _SPARE = 14
 """Real modes beyond those asked for, among which complex ones are sought."""

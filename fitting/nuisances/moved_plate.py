@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances.nuisances import Nuisances
 from fitting.reduced.reduced_plate import ReducedPlate
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 def moved_plate(

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.plate.plate_numbers import plate_numbers, tolerance
 from fitting.specimen import Specimen
 from fitting.stated.tolerances import NUMBERS, OF_CHANNELS, Unit
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _UNHEARD = 1e-6
 """A mode whose motion on the reduced plate is below this share of the largest one's is not felt: its damping

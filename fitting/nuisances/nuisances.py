@@ -13,8 +13,6 @@ from typing import Literal, get_args
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances.bare_numbers import BareNumbers
 from fitting.nuisances.channel import StatedChannel
 from fitting.nuisances.narrow import NarrowResonances
@@ -24,6 +22,8 @@ from fitting.nuisances.stated_coefficients import PlateCoefficients, StatedCoeff
 from fitting.nuisances.sums import SideBySide, between
 from fitting.plate.parts import loaded
 from fitting.specimen import PlacedMass, Specimen
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 Spot = Literal["pickup", "force"]
 SPOTS: tuple[Spot, ...] = get_args(Spot)

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.specimen import PlacedMass, Specimen
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 Placed = list[tuple[float, dict[int, float]]]
 """X and y in m on the plate as it was meshed, and how each goes with the stated numbers, by their places."""

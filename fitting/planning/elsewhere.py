@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.arrays import Array, Place
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances.nuisance import Nuisance
 from fitting.nuisances.nuisances import Nuisances
 from fitting.plate.mesh import Mesh
 from fitting.plate.plate_numbers import tolerance
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 def read_elsewhere(

@@ -9,12 +9,12 @@ import numpy as np
 from fitting.arrays import Array, Integers
 from fitting.diagnosis.problem.base import DiagnosisProblem, NodeGrid, points_of
 from fitting.diagnosis.problem.nodes import Nodes
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances.nuisances import nuisances_of
 from fitting.reduced.rational import rational_sweep
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 def exact_problem(

@@ -8,15 +8,15 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.dynamics.damping import viscous_damping
 from fitting.effects.air_added_mass import Air
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.enriching import enriched, reach_over
-from fitting.effects.full_plate import FullPlate
-from fitting.effects.span import Span
 from fitting.laws import CoreLaw
 from fitting.plate.plate import Plate
 from fitting.reduced.domain import Domain
 from fitting.reduced.reduced_plate import ReducedPlate, reduce_plate
 from fitting.specimen import Specimen
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.enriching import enriched, reach_over
+from fitting.widened.full_plate import FullPlate
+from fitting.widened.span import Span
 
 _ELEMENTS = 96
 """All explanations are asked on the same mesh: half a percent in a frequency is in all of them. A choice."""

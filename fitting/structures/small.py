@@ -3,7 +3,7 @@
     (-omega^2 M + i omega C_1 + K_0 + G* K_1) X = load,   K_0 = sum of c_p P_p,   so K_1, M, load
 
 It needs no reduced basis, and answers at every frequency by itself. What fits and effects are given is the
-same kind of object as the widened reduced plate (`fitting.effects.enriched_plate`): its columns are the
+same kind of object as the widened reduced plate (`fitting.widened.enriched_plate`): its columns are the
 unknowns themselves, in groups where some are for an effect alone.
 """
 
@@ -16,14 +16,14 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.discrepancy.model_error import ModelError
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate, Names
 from fitting.errors import OutsideModel
 from fitting.nuisances.nuisance import Nuisance, channels_felt
 from fitting.nuisances.nuisances import SPOTS, Nuisances, Place, Spot
 from fitting.nuisances.stated_coefficients import STEP, StatedCoefficients
 from fitting.plate.part_counts import PartCounts
 from fitting.specimen import PlacedMass, StatedSpecimen
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate, Names
 
 _STILL = 1e-9
 """A reading below this reads nothing but rounding."""

@@ -7,11 +7,11 @@ import scipy.linalg as la
 
 from fitting.arrays import Array, Complex
 from fitting.dynamics.complex_modes import ComplexMode
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.identification.model import velocity
 from fitting.laws import CoreLaw
 from fitting.structures.beam import Beam
 from fitting.structures.small import SmallSpecimen, check_driven, displacement, system_of
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _STEPS, _SETTLED = 60, 1e-9
 """A bound for the law followed along; the relative change of a frequency at which that has settled."""

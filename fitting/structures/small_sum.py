@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array, Complex, Mask
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.reduced.rational import RationalSweep
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _ROUNDED = 1e-13
 """Of the largest: smaller eigenvalues are rounding."""

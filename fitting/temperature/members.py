@@ -17,11 +17,11 @@ from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.response.response import Response
 from fitting.diagnosis.search.looks import Start
 from fitting.effects.base import Effect
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
 from fitting.identification.adjusted import Adjusted
 from fitting.laws import CoreLaw
 from fitting.nuisances.nuisance import Nuisance
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 class Begun(Protocol):

@@ -26,13 +26,13 @@ from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.several.several_problem import SeveralProblem
 from fitting.diagnosis.thresholds import STOPPING
 from fitting.effects.base import Effect
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
 from fitting.identification.adjusted import Adjusted
 from fitting.laws import CoreLaw
 from fitting.nuisances.nuisance import Nuisance
 from fitting.progress import unheard
 from fitting.reduced.reduced_plate import ReducedPlate
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,6 @@ from fitting.diagnosis.search.catalogue_search import by_cost
 from fitting.diagnosis.search.looks import Start, promising
 from fitting.diagnosis.thresholds import STOPPING
 from fitting.effects.base import Effect
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
 from fitting.errors import OutsideModel
 from fitting.identification.adjusted import Adjusted
@@ -31,6 +30,7 @@ from fitting.mode_tables.fit import BegunModal, begin_modal, scaled
 from fitting.mode_tables.member import Member
 from fitting.mode_tables.problem import ModalProblem
 from fitting.nuisances.nuisance import Nuisance
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _SIZES_PA, _LOSS = np.geomspace(1e4, 1e10, 25), 0.3
 """Moduli that a temperature's modes are compared with, to begin near it: from a gel to a glass."""

@@ -9,12 +9,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances.moved_plate import moved_plate
 from fitting.nuisances.nuisances import Nuisances
 from fitting.plate.mesh import Mesh
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 from instrument.models.specimen_models import Models
 
 

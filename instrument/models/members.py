@@ -13,7 +13,6 @@ from fitting.data.strays import strays
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.several.several_problem import SeveralProblem
 from fitting.effects.base import Effect
-from fitting.effects.enriching import reach_over
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 from fitting.mode_tables.build import member_of
@@ -29,6 +28,7 @@ from fitting.sweep import Sweep
 from fitting.temperature.members import Alone, Joined
 from fitting.temperature.sweeps import AloneSweep, Sweeps
 from fitting.temperature.tables import Tables, alone
+from fitting.widened.enriching import reach_over
 from instrument.errors import BadInput
 from instrument.models.diagnosis import effects_among
 from instrument.models.files import File

@@ -14,9 +14,6 @@ from fitting.digits import two_digits, written_out
 from fitting.dynamics.damping import viscous_damping
 from fitting.effects import all_spans, span_modules
 from fitting.effects.base import Effect
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.enriching import enriched, reach_over
-from fitting.effects.full_plate import FullPlate
 from fitting.errors import OutsideModel
 from fitting.identification.result import ASTRAY, BIASED, moved_too_far
 from fitting.laws import CoreLaw
@@ -34,6 +31,9 @@ from fitting.progress import Report
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
 from fitting.structures.beam import Beam
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.enriching import enriched, reach_over
+from fitting.widened.full_plate import FullPlate
 from instrument.models.cache import cached
 from instrument.models.clamp_remarks import remarks_on_clamps
 from instrument.models.effect_names import refuse_unknown_effects

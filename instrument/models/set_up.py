@@ -12,9 +12,6 @@ from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.dynamics.bare_modes import CarriedSensor
 from fitting.dynamics.unstated_damping import with_unstated_damping
 from fitting.effects import all_spans, span_modules
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.enriching import enriched
-from fitting.effects.full_plate import FullPlate
 from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import CLAMP, MatchedModes, match_modes
 from fitting.plate.mesh import Mesh
@@ -23,6 +20,9 @@ from fitting.reduced.rational import RationalSweep, RationalSweeps, rational_swe
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.enriching import enriched
+from fitting.widened.full_plate import FullPlate
 from instrument.models.cache import cached
 from instrument.models.specimen_models import Models
 from instrument.progress import Progress, quiet

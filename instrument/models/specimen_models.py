@@ -9,7 +9,6 @@ from fitting.arrays import Array, Complex
 from fitting.dynamics.damping import LowRankDamping, viscous_damping
 from fitting.dynamics.direct import displacement_direct
 from fitting.dynamics.real_mode_response import RealModePlate, real_mode_plate
-from fitting.effects.enriching import USUAL_HZ, reach_over
 from fitting.errors import OutsideModel
 from fitting.identification.model import velocity
 from fitting.laws import CoreLaw
@@ -18,6 +17,7 @@ from fitting.reduced.domain import Domain, domain_of
 from fitting.reduced.rational import RationalSweep, rational_sweep
 from fitting.reduced.reduced_plate import ReducedPlate, reduce_plate
 from fitting.specimen import Specimen
+from fitting.widened.enriching import USUAL_HZ, reach_over
 from instrument.models.cache import cached
 from instrument.progress import Progress, quiet
 

@@ -12,7 +12,6 @@ from fitting.diagnosis.problem.model_error import model_error
 from fitting.diagnosis.problem.plate_poles import PlatePoles
 from fitting.diagnosis.several.responses import response_of
 from fitting.effects.base import Effect
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.laws.bent_law import BentLaw
 from fitting.planning.candidates import Candidates, candidate_frequencies, regions, resonances_hz
@@ -21,6 +20,7 @@ from fitting.planning.signatures import Signature, signatures_of
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen, StatedSpecimen
 from fitting.sweep import Sweep
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 from instrument.models.set_up import Hammer, set_up
 from instrument.planning.costs import as_run, dwell_seconds, step_seconds
 from instrument.planning.outlook import first_hz, visible

@@ -8,7 +8,6 @@ from fitting.arrays import Array, Complex
 from fitting.diagnosis.inference.evidence import BareModes
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.plate_poles import PlatePoles
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.errors import OutsideModel
 from fitting.planning.candidates import Candidates, candidate_frequencies, regions, resonances_hz
 from fitting.planning.exact_problem import exact_problem
@@ -16,6 +15,7 @@ from fitting.planning.sensitivity import ReadingNoise, Sensitivity, bent, sensit
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 from instrument.models.set_up import Hammer, SetUp, set_up
 from instrument.planning.costs import as_run, dwell_seconds, step_seconds
 from instrument.progress import Progress, quiet

@@ -10,11 +10,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.planning.aims import Aims
 from fitting.planning.choice import choose
 from fitting.plate.mesh import Mesh
 from fitting.plate.plate import Plate
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 from instrument.planning.levels import at_level
 from instrument.planning.outlook import At, Outlook
 from instrument.planning.wish import Wish

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.problem.plate_poles import ODD, PlatePoles
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.planning.candidates import resonances_hz
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 from instrument.planning.costs import step_seconds
 from instrument.stepped_sine.settings import SweepSettings
 

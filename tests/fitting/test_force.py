@@ -19,13 +19,13 @@ from fitting.diagnosis.several.several_problem import SeveralProblem
 from fitting.diagnosis.several.several_response import SeveralResponse
 from fitting.dynamics.direct import displacement_direct
 from fitting.effects import CATALOGUE
-from fitting.effects.change import Change
 from fitting.errors import OutsideModel
 from fitting.identification.model import SweepModel
 from fitting.plate.plate import Plate
 from fitting.plate.plate_numbers import tolerance
 from fitting.reduced.rational import rational_sweep, rational_sweeps
 from fitting.sweep import Sweep
+from fitting.widened.change import Change
 
 FORCE_M, OTHER_FORCE_M = (0.27, 0.03), (0.271, 0.0305)
 FURTHER_FORCE_M, FURTHER_SPOT_M = (0.04, 0.16), (0.22, 0.17)

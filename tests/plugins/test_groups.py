@@ -40,7 +40,7 @@ class Law(CoreLaw):
 EFFECT = """
 import numpy as np
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.span import Span
+from fitting.widened.span import Span
 
 class Motion(Span):
     name = "{span}"

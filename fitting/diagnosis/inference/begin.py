@@ -21,7 +21,6 @@ from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.model_error import model_error
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.thresholds import STOPPING
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.identification.direct import fit_direct
 from fitting.identification.fit import Fit
 from fitting.identification.model import SweepModel
@@ -29,6 +28,7 @@ from fitting.identification.residuals import Residuals
 from fitting.laws import CoreLaw
 from fitting.laws.bent_law import BentLaw
 from fitting.reduced.reduced_plate import ReducedPlate
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _FAR = 0.1
 """Relative change of the modulus from which the grids and the model's error are made anew."""

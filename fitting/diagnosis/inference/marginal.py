@@ -20,7 +20,7 @@ from scipy.special import log_ndtr
 from fitting.arrays import Array
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _TYPICALS = 3.0
 """An unknown whose `spread` is not stated is expected to be of a few typical sizes."""

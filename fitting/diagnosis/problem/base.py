@@ -17,10 +17,7 @@ from fitting.diagnosis.problem.pole_following import KnownPoles
 from fitting.discrepancy.model_error import model_error_at
 from fitting.effects.added_mass import AddedMassEffect
 from fitting.effects.base import Effect
-from fitting.effects.condensing import CONDENSED, Training, condensed
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
-from fitting.effects.span import Span
 from fitting.identification.adjusted import Adjusted, adjusted
 from fitting.laws import CoreLaw
 from fitting.nuisances.narrow import NarrowResonances
@@ -28,6 +25,9 @@ from fitting.nuisances.nuisances import Nuisances, nuisances_of
 from fitting.reduced.rational import RationalSweep
 from fitting.specimen import Specimen, StatedSpecimen
 from fitting.sweep import Sweep
+from fitting.widened.condensing import CONDENSED, Training, condensed
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.span import Span
 
 DENSE, FINE, COARSE = 16, 10, 6
 """Nodes a cluster of frequencies: of strains, for fits, and for a first look."""

@@ -16,11 +16,11 @@ from fitting.diagnosis.problem.narrow_resonances import shapes_of
 from fitting.diagnosis.problem.plate_alone import plate_alone
 from fitting.diagnosis.problem.plate_answer import Asked, motions
 from fitting.discrepancy.model_error import GAIN, STRUCK_GAIN, model_error_at
-from fitting.effects.change import Change
 from fitting.laws import CoreLaw
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.reduced.resonance_parts import Answers, Part, parts_of
 from fitting.specimen import Specimen, StatedSpecimen
+from fitting.widened.change import Change
 
 _ALIKE = 1e-3
 """Of a frequency, within which resonances of two files of one plate are the same one."""

@@ -8,11 +8,11 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.problem.plate_poles import PLAIN
 from fitting.discrepancy.model_error import ModelError
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.nuisances.narrow import NARROW, NarrowResonance, NarrowResonances
 from fitting.reduced.resonance_parts import Moving, RealMode, modes_between
 from fitting.sweep import Sweep
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 BESIDE = 1.5
 """Of a segment's ends, within which resonances beside it count. A choice: between two of them little is read,

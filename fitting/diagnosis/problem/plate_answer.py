@@ -12,9 +12,9 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.problem.pole_following import KnownPoles
 from fitting.dynamics.dynamic_stiffness import Matrices, dynamic_stiffness, stacked
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances.nuisances import Nuisances
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 @dataclass(frozen=True)

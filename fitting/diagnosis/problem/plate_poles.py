@@ -7,9 +7,9 @@ from fitting.arrays import Array, Complex
 from fitting.diagnosis.problem.nodes import MOST_POLES, Nodes
 from fitting.diagnosis.problem.pole_following import KnownPoles, ModulusNear
 from fitting.dynamics.dynamic_stiffness import stacked
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.sweep import segments_by_gap
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 PLAIN, ODD = "plate", "plate/odd"
 """Groups of the unchanged plate's motions: those that its load excites; those odd across its width."""

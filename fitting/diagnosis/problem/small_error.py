@@ -13,11 +13,11 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.problem.narrow_resonances import shapes_of
 from fitting.dynamics.dynamic_stiffness import dynamic_stiffness, stacked
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.nuisances.narrow import NONE, NarrowResonances
 from fitting.reduced.resonance_parts import Answers
 from fitting.structures.small import SmallSpecimen, SmallSystem, displacement
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 OCTAVE = 0.7
 """In ln f."""

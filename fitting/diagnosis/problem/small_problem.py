@@ -14,8 +14,6 @@ from fitting.diagnosis.problem.narrow_resonances import Errs
 from fitting.diagnosis.problem.plate_poles import PlatePoles
 from fitting.diagnosis.problem.small_error import octaves, theory_rows
 from fitting.discrepancy.model_error import ModelError
-from fitting.effects.condensing import Training, condensed
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.structures.small import (
     SmallNuisances,
@@ -27,6 +25,8 @@ from fitting.structures.small import (
 )
 from fitting.structures.small_sum import rational_of
 from fitting.sweep import Sweep
+from fitting.widened.condensing import Training, condensed
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _PLACES, _FEWEST = 24, 8
 """Frequencies that a beam's first sum is made to hold at, four to each resonance; the least of a band."""

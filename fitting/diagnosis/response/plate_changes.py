@@ -6,8 +6,8 @@ from fitting.arrays import Array
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.response.unknowns import Unknowns
 from fitting.effects.base import Effect
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 class PlateChanges:

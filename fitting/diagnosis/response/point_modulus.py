@@ -10,10 +10,10 @@ from fitting.diagnosis.response.plate_changes import PlateChanges
 from fitting.diagnosis.response.strains import Reference, Strains
 from fitting.diagnosis.response.unknowns import Unknowns
 from fitting.effects.base import Effect
-from fitting.effects.change import Change
 from fitting.effects.given import ModulusAt, Strain
-from fitting.effects.span import Span
 from fitting.laws import CoreLaw
+from fitting.widened.change import Change
+from fitting.widened.span import Span
 
 _H = 1e-4
 """Step of differences, of the logarithm of a law's parameter."""

@@ -5,9 +5,9 @@ from typing import ClassVar, Protocol, runtime_checkable
 
 from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.nuisances.nuisances import Nuisances
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 @runtime_checkable

@@ -11,12 +11,12 @@ from fitting.arrays import Array, Complex
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.plate_answer import Asked, StrainedCore
 from fitting.diagnosis.problem.plate_poles import PLAIN
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Strain
-from fitting.effects.kraus import strained
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
+from fitting.laws.kraus import strained
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _SOFTENED = np.array([-0.3, 0.0, 0.25, 0.5])
 """Shares by which the core softens where its strain is computed: a cubic through them serves all between.

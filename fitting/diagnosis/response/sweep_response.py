@@ -24,9 +24,9 @@ from fitting.diagnosis.response.point_modulus import PointModulus
 from fitting.diagnosis.response.strains import Reference
 from fitting.diagnosis.response.unknowns import Unknowns, stepped
 from fitting.effects.base import Effect
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
 class SweepResponse:

@@ -7,7 +7,7 @@ from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _AT = 1e-6
 """Share of a limit: nearer to it, a fit would go on. Of the limit itself, unlike in `verdict.kin` and

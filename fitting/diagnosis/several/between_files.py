@@ -7,8 +7,8 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.diagnosis.several.of_files import EACH, FILE, OfFiles, Place
 from fitting.effects.base import Effect
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import Points
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _PAIR = 2
 """Files of which either may as well be the odd one."""

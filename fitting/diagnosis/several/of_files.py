@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.effects.base import CLAMP, Effect, EffectParameter, Tie, as_its_own
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.given import BarePlateModes, Points
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 FILE, PICKUP = "file", "pickup"
 _ALL = -1

@@ -11,10 +11,10 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.plate_poles import PlatePoles
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.span import Span
 from fitting.laws import CoreLaw
 from fitting.specimen import Specimen
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.span import Span
 
 _MOST_TAKEN = 12
 """Plates with some effects' columns that are kept: a search comes back to the same few. A bound on memory."""

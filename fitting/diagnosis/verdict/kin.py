@@ -31,11 +31,11 @@ from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.several.several_response import SeveralResponse
 from fitting.diagnosis.thresholds import KIN, VERDICT
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.nuisances.narrow import NarrowResonance, NarrowResonances
 from fitting.reduced.resonance_parts import RealMode, modes_between
 from fitting.specimen import Kind
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 UNLISTED = "unlisted"
 """Its name beside those of effects."""

@@ -15,12 +15,12 @@ from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.verdict.kin import Kin, Unlisted
 from fitting.diagnosis.verdict.result import FoundEffect, ParameterEstimate, Stage
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.known_curve import KnownCurve, known_curve, known_of_mixture
 from fitting.identification.result import LawBand, differences_percent, law_band, sweep_range
 from fitting.identification.uncertainty import Uncertainty, limits_reached
 from fitting.identification.validation import Validation
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 _AT_LIMIT = 1e-6
 """Of the range between an unknown's limits: nearer to one it sits on it, and its error says nothing. Of the

@@ -16,7 +16,6 @@ from fitting.effects.core_thickness import CoreThicknessEffect, with_core
 from fitting.effects.graded_core import GradedCoreEffect
 from fitting.effects.layer_density import CONSTRAINING, SUBSTRATE, LayerDensityEffect, with_density
 from fitting.effects.orthotropic_substrate import sheet
-from fitting.effects.other_plates import changed_to, mixed
 from fitting.effects.substrate_stiffness import SubstrateStiffnessEffect
 from fitting.effects.substrate_thickness import SubstrateThicknessEffect, with_substrate
 from fitting.plate.element import (
@@ -31,6 +30,7 @@ from fitting.plate.element import (
 )
 from fitting.plate.plate import Plate
 from fitting.stated.layers import Face
+from fitting.widened.other_plates import changed_to, mixed
 
 ORTHOTROPIC, GRADED = CATALOGUE["orthotropic_substrate"], CATALOGUE["graded_core"]
 STIFFNESS, THICKNESS = ConstrainingStiffnessEffect(), ConstrainingThicknessEffect()

@@ -10,7 +10,6 @@ from scipy.optimize import brentq
 from fitting.effects import CATALOGUE
 from fitting.effects.along_a_beam import AlongABeam
 from fitting.effects.base import Effect
-from fitting.effects.change import Change
 from fitting.effects.layer_density import SUBSTRATE
 from fitting.effects.number_off import NumberOffEffect, changed_by_numbers
 from fitting.effects.outside_damping import OutsideDampingEffect
@@ -19,6 +18,7 @@ from fitting.stated.layers import Core, Face
 from fitting.structures import Beam
 from fitting.structures.small import widened_system_of
 from fitting.structures.small_modes import elastic_modes, small_modes
+from fitting.widened.change import Change
 
 ALUMINIUM, FOIL = Face(2e-3, 70e9, 0.3, 2700.0), Face(0.5e-3, 70e9, 0.3, 2700.0)
 LAW, STIFF = ConstantModulus(1e6, 0.5), ConstantModulus(1e6, 0.01)

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from fitting.effects.released_root import along_root, root_dofs
 from fitting.effects.treatment_not_gripped import TreatmentNotGrippedEffect
 from fitting.effects.uneven_clamp import UnevenClampEffect
 from fitting.plate.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
+from fitting.widened.released_root import along_root, root_dofs
 
 FREE_TREATMENT, UNEVEN = TreatmentNotGrippedEffect(), UnevenClampEffect()
 

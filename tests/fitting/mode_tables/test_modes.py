@@ -6,11 +6,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.mode_tables.modes import ModalMatrices, modes_of
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 CONSTANT = ConstantModulus(1e6, 0.4)
 ZENER = FractionalZener(g0_pa=0.27e6, ginf_pa=4.1e6, tau_s=1.21e-3, alpha=0.83)

@@ -12,8 +12,6 @@ from fitting.diagnosis.problem.plate_answer import answer
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.dynamics.damping import viscous_damping
 from fitting.dynamics.direct import displacement_direct
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances.moved_plate import moved_plate
 from fitting.nuisances.nuisances import nuisances_of
 from fitting.plate.mesh import Mesh
@@ -25,6 +23,8 @@ from fitting.reduced.rational import rational_sweep
 from fitting.reduced.reduced_plate import reduce_plate
 from fitting.stated.tolerances import OF_FEW, PLATE, STATED
 from fitting.sweep import Sweep
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 from instrument.bench.sweeps import GRID_HZ, synthetic_sweep
 
 OMEGA = 2 * np.pi * np.array([19.5, 62.0, 100.0, 281.0])

@@ -16,15 +16,15 @@ from fitting.dynamics.damping import viscous_damping
 from fitting.effects import CATALOGUE
 from fitting.effects.added_mass import PointMass
 from fitting.effects.amplitude_softening import CoreStrain
-from fitting.effects.change import Change
-from fitting.effects.enriching import enriched
-from fitting.effects.full_plate import FullPlate
 from fitting.laws.constant import ConstantModulus
 from fitting.plate.plate import Plate
 from fitting.reduced.domain import domain_of
 from fitting.reduced.rational import rational_sweep
 from fitting.reduced.reduced_plate import reduce_plate
 from fitting.sweep import Sweep
+from fitting.widened.change import Change
+from fitting.widened.enriching import enriched
+from fitting.widened.full_plate import FullPlate
 
 F_HZ = np.linspace(14.0, 26.0, 90)
 OMEGA = 2 * np.pi * F_HZ

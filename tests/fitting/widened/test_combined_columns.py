@@ -1,6 +1,6 @@
 import numpy as np
 
-from fitting.effects.combined_columns import AllCombined, OwnCombined, own_and_beside
+from fitting.widened.combined_columns import AllCombined, OwnCombined, own_and_beside
 
 
 def test_own_columns_stay_and_what_the_others_add_is_orthonormal():

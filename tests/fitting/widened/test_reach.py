@@ -8,12 +8,12 @@ import scipy.sparse.linalg as sla
 from campaign.plates.judged import models_of
 from fitting.diagnosis.problem.plate_answer import answer
 from fitting.dynamics.damping import viscous_damping
-from fitting.effects.enriching import USUAL_HZ, enriched, reach_over
-from fitting.effects.full_plate import FullPlate
 from fitting.effects.partial_debond import LEFT, PartialDebondEffect, strips
 from fitting.plate.plate import Plate
 from fitting.reduced.domain import domain_of
 from fitting.reduced.reduced_plate import reduce_plate
+from fitting.widened.enriching import USUAL_HZ, enriched, reach_over
+from fitting.widened.full_plate import FullPlate
 
 HZ = np.array([100.0, 380.0, 540.0, 580.0])
 G = 1.5e6 * (HZ / 100) ** 0.4 * (1 + 0.5j)

@@ -15,16 +15,16 @@ from fitting.effects import CATALOGUE, Change, all_spans
 from fitting.effects.base_rocking import BaseRockingEffect
 from fitting.effects.clamp_compliance import root_springs
 from fitting.effects.clamp_friction import ClampFrictionEffect
-from fitting.effects.condensing import Training, condensed
-from fitting.effects.enriching import enriched
-from fitting.effects.full_plate import FullPlate
 from fitting.effects.partial_debond import LEFT, PartialDebondEffect, strips
-from fitting.effects.span import Span
 from fitting.effects.spot_offset import SpotOffsetEffect
 from fitting.effects.viscous_damping import ViscousDampingEffect
 from fitting.plate.plate import Plate
 from fitting.reduced.domain import domain_of
 from fitting.reduced.reduced_plate import reduce_plate
+from fitting.widened.condensing import Training, condensed
+from fitting.widened.enriching import enriched
+from fitting.widened.full_plate import FullPlate
+from fitting.widened.span import Span
 from instrument.files.specimen_file import read_specimen
 from instrument.paper_case import case_file
 

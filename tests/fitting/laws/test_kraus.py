@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from fitting.effects.kraus import LEAST, Kraus, strained
+from fitting.laws.kraus import LEAST, Kraus, strained
 
 REAL = Path(__file__).parents[3].parent / "shared/data/real/shear"
 G = np.array([1e6 * (1 + 0.2j), 3e6 * (1 + 0.5j)])

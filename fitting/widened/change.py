@@ -1,4 +1,4 @@
-"""What an effect changes of the reduced plate: the additions to the matrices of its equation (`base`)."""
+"""What an effect changes of the reduced plate: additions to its matrices (`fitting.effects.base`)."""
 
 from __future__ import annotations
 

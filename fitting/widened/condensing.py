@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, as_slice
 from fitting.dynamics.dynamic_stiffness import dynamic_stiffness, stacked
-from fitting.effects.change import Change
-from fitting.effects.combined_columns import OwnCombined
-from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.widened.change import Change
+from fitting.widened.combined_columns import OwnCombined
+from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 CONDENSED = 1e-4
 """Of the largest singular value, what a condensed plate may leave out; its reading is then off by 1e-5."""

@@ -7,10 +7,10 @@ from solved_in_full import Full
 
 from fitting.effects import CATALOGUE
 from fitting.effects.clamp_compliance import rim_springs, root_springs
-from fitting.effects.clamp_span import on_a_rim
 from fitting.effects.treatment_not_gripped import hold
 from fitting.plate.element import THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
 from fitting.stated.patches import Patch
+from fitting.widened.clamp_span import on_a_rim
 
 CLAMPS = ("clamp_compliance", "treatment_not_gripped")
 BOUNDARIES = (

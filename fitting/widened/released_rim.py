@@ -1,6 +1,6 @@
-"""Clamped edges let go in some of their motions, whichever edges these are. No effect by itself.
+"""Clamped edges let go in some of their motions, whichever edges these are.
 
-The held plate's answers condensed on them as in `fitting.effects.released_root`, which is the quicker way for
+The held plate's answers condensed on them as in `fitting.widened.released_root`, which is the quicker way for
 the root of a plate that is alike on both sides of its axis.
 """
 
@@ -13,10 +13,10 @@ import scipy.linalg as la
 import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex, Indices
-from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.effects.released_root import ReleasedRoot, along_line
 from fitting.numerics.linear import times
 from fitting.plate.mesh import treated_nodes
+from fitting.widened.full_plate import FullPlate, Snapshot
+from fitting.widened.released_root import ReleasedRoot, along_line
 
 Axis = Literal["x", "y"]
 Released = Mapping[Axis, Sequence[int]]

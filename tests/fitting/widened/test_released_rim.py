@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from fitting.dynamics.damping import viscous_damping
-from fitting.effects.full_plate import FullPlate
-from fitting.effects.released_rim import clamped_edges, on_edge, treated_along
 from fitting.plate.element import DOFS, W
 from fitting.plate.plate import Plate
 from fitting.stated.patches import Patch
+from fitting.widened.full_plate import FullPlate
+from fitting.widened.released_rim import clamped_edges, on_edge, treated_along
 from instrument.files.specimen_file import read_specimen
 from instrument.paper_case import case_file
 

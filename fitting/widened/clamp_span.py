@@ -1,14 +1,14 @@
-"""Motions with clamps on springs: a root, or any clamped edges. No effect by itself."""
+"""Motions with clamps on springs: a root, or any clamped edges."""
 
 from collections.abc import Sequence
 
 import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
-from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.effects.released_rim import Released, released_rim, rim_forces
-from fitting.effects.released_root import released, root_forces
-from fitting.effects.span import Span
+from fitting.widened.full_plate import FullPlate, Snapshot
+from fitting.widened.released_rim import Released, released_rim, rim_forces
+from fitting.widened.released_root import released, root_forces
+from fitting.widened.span import Span
 
 
 class RootSpan(Span):

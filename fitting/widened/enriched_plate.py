@@ -13,14 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, as_slice
-from fitting.effects.combined_columns import AllCombined, OwnCombined, own_and_beside
-from fitting.effects.plate_rows import RowReader
-from fitting.effects.span import Span
 from fitting.plate.layers_array import specimen_of
 from fitting.plate.mesh import Mesh
 from fitting.plate.parts import Coefficients, coefficients
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import Specimen
+from fitting.widened.combined_columns import AllCombined, OwnCombined, own_and_beside
+from fitting.widened.plate_rows import RowReader
+from fitting.widened.span import Span
 
 Names = NDArray[np.str_]
 Place = tuple[float, float]

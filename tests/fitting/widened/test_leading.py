@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fitting.effects.leading import Motions
+from fitting.widened.leading import Motions
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fitting.effects.plate_rows import RowReader
+from fitting.widened.plate_rows import RowReader
 
 SIZE = np.array([0.3, 0.2, 6.0, 4.0])
 

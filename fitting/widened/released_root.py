@@ -1,4 +1,4 @@
-"""The root let go in some of its motions: the held plate's answers condensed on them. No effect by itself.
+"""The root let go in some of its motions: the held plate's answers condensed on them.
 
 With r the released motions of the root and i all that the clamp leaves free,
 
@@ -16,8 +16,8 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, Indices
-from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.numerics.linear import times
+from fitting.widened.full_plate import FullPlate, Snapshot
 
 _PAIRS = 5
 """Of an even and an odd polynomial along the root, for each of a node's degrees of freedom."""

@@ -1,4 +1,4 @@
-"""The leading motions of one parity that responses have beside known ones. No effect by itself."""
+"""The leading motions of one parity that responses have beside known ones."""
 
 from collections.abc import Sequence
 
@@ -7,8 +7,8 @@ import scipy.linalg as la
 
 from fitting.arrays import Array, Complex
 from fitting.dynamics.half_plate import HalfPlate, Parity
-from fitting.effects.full_plate import FullPlate
 from fitting.numerics.linear import times
+from fitting.widened.full_plate import FullPlate
 
 _ALIKE = 1e-14
 """Of the largest product, what is nothing but rounding."""

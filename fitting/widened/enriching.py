@@ -10,10 +10,6 @@ import scipy.sparse as sp
 from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.full_plate import FullPlate
-from fitting.effects.leading import Motions, Stirred
-from fitting.effects.span import Span
 from fitting.numerics.linear import times
 from fitting.plate.element import THETA_X, THETA_Y, W
 from fitting.plate.layers_array import layers_of
@@ -21,6 +17,10 @@ from fitting.plate.part_matrices import moving_part, on_motions, projected_parts
 from fitting.plate.part_names import names_of
 from fitting.plate.parts import coefficients, loaded
 from fitting.progress import Report, unheard
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.full_plate import FullPlate
+from fitting.widened.leading import Motions, Stirred
+from fitting.widened.span import Span
 
 SNAPSHOTS = 12
 """Points of frequency and modulus that are solved in full, each a factorisation. A choice; `TOLERANCE` is of

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
-from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.widened.full_plate import FullPlate, Snapshot
 
 UNIT_RESPONSE = 0.3
 """Size assumed for a unit response where forces do not say how large an effect makes it. Motions smaller than

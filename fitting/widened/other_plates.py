@@ -1,19 +1,19 @@
-"""The same mesh of another plate: what its matrices differ by. No effect by itself."""
+"""The same mesh of another plate: what its matrices differ by."""
 
 from collections.abc import Iterable
 
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.change import Change
-from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.plate.element import CORNERS, DOFS
 from fitting.plate.element_matrices import element_matrices
 from fitting.plate.mesh import Mesh
 from fitting.plate.part_names import names_of
 from fitting.plate.parts import coefficients, loaded, stretched
 from fitting.specimen import Specimen
+from fitting.widened.change import Change
+from fitting.widened.enriched_plate import EnrichedReducedPlate
+from fitting.widened.full_plate import FullPlate, Snapshot
 
 
 def differences(full: FullPlate, other: Specimen) -> tuple[Array, Array, Array]:
