@@ -40,7 +40,7 @@ def test_a_run_at_over_50_ks_a_second_with_its_fits_never_keeps_a_person_waiting
         found = stalls_of_a_run(window, experiment, tmp_path)
     assert len(found.late_s) > 200
     assert found.percentile_s(99) < 0.05, str(found)
-    # The longest, a page drawn for the first time: by_hand/window.py measures it, docs/window.md tells.
+    # The longest, a page drawn for the first time: docs/evidence/window.md tells of it.
 
 
 def test_a_stall_is_seen(qapp):
