@@ -18,9 +18,9 @@ from gui.state.run import Run
 from gui.state.step import Step
 from gui.state.time_to_go import TimeToGo
 from instrument.check.piece import Region
-from instrument.cli.watching import said_of
 from instrument.errors import BadInput
 from instrument.impact.record import Hit, ResponseChannel
+from instrument.results.event_words import said_of
 from instrument.session.configuration import Configuration
 from instrument.session.contents import Contents, Gather, RecordedHit
 from instrument.session.setup import sweep_settings

@@ -16,11 +16,11 @@ from sessions import events_of
 from fitting.effects import CATALOGUE
 from instrument.cli.output import Output
 from instrument.cli.print_run import print_finished, run_result
-from instrument.cli.watching import said_of
 from instrument.errors import BadInput, RigStopped, StoppedByUser
 from instrument.facts.damping import DampingResult, ModeFound
 from instrument.files.experiment_file import DiagnosisTable, ExperimentDocument
 from instrument.planning.follow_up import Possible
+from instrument.results.event_words import said_of
 from instrument.run.control import RunControl
 from instrument.run.experiment import run_experiment
 from instrument.run.live_diagnosis import ToDiagnose, able, apart, diagnose_points
