@@ -100,7 +100,9 @@ def _matrices(specimen: Specimen, G: Complex) -> tuple[Complex, Complex, Array, 
         # In a plate treated alike on both sides the substrate's middle does not stretch.
         U_b = 0 * _B if specimen.both_sides else _B
         N_8 = _core_motion(b, c, U_b)
-        _add_core(specimen, v, G, N_8, U_b, K_0, K_shear)
+        stretch, shear = _core_stiffness(specimen, v, G, N_8, U_b)
+        K_0 += stretch
+        K_shear += shear
         M_0 += sides * v.density_kg_m3 * v.thickness_m * np.outer(_W, _W)
         M_0 += sides * v.glue_mass_kg_m2 * np.outer(_W, _W)
         M_1 += sides * v.density_kg_m3 * v.thickness_m * np.outer(N_8, N_8)
@@ -109,9 +111,10 @@ def _matrices(specimen: Specimen, G: Complex) -> tuple[Complex, Complex, Array, 
     return K_0[:, its, its], K_shear[:, its, its], M_0[its, its], M_1[its, its]
 
 
-def _add_core(
-    specimen: Specimen, v: Core, G: Complex, N_8: Array, U_b: Array, K_0: Complex, K_shear: Complex
-) -> None:
+def _core_stiffness(
+    specimen: Specimen, v: Core, G: Complex, N_8: Array, U_b: Array
+) -> tuple[Complex, Complex]:
+    """The core's stretch and bending, a part of K_0, and its shear, one of K_shear. Shape (n, 4, 4) each."""
     H_v, sides = v.thickness_m, 2 if specimen.both_sides else 1
     plane = sides * (2 * G / (1 - v.poisson))[:, None, None]
     N_10 = (_C - U_b - specimen.apart_m * _W) / H_v
@@ -120,8 +123,9 @@ def _add_core(
     elif v.glue:
         # Of glue and core in series, as if all of it were the core's.
         G = G / (1 + G / (H_v * v.glue_stiffness_pa_m))
-    K_0 += plane * (H_v * np.outer(N_8, N_8) + H_v**3 / 12 * np.outer(_W, _W))
-    K_shear += sides * G[:, None, None] * H_v * np.outer(N_10, N_10)
+    stretch = plane * (H_v * np.outer(N_8, N_8) + H_v**3 / 12 * np.outer(_W, _W))
+    shear = sides * G[:, None, None] * H_v * np.outer(N_10, N_10)
+    return stretch, shear
 
 
 def _core_motion(b: Face, c: Face, U_b: Array) -> Array:
