@@ -5,7 +5,7 @@ import numpy as np
 from fitting.laws.constant import ConstantModulus
 from fitting.mode_tables.build import member_of
 from fitting.mode_tables.explaining import Explaining
-from fitting.mode_tables.fit import begin_modal, start_of
+from fitting.mode_tables.fit import begin_modal, modal_fit_of, problem_of, start_of
 from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.table import ModalTable
 from fitting.stated.layers import Core, Face
@@ -51,3 +51,8 @@ def begun(*tables):
     beams = [BEAM] * len(tables)
     problem = ModalProblem.of([member_of(t, b) for t, b in zip(tables, beams, strict=True)])
     return Explaining(begin_modal(problem, start_of(tables, beams)))
+
+
+def fit_modes(tables, specimens):
+    """The law of all tables, without any effect."""
+    return modal_fit_of(begin_modal(problem_of(tables, specimens), start_of(tables, specimens)))

@@ -9,9 +9,8 @@ from campaign.law import TrueLaw
 from campaign.plates.geometry import TruePlate
 from campaign.plates.grid import Fineness
 from campaign.plates.hidden.base import Hidden
-from campaign.plates.reduced import ReducedSolid, reduced
-from campaign.plates.simulate import moduli_of, with_effects
-from campaign.plates.solid import Build, Patch, Solid
+from campaign.plates.reduced import ReducedSolid
+from campaign.plates.simulate import with_effects
 from drivers.simulated.plant.one_thread import one_thread
 from fitting.arrays import Array, Complex
 
@@ -22,30 +21,6 @@ _MODES, _ROUNDS = 16, 4
 """That are looked at, six rigid ones of a free plate among them; and steps to a mode's own frequency."""
 _REACH, _LEAST = 1.5, 0.03
 """How far lines go to either side of a resonance: of its half width, and of its frequency at least."""
-
-
-@one_thread
-def mobilities_of_free(
-    true: TruePlate,
-    law: TrueLaw,
-    frequency_hz: Array,
-    forces_m: Points,
-    spots_m: Points,
-    patches: tuple[Patch, ...] = (),
-    fineness: Fineness | None = None,
-) -> Complex:
-    """Velocity of the upper face at each spot for 1 N at each point of a free plate, in m/s.
-
-    Its remaining damping is left out. Shape (forces, spots, points).
-    """
-    solid = Solid(true, Build(free=True, patches=patches), fineness)
-    plate = reduced(solid, moduli_of(law, frequency_hz), points_m=[*forces_m, *spots_m])
-    push, read = (np.array([plate.reading(*at) for at in points]) for points in (forces_m, spots_m))
-    found = np.empty((len(forces_m), len(spots_m), len(frequency_hz)), complex)
-    for k, w in enumerate(2 * np.pi * frequency_hz):
-        Z = plate.K_0 + law.modulus(w) * plate.whole_core - w**2 * plate.M
-        found[:, :, k] = 1j * w * (read @ np.linalg.solve(Z, push.T.astype(complex))).T
-    return found
 
 
 def struck_plate(

@@ -70,11 +70,6 @@ class BegunModal:
         return Quantities.of(task, frequency_hz)
 
 
-def fit_modes(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> ModalFit:
-    """The law of all tables. Raises `TooFewPoints`, `OutsideModel`."""
-    return modal_fit_of(begin_modal(problem_of(tables, specimens), start_of(tables, specimens)))
-
-
 def problem_of(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> ModalProblem:
     """Tables with the models of their specimens."""
     return ModalProblem.of([member_of(t, s) for t, s in zip(tables, specimens, strict=True)])
@@ -199,7 +194,7 @@ def modal_fit_of(
     )
 
 
-def law_with(fitted: Refitted, covariance: Array, kin: Kin | None = None) -> tuple[CoreLaw, Uncertainty]:
+def law_with(fitted: Refitted, covariance: Array, kin: Kin | None) -> tuple[CoreLaw, Uncertainty]:
     """The law of a fit or of its kin, and how well it is known. `covariance` of shape (columns, columns)."""
     law = fitted.law if kin is None else kin.law(fitted)
     C, n = covariance if kin is None else covariance + kin.wider, len(law.names)

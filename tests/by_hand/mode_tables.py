@@ -19,14 +19,13 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from beam_tables import BEAM, poles_of
+from beam_tables import BEAM, fit_modes, poles_of
 from mode_cases import TRUTH, read_off, solid_modes, stated
 
 from fitting.arrays import Array, Complex
 from fitting.laws import LAWS
 from fitting.laws.base import CoreLaw
 from fitting.mode_tables.as_read import Read
-from fitting.mode_tables.fit import fit_modes
 from fitting.mode_tables.table import ModalTable
 from fitting.structures import AnySpecimen
 

@@ -12,9 +12,11 @@ from campaign.plates.geometry import plate_named
 from campaign.plates.grid import Fineness
 from campaign.plates.hidden import HIDDEN
 from campaign.plates.hidden.clamp import HiddenClampCompliance
+from campaign.plates.reduced import reduced
 from campaign.plates.simulate import moduli_of
 from campaign.plates.solid import Build, Patch, Solid
-from campaign.plates.struck import lines_about, mobilities_of_free, mobility, struck_plate
+from campaign.plates.struck import lines_about, mobility, struck_plate
+from drivers.simulated.plant.one_thread import one_thread
 from fitting.dynamics.damping import viscous_damping
 from fitting.dynamics.direct import displacement_direct
 from fitting.plate.plate import Plate
@@ -28,6 +30,22 @@ FORCES_M = [(0.03, 0.02), (0.31, 0.16), (0.18, 0.17)]
 SPOTS_M = [(0.05, 0.15), (0.27, 0.03)]
 MASS = Patch(8e-3, 0.241, 0.052, 0.01)
 NOISE = 2e-3
+
+
+@one_thread
+def mobilities_of_free(true, law, frequency_hz, forces_m, spots_m, patches=(), fineness=None):
+    """Velocity of the upper face at each spot for 1 N at each point, in m/s: (forces, spots, points).
+
+    What damping remains of it is left out.
+    """
+    solid = Solid(true, Build(free=True, patches=patches), fineness)
+    plate = reduced(solid, moduli_of(law, frequency_hz), points_m=[*forces_m, *spots_m])
+    push, read = (np.array([plate.reading(*at) for at in points]) for points in (forces_m, spots_m))
+    found = np.empty((len(forces_m), len(spots_m), len(frequency_hz)), complex)
+    for k, w in enumerate(2 * np.pi * frequency_hz):
+        Z = plate.K_0 + law.modulus(w) * plate.whole_core - w**2 * plate.M
+        found[:, :, k] = 1j * w * (read @ np.linalg.solve(Z, push.T.astype(complex))).T
+    return found
 
 
 def test_the_basis_answers_as_the_whole_solid_does():

@@ -2,12 +2,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from beam_tables import fit_modes
 
 from fitting.dynamics.complex_modes import complex_modes
 from fitting.errors import OutsideModel, TooFewPoints
 from fitting.laws import LAWS
 from fitting.mode_tables.build import member_of, tapped, with_own_error
-from fitting.mode_tables.fit import fit_modes
 from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.table import ModalTable
 from fitting.plate.plate import Plate

@@ -6,12 +6,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from beam_tables import BEAM, FACE, read
+from beam_tables import BEAM, FACE, fit_modes, read
 from mode_cases import TRUTH, read_off, solid_modes, stated
 from plate_files import plate_text
 
 from fitting.identification.result import doubts_itself
-from fitting.mode_tables.fit import fit_modes
 from fitting.mode_tables.table import ModalTable
 from instrument.cli.main import run
 from instrument.models.modal import identify_tables, remark_on_fit, remark_on_misread

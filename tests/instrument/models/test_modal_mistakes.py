@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from fitting.laws.fractional_zener import FractionalZener
-from fitting.mode_tables.fit import fit_modes
 from fitting.mode_tables.table import ModalTable
 from fitting.structures.small_modes import small_modes
 from instrument.models.modal_mistakes import table_doubt
@@ -29,7 +28,7 @@ RIGHT = read(3)
 
 
 def doubt(table):
-    return table_doubt([table], [BEAM], fit_modes([table], [BEAM]).uncertainty.chi2_per_dof)
+    return table_doubt([table], [BEAM], beam_tables.fit_modes([table], [BEAM]).uncertainty.chi2_per_dof)
 
 
 def with_losses(factor):

@@ -4,11 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from beam_tables import BEAM, poles_of
+from beam_tables import BEAM, fit_modes, poles_of
 
 from fitting.laws import LAWS
 from fitting.mode_tables.build import member_of, with_own_error
-from fitting.mode_tables.fit import fit_modes
 from fitting.mode_tables.table import ModalTable
 from instrument.errors import BadInput
 from instrument.files.modal_table import read_modal_table
