@@ -87,7 +87,7 @@ class LanXiFrontEnd:
         self.transducers: tuple[Transducer | None, ...] = ()
         """Of the sensors that say who they are, by input."""
         try:
-            self._info = documents.read_module_info(self._json("GET", "/module/info"))
+            self._info = documents.read_module_info(self._json("/module/info"))
             if take_over:
                 self._take_over()
                 self.transducers = self._detect()
@@ -114,9 +114,9 @@ class LanXiFrontEnd:
         setups = self._setups(channels)
         self._request("PUT", "/create")
         try:
-            default = self._json("GET", "/channels/input/default")
+            default = self._json("/channels/input/default")
             self._request("PUT", "/channels/input", documents.fill_setup(default, setups, rate_hz))
-            self._connect(documents.read_port(self._json("GET", "/destination/socket")))
+            self._connect(documents.read_port(self._json("/destination/socket")))
             self._decoder = Decoder()
             # The device counts its signals in the order of its inputs, whatever the order asked for.
             order = sorted(range(len(setups)), key=lambda k: setups[k].number)
@@ -187,7 +187,7 @@ class LanXiFrontEnd:
 
     def _take_over(self) -> None:
         """Bring the module, whatever state a program left it in, to an open recorder."""
-        state, _, _ = documents.read_status(self._json("GET", "/onchange"))
+        state, _, _ = documents.read_status(self._json("/onchange"))
         undo = {
             documents.RECORDING: ("/measurements/stop", "/finish", "/close"),
             documents.STREAMING: ("/finish", "/close"),
@@ -205,9 +205,9 @@ class LanXiFrontEnd:
         deadline = time.monotonic() + _DETECTION_S
         tag, active = 0, True
         while True:
-            _, tag, active = documents.read_status(self._json("GET", "/onchange", last=tag))
+            _, tag, active = documents.read_status(self._json("/onchange", last=tag))
             if not active:
-                return documents.read_transducers(self._json("GET", "/channels/input/all/transducers"))
+                return documents.read_transducers(self._json("/channels/input/all/transducers"))
             if time.monotonic() > deadline:
                 raise TimedOut(
                     f"{self._me}: detecting sensors took over {_DETECTION_S:g} s: restart the module"
@@ -274,12 +274,12 @@ class LanXiFrontEnd:
     def _lost(self, why: object) -> NoReturn:
         raise Unreachable(f"{self._me}: the stream broke off: {why}: samples are lost")
 
-    def _json(self, method: str, path: str, **query: int) -> Any:
-        response = self._request(method, path, query=query)
+    def _json(self, path: str, **query: int) -> Any:
+        response = self._request("GET", path, query=query)
         try:
             return response.json()
         except ValueError as error:
-            raise Garbled(f"{self._me}: {method} {path}: {response.text[:60]!r} is no JSON") from error
+            raise Garbled(f"{self._me}: GET {path}: {response.text[:60]!r} is no JSON") from error
 
     def _request(
         self, method: str, path: str, body: Any = None, query: Mapping[str, int] | None = None

@@ -60,9 +60,7 @@ class ElasticLayer:
     turns: bool = True
 
 
-def exact_lambda(
-    layers: tuple[ElasticLayer, ...], k: ArrayLike, order: int = ORDER, tolerance: float = TOLERANCE
-) -> Complex:
+def exact_lambda(layers: tuple[ElasticLayer, ...], k: ArrayLike, order: int = ORDER) -> Complex:
     """omega^2 of the lowest bending branch, the moduli held fixed.
 
     Parameters
@@ -73,8 +71,6 @@ def exact_lambda(
         Wavenumbers in 1/m, shape (n,).
     order
         Of U within a layer, W's is one less.
-    tolerance
-        Last relative change of lambda in its iteration.
 
     Returns
     -------
@@ -90,11 +86,11 @@ def exact_lambda(
     K = np.asarray(coefficients.T @ forms.stiffness, dtype=complex).reshape(-1, N, N)
     powers = kappa ** np.array([[0], [2], [4]])
     M = np.tensordot(powers.T, np.tensordot(densities, forms.mass, 1), 1)
-    value, _ = lowest(K, M, tolerance)
+    value, _ = lowest(K, M)
     return value * kappa**4 / h**2
 
 
-def lowest(K: Complex, M: Array, tolerance: float = TOLERANCE) -> tuple[Complex, Complex]:
+def lowest(K: Complex, M: Array) -> tuple[Complex, Complex]:
     """The eigenvalue of K x = lambda M x of least modulus, and its vector: K, M complex symmetric.
 
     Inverse iteration from the first degree of freedom, the common deflection: the other branches of a thin
@@ -111,7 +107,7 @@ def lowest(K: Complex, M: Array, tolerance: float = TOLERANCE) -> tuple[Complex,
         My = np.einsum("nij,nj->ni", M[left], y)
         # K y = M x gives the quotient y'Ky / y'My without a product with K.
         new = np.sum(y * Mx, axis=1) / np.sum(y * My, axis=1)
-        done = np.abs(new - value[left]) <= tolerance * np.abs(new)
+        done = np.abs(new - value[left]) <= TOLERANCE * np.abs(new)
         scale = y[:, :1]
         value[left], x[left] = new, y / scale
         left, Mx = left[~done], (My / scale)[~done]

@@ -25,7 +25,7 @@ _W, _B, _C, _S = np.eye(4)
 """Deflection, stretch of the two faces, slip that the faces take: the unknowns of a wave."""
 
 
-def layerwise_lambda(specimen: Specimen, k: ArrayLike, G: ArrayLike = 0.0) -> Complex:
+def layerwise_lambda(specimen: Specimen, k: ArrayLike, G: ArrayLike) -> Complex:
     """omega^2 in (rad/s)^2 of the plate at wavenumbers `k` in 1/m and core moduli `G` in Pa. Shape (n,)."""
     value, _ = _lambda_and_slope(specimen, np.atleast_1d(np.asarray(k, dtype=float)), np.asarray(G))
     return value

@@ -27,12 +27,12 @@ _MOST_RATIO = 0.5
 """Of critical damping: beyond, a pole describes a trend of the band and no resonance."""
 
 
-def lscf_poles(frfs: list[Frf], orders: tuple[int, ...] = ORDERS) -> list[Complex]:
+def lscf_poles(frfs: list[Frf]) -> list[Complex]:
     """Decaying poles in rad/s at every order; all channels on the same lines. Shape (poles,) each."""
     f = frfs[0].frequency_hz
     if len(f) < _FEWEST_LINES:
         return []
-    orders = tuple(n for n in orders if 2 * (n + 1) <= len(f))
+    orders = tuple(n for n in ORDERS if 2 * (n + 1) <= len(f))
     low, high = float(f[0]), float(f[-1])
     # The band mapped onto half a circle: well conditioned however narrow it is.
     dt = 0.49 / (high - low)

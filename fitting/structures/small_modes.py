@@ -16,7 +16,7 @@ from fitting.widened.enriched_plate import EnrichedReducedPlate
 _STEPS, _SETTLED = 60, 1e-9
 """A bound for the law followed along; the relative change of a frequency at which that has settled."""
 _FIRST_HZ = 100.0
-"""The first mode's frequency to begin with, where nobody has a better guess. A choice."""
+"""The first mode's frequency to begin with. A choice."""
 _BENDS = 0.01
 """Of the largest deflection among modes: one that moves across less than this goes along the beam."""
 _RIGID, _AMONG = 1e-6, 10
@@ -39,10 +39,8 @@ def along(beam: Beam, modes: Sequence[ComplexMode]) -> list[bool]:
     return [bool(one < _BENDS * largest.max()) for one in largest]
 
 
-def elastic_modes(
-    system: EnrichedReducedPlate, law: CoreLaw | None, count: int, first_hz: float = _FIRST_HZ
-) -> list[ComplexMode]:
-    """The same of a system as it is; `first_hz` is a guess of the first mode's."""
+def elastic_modes(system: EnrichedReducedPlate, law: CoreLaw | None, count: int) -> list[ComplexMode]:
+    """Modes of a system as it is, in frequency order and without rigid ones, as `small_modes` has them."""
     # M = L L^T: an ordinary problem is solved several times faster.
     back = la.inv(la.cholesky(system.M, lower=True)).T
     K_0, K_1 = (back.T @ A @ back for A in (system.K_0, system.K_1))
@@ -57,7 +55,7 @@ def elastic_modes(
         return np.asarray(found[order]), np.asarray(shapes[:, order])
 
     modes = []
-    guess = 2 * np.pi * first_hz
+    guess = 2 * np.pi * _FIRST_HZ
     for k in range(min(count, len(elastic(guess)[0]))):
         omega = guess
         for _ in range(_STEPS):

@@ -135,7 +135,7 @@ def along_root(full: FullPlate, weight: Array | None = None) -> sp.csr_array:
     return along_line(full.loose.mesh.n_y, full.loose.mesh.sides_m[1], weight)
 
 
-def along_line(count: int, step_m: float, weight: Array | None = None) -> sp.csr_array:
+def along_line(count: int, step_m: float, weight: Array | None) -> sp.csr_array:
     """As `along_root`, of a line of `count` elements of length `step_m`. Shape (count + 1, count + 1)."""
     g = np.ones(count + 1) if weight is None else weight
     low, high = g[:-1], g[1:]

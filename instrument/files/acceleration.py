@@ -74,10 +74,10 @@ def shown_quantity(value: float, unit: str) -> tuple[float, str]:
     return acceleration_unit().of(value), acceleration_unit().plain
 
 
-def in_both(value_m_s2: float, spec: str = ".3g") -> str:
+def in_both(value_m_s2: float) -> str:
     """In a sentence that a result keeps, whatever unit is chosen: in m/s^2 and in g."""
     usual, other = UNITS.values()
-    return f"{usual.typed(value_m_s2, spec)} ({other.typed(value_m_s2, spec)})"
+    return f"{usual.typed(value_m_s2, '.3g')} ({other.typed(value_m_s2, '.3g')})"
 
 
 def said_beside(key: str, value: object) -> str:

@@ -32,7 +32,7 @@ _DECIMAL_COMMA = re.compile(r"\d,\d")
 
 
 def read_rows(
-    path: Path, check_header: Callable[[list[str]], None] = lambda header: None, separator: str = ","
+    path: Path, check_header: Callable[[list[str]], None] = lambda header: None
 ) -> tuple[list[str], Rows]:
     """The header, checked by `check_header`, and the rows with their line numbers, all equally long.
 
@@ -40,13 +40,13 @@ def read_rows(
     """
     header: list[str] | None = None
     top, rows = 0, list[tuple[int, list[str]]]()
-    for line, row in _fields(path, separator):
+    for line, row in _fields(path):
         if header is None:
             header, top = row, line
             for name in header:
                 if name and header.count(name) > 1:
                     raise BadInput(f"{path}: header: column {name} twice")
-            check_separator(path, header, separator)
+            _check_separator(path, header)
             check_header(header)
             continue
         if len(row) != len(header):
@@ -60,9 +60,9 @@ def read_rows(
     return header, rows
 
 
-def check_separator(path: Path, header: list[str], separator: str = ",") -> None:
+def _check_separator(path: Path, header: list[str]) -> None:
     """Raise `BadInput` where a header of one column is a row of names with another mark between them."""
-    if len(header) > 1 or separator != ",":
+    if len(header) > 1:
         return
     for mark, name in ((";", "semicolons"), ("\t", "tabs")):
         if mark in header[0]:
@@ -140,13 +140,10 @@ def is_error(text: str) -> bool:
     return _SPREADSHEET_ERROR.match(text) is not None
 
 
-def _fields(path: Path, separator: str) -> Iterator[tuple[int, list[str]]]:
+def _fields(path: Path) -> Iterator[tuple[int, list[str]]]:
     for line, text in enumerate(read_text(path).splitlines(), start=1):
         if text.strip() and not is_comment(text):
             try:
-                yield (
-                    line,
-                    [field.strip() for field in next(csv.reader([text], delimiter=separator, strict=True))],
-                )
+                yield line, [field.strip() for field in next(csv.reader([text], strict=True))]
             except csv.Error as error:
                 raise BadInput(f"{path}: line {line}: {error}") from None

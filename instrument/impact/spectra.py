@@ -23,6 +23,8 @@ _STANDS_OUT, _LEAST_BLOW = 7.0, 2e-3
 million samples of noise none."""
 _PULLS = 2.0
 """Times the deepest pull that a blow must push."""
+_DROP_DB = 20.0
+"""Below the low end of its spectrum a blow no longer excites: a tenth of the force. A choice."""
 _PULSES = 4
 """The force is kept for so many lengths of the blow after its end."""
 
@@ -127,8 +129,8 @@ def force_window(judged: Judged) -> Array:
     return w
 
 
-def rolloff_hz(spectrum: Spectra, drop_db: float = 20.0) -> float:
-    """Where the force spectrum first falls by `drop_db` from its low end."""
+def rolloff_hz(spectrum: Spectra) -> float:
+    """Where the force spectrum first falls by `_DROP_DB` from its low end, in Hz."""
     low = float(np.median(spectrum.force[1 : max(3, len(spectrum.force) // 100)]))
-    below = np.flatnonzero(spectrum.force < low * 10 ** (-drop_db / 20))
+    below = np.flatnonzero(spectrum.force < low * 10 ** (-_DROP_DB / 20))
     return float(spectrum.frequency_hz[below[0]] if below.size else spectrum.frequency_hz[-1])

@@ -62,15 +62,17 @@ def fractional_zener(
     return modulus
 
 
-def maxwell_series(
-    modulus: Callable[[ArrayLike], Complex], terms: int = 8, band_hz: tuple[float, float] = (3.0, 3000.0)
-) -> MaxwellLaw:
-    """The series nearest to a law over the band in relative error, by non-negative least squares.
+_BAND_HZ = (3.0, 3000.0)
+"""Where a series follows its law: a decade beyond a usual sweep at its upper end. A choice."""
+
+
+def maxwell_series(modulus: Callable[[ArrayLike], Complex], terms: int = 8) -> MaxwellLaw:
+    """The series nearest to a law from 3 to 3000 Hz in relative error, by non-negative least squares.
 
     The times are spaced evenly in the logarithm, from 2 / (lowest w) to 1 / (highest w). `modulus` keeps the
     shape of omega.
     """
-    omega = 2 * np.pi * np.geomspace(*band_hz, 200)
+    omega = 2 * np.pi * np.geomspace(*_BAND_HZ, 200)
     wanted = modulus(omega)
     tau = np.geomspace(2 / omega[0], 1 / omega[-1], terms)
     s = 1j * omega[:, None] * tau

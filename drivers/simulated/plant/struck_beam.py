@@ -8,7 +8,7 @@ from drivers.simulated.plant.basis import basis_of, motions
 from drivers.simulated.plant.effects import Effects
 from drivers.simulated.plant.law import even_loss
 from drivers.simulated.plant.one_thread import one_thread
-from drivers.simulated.plant.solid_beam import PIECES, BeamStated, SolidBeam
+from drivers.simulated.plant.solid_beam import BeamStated, SolidBeam
 from drivers.simulated.plant.structure import Branch, Structure, modal_damping
 
 _MODES = 12
@@ -17,12 +17,7 @@ _MODES = 12
 
 @one_thread
 def struck_beam(
-    stated: BeamStated,
-    effects: Effects,
-    hit_m: float,
-    response_m: float,
-    sensor_kg: float,
-    pieces: int = PIECES,
+    stated: BeamStated, effects: Effects, hit_m: float, response_m: float, sensor_kg: float
 ) -> Structure:
     """The substrate alone, its one sheet, struck and read on its middle line. Effects heeded: its stiffness.
 
@@ -35,7 +30,7 @@ def struck_beam(
         if not 0 <= x <= stated.span_m:
             raise ValueError(f"{1e3 * x:.1f} mm is off the beam, expected 0 to {1e3 * stated.span_m:.1f}")
     (face,) = stated.sheets
-    solid = SolidBeam(stated, pieces)
+    solid = SolidBeam(stated)
     free = solid.free
     scale = effects.substrate_stiffness.scale if effects.substrate_stiffness else 1.0
     K, M = scale * solid.stiffness(0)[free][:, free], solid.M[free][:, free]
