@@ -10,7 +10,7 @@ import numpy as np
 from campaign.plates.cases import PlateTruth, measured
 from campaign.plates.channel import ChannelError
 from campaign.plates.geometry import TruePlate
-from campaign.plates.hidden import HIDDEN
+from campaign.plates.hidden.attached import HiddenAddedMass
 from campaign.plates.hidden.base import Hidden
 from campaign.plates.hidden.clamp import HiddenClampCompliance, HiddenClampLine
 from campaign.plates.judged import models_of
@@ -150,7 +150,7 @@ class RemeasuredPlate:
         longer = self.truth.plate.length_m - self._stated.length_m
         off = STATED["place"].typical * rng.standard_normal(2)
         at = x + longer + float(off[0]), y + float(off[1])
-        patch = HIDDEN["added_mass"](weighed, *at, _SIDE_M)  # type: ignore[call-arg]
+        patch = HiddenAddedMass(weighed, *at, _SIDE_M)
         there = replace(self.truth, effects=(*self.truth.effects, patch))
         sweep = measured(there, self._built(there), self._steps(follow_up), rng)
         masses = (PlacedMass(follow_up.mass_kg, x, y),)

@@ -9,8 +9,9 @@ from campaign.draws import either_sign, log_uniform
 from campaign.plates.cases import draw_case, measured
 from campaign.plates.channel import ChannelError
 from campaign.plates.geometry import TruePlate
-from campaign.plates.hidden import HIDDEN
+from campaign.plates.hidden.attached import HiddenAirAddedMass
 from campaign.plates.hidden.base import Hidden
+from campaign.plates.hidden.channels import HiddenGainError, HiddenSpotOffset
 from campaign.plates.hidden.clamp import (
     BETWEEN,
     BOLTS,
@@ -18,6 +19,8 @@ from campaign.plates.hidden.clamp import (
     HiddenClampCompliance,
     HiddenClampFriction,
 )
+from campaign.plates.hidden.core import HiddenAmplitudeSoftening
+from campaign.plates.hidden.layers import HiddenSubstrateStiffness
 from campaign.plates.hidden.sizes import ACROSS, AIR_KG_M3, FRICTION_LOSS
 from campaign.plates.judged import models_of
 from campaign.plates.remeasured import RemeasuredPlate
@@ -60,16 +63,16 @@ _SIZES = {
 def weak(kind: str, rng: np.random.Generator, plate: TruePlate) -> Hidden:
     """An effect of a size that one sweep may not tell from others. Raises `KeyError` for another kind."""
     if kind == "substrate_stiffness":
-        return HIDDEN[kind](scale=1 + either_sign(rng, *_SIZES["substrate_stiffness"]))  # type: ignore[call-arg]
+        return HiddenSubstrateStiffness(scale=1 + either_sign(rng, *_SIZES["substrate_stiffness"]))
     if kind == "gain_error":
-        return HIDDEN[kind](factor=1 + either_sign(rng, *_SIZES["gain_error"]))  # type: ignore[call-arg]
+        return HiddenGainError(factor=1 + either_sign(rng, *_SIZES["gain_error"]))
     if kind == "air_added_mass":
-        return HIDDEN[kind](density_kg_m3=float(rng.uniform(*AIR_KG_M3)))  # type: ignore[call-arg]
+        return HiddenAirAddedMass(density_kg_m3=float(rng.uniform(*AIR_KG_M3)))
     if kind == "amplitude_softening":
-        return HIDDEN[kind](k=log_uniform(rng, *_SIZES["amplitude_softening"]), most=0.5)  # type: ignore[call-arg]
+        return HiddenAmplitudeSoftening(k=log_uniform(rng, *_SIZES["amplitude_softening"]), most=0.5)
     if kind == "spot_offset":
         size, angle = rng.uniform(*_SIZES["spot_offset"]), rng.uniform(0, 2 * np.pi)
-        return HIDDEN[kind](dx_m=float(size * np.cos(angle)), dy_m=float(size * np.sin(angle)))  # type: ignore[call-arg]
+        return HiddenSpotOffset(dx_m=float(size * np.cos(angle)), dy_m=float(size * np.sin(angle)))
     if kind == "clamp_friction":
         held = _clamp(rng, plate)
         return HiddenClampFriction(**held.facts, loss=float(rng.uniform(*FRICTION_LOSS)))
