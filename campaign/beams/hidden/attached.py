@@ -10,7 +10,7 @@ import numpy as np
 from campaign.beams.geometry import TrueBeam
 from campaign.beams.hidden.base import HiddenInBeam, Hung, Setting
 from campaign.draws import either_sign, log_uniform
-from campaign.plates.hidden.base import felt_kg
+from campaign.plates.hidden.base import StillAir, felt_kg
 from campaign.plates.hidden.sizes import (
     AIR_KG_M3,
     CABLE_LOSS,
@@ -124,20 +124,12 @@ class HiddenLoosePart(_OnTheBeam):
 
 
 @dataclass(frozen=True)
-class HiddenAirAddedMass(HiddenInBeam):
-    """Still air on both faces, by the simulated rig's own lattice of vortex rings."""
-
-    name: ClassVar[str] = "air_added_mass"
-
-    density_kg_m3: float
+class HiddenAirAddedMass(StillAir, HiddenInBeam):
+    """Still air about the beam."""
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAirAddedMass":
         return cls(float(rng.uniform(*AIR_KG_M3)))
-
-    @property
-    def air_kg_m3(self) -> float:
-        return self.density_kg_m3
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ from campaign.plates.hidden.base import (
     Attachment,
     Hidden,
     Setting,
+    StillAir,
     felt_kg,
 )
 from campaign.plates.hidden.sizes import (
@@ -104,22 +105,15 @@ class HiddenAddedMasses(Hidden):
 
 
 @dataclass(frozen=True)
-class HiddenAirAddedMass(Hidden):
-    """Still air on both faces, about the simulated rig's own lattice of vortex rings."""
+class HiddenAirAddedMass(StillAir, Hidden):
+    """Still air about the plate, a mass of the solid."""
 
-    name: ClassVar[str] = "air_added_mass"
     place: ClassVar[str] = "air"
     changes_solid: ClassVar[bool] = True
-
-    density_kg_m3: float
 
     @classmethod
     def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAirAddedMass":
         return cls(float(rng.uniform(*AIR_KG_M3)))
-
-    @property
-    def air_kg_m3(self) -> float:
-        return self.density_kg_m3
 
 
 @dataclass(frozen=True)

@@ -68,6 +68,20 @@ class Softening:
 
 
 @dataclass(frozen=True)
+class StillAir:
+    """Still air on both faces, about the simulated rig's own lattice of vortex rings."""
+
+    name: ClassVar[str] = "air_added_mass"
+
+    density_kg_m3: float
+
+    @property
+    def air_kg_m3(self) -> float:
+        """Its density."""
+        return self.density_kg_m3
+
+
+@dataclass(frozen=True)
 class Attachment:
     """Something hung on the plate at a point; stiffness and force are across the plate."""
 
