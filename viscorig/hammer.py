@@ -77,7 +77,7 @@ class Damping(Facts[DampingResult]):
         return np.array([m.damping_ratio for m in self.result.accepted], dtype=float)
 
     def to_numpy(self) -> Columns:
-        """A row a mode, accepted or not; what a method does not give is NaN."""
+        """The modes as a table, accepted or not, a row each; what a method does not give is NaN."""
         modes = self.result.modes
         found: Columns = {
             "frequency_hz": np.array([m.frequency_hz for m in modes], dtype=float),
@@ -95,7 +95,7 @@ class Damping(Facts[DampingResult]):
         }
 
     def lines(self) -> list[str]:
-        """How many modes, and the warnings."""
+        """How many modes were accepted, and the warnings."""
         return [f"{len(self.result.accepted)} modes of {len(self.result.modes)} accepted", *self.warnings]
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":

@@ -25,22 +25,22 @@ class Identification(Facts[IdentificationResult]):
     """A core's law with its uncertainty, and what is left of the data: the JSON of `viscorig identify`."""
 
     specimen: Specimen
-    """Whose law was the start."""
+    """The specimen that was measured; the search began at its law."""
 
     @property
     def parameters(self) -> dict[str, float]:
-        """Of the law, in SI units, which the names end with."""
+        """Parameters of the law found by name, in SI units, which the names end with."""
         return dict(self.result.parameters)
 
     @property
     def standard_errors(self) -> dict[str, float | None]:
-        """Of the parameters; None for one at its limit."""
+        """Standard errors of the law's parameters by name; None for one at its limit."""
         errors = self.result.standard_errors
         return {key: None if isnan(error) else error for key, error in errors.items()}
 
     @property
     def frequency_hz(self) -> Array:
-        """Where the law is stated, over the measured band. Shape (frequencies,)."""
+        """Frequencies at which the law is stated, over the measured band. Shape (frequencies,)."""
         return np.asarray(self.to_numpy()["frequency_hz"])
 
     @property
@@ -60,7 +60,7 @@ class Identification(Facts[IdentificationResult]):
 
     @property
     def rms_percent(self) -> float:
-        """Of the differences in amplitude."""
+        """The rms difference between measured and predicted amplitudes, in percent."""
         return self.result.rms_percent
 
     def modulus_pa(self, frequency_hz: ArrayLike) -> Complex:

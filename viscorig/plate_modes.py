@@ -26,20 +26,20 @@ class Modes(Facts[ModesResult]):
 
     @property
     def frequency_hz(self) -> Array:
-        """Shape (modes,)."""
+        """Natural frequencies, the lowest first. Shape (modes,)."""
         return np.array([m.frequency_hz for m in self.result.modes], dtype=float)
 
     @property
     def loss_factor(self) -> Array:
-        """Shape (modes,)."""
+        """Modal loss factors. Shape (modes,)."""
         return np.array([m.loss_factor for m in self.result.modes], dtype=float)
 
     def to_numpy(self) -> Columns:
-        """A row a mode."""
+        """The modes as a table, a row each."""
         return columns(self.result.modes)
 
     def lines(self) -> list[str]:
-        """How many, and where."""
+        """How many modes there are, and between which frequencies."""
         f = self.frequency_hz
         return [f"{len(f)} modes, {f.min():.4g} to {f.max():.4g} Hz" if len(f) else "no modes"]
 

@@ -35,21 +35,21 @@ class Response(Facts[PredictionResult]):
 
     @property
     def frequency_hz(self) -> Array:
-        """Shape (points,)."""
+        """Frequencies of the prediction. Shape (points,)."""
         return np.asarray(self.to_numpy()["frequency_hz"])
 
     @property
     def velocity_m_s(self) -> Complex:
-        """Phasors of e^{+i omega t}, zero to peak. Shape (points,)."""
+        """Velocity at the pickup, phasors of e^{+i omega t}, zero to peak. Shape (points,)."""
         table = self.to_numpy()
         return np.asarray(table["velocity_re_m_s"] + 1j * table["velocity_im_m_s"])
 
     def to_numpy(self) -> Columns:
-        """A row a frequency."""
+        """The response as a table, a row a frequency."""
         return columns(self.result.points)
 
     def lines(self) -> list[str]:
-        """How many points, and what is noted."""
+        """How many frequencies were asked for, and what is noted of them."""
         f = self.frequency_hz
         return [f"response at {len(f)} frequencies, {f.min():g} to {f.max():g} Hz", *self.result.notes]
 

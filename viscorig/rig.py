@@ -22,7 +22,7 @@ class Rig:
 
     path: Path
     document: RigDocument
-    """The file's tables."""
+    """What the RIG.toml says, table by table."""
 
     @classmethod
     def from_file(cls, path: str | Path) -> Self:

@@ -26,19 +26,19 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False)
 class Session(Shown):
-    """Read whole, the file closed again. What was not measured or not found is None."""
+    """A recorded session, read whole and its file closed. What was not measured or not found is None."""
 
     path: Path
     name: str
     reads: str
     """What the rig's laser sees: `absolute` or `relative` velocity."""
     specimen: Specimen
-    """Read as the rig's laser does."""
+    """The specimen that was measured, read as the rig's laser does."""
     sweep: Sweep | None
-    """Steps and sentinels, each over its level."""
+    """The velocities at steps and sentinels, each over its level."""
     hammer: Damping | None
     identification: Identification | None
-    """The last one of the run itself, recorded."""
+    """The last identification of the run itself, as it was recorded."""
     diagnosis: Diagnosis | None
     remarks: tuple[str, ...]
     """Why there is no law or no diagnosis, where one was tried."""

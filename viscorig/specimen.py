@@ -37,7 +37,7 @@ class Specimen(Shown):
     """
 
     model: Model
-    """What is computed with: frozen, in SI units."""
+    """The specimen as it is computed with: frozen, in SI units."""
 
     def __init__(self, **tables: Mapping[str, Any]) -> None:
         self._tables: dict[str, Any] = to_jsonable(tables)
@@ -74,7 +74,7 @@ class Specimen(Shown):
         return made
 
     def but(self, **tables: Mapping[str, Any]) -> "Specimen":
-        """The same with other values: `specimen.but(core={"thickness_mm": 0.4})`. Raises `BadInput`."""
+        """A specimen with other values: `specimen.but(core={"thickness_mm": 0.4})`. Raises `BadInput`."""
         return Specimen(
             **{**self._tables, **{k: {**self._tables.get(k, {}), **t} for k, t in tables.items()}}
         )
@@ -89,7 +89,7 @@ class Specimen(Shown):
         return {"key": np.array([k for k, _ in rows]), "value": np.array([v for _, v in rows], dtype=object)}
 
     def lines(self) -> list[str]:
-        """Size and layers."""
+        """The plate's size and its layers."""
         m = self.model
         law = (
             f", core {1e3 * m.core.thickness_m:g} mm ({m.core.law.kind})" if m.core is not None else ", bare"

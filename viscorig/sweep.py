@@ -85,7 +85,7 @@ class Sweep(Shown, Points):
         return {name: to_jsonable(values) for name, values in found.items()}
 
     def lines(self) -> list[str]:
-        """How many points, and where."""
+        """How many points there are, and between which frequencies."""
         f, kind = self.frequency_hz, "phasors" if self.has_phase else "amplitudes"
         segments = len(np.unique(self.segment))
         return [f"sweep of {len(f)} points, {f.min():g} to {f.max():g} Hz, {segments} segments, {kind}"]
