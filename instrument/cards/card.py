@@ -65,6 +65,8 @@ class Card:
             )
         if not law.converged:
             lines.append("WARNING: the fit has not come to its end: values and their errors are provisional")
+        if law.hardly_known:
+            lines.append(f"WARNING: {law.hardly_known}")
         assumed = (
             " (assumed: not stated in the source; --specimen states it)"
             if self.poisson_is_assumed

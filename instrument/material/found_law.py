@@ -21,6 +21,7 @@ from instrument.files.table import LARGEST
 from instrument.files.text import read_text
 from instrument.interchange.given import is_session
 from instrument.interchange.identified import identify_session, result_of_fit
+from instrument.material.contradictions import refuse_contradictions
 from instrument.material.found_shift import FoundShift
 from instrument.material.knowledge import known_curve_of
 from instrument.material.stated_part import Stated, digest_of, stated_numbers
@@ -157,6 +158,14 @@ class MaterialLaw:
         """The first and the last frequency."""
         return float(self.frequency_hz[0]), float(self.frequency_hz[-1])
 
+    @property
+    def hardly_known(self) -> str:
+        """Words where the standard error of G' is typically above G'; empty elsewhere."""
+        times = float(np.median(self.storage_modulus_standard_error_pa / self.storage_modulus_pa))
+        if not times > 1.0:
+            return ""
+        return f"the standard error of G' is {times:.2g} times G' (median): this law is hardly known"
+
     def modulus(self, omega: Array) -> Complex:
         """G* in Pa inside the band: what is listed, smoothly in the logarithm of the frequency."""
         x, at = np.log(self.frequency_hz), np.log(np.asarray(omega) / (2 * np.pi))
@@ -183,6 +192,9 @@ def read_law(path: Path, progress: Progress = quiet) -> MaterialLaw:
     found = _of_facts(path, facts)
     if found is None:
         raise BadInput(f"{path}: {_EXPECTED}")
+    errors = found.storage_modulus_standard_error_pa
+    rows = (found.frequency_hz, found.storage_modulus_pa, found.loss_factor, errors)
+    refuse_contradictions(path, found.kind, found.parameters, rows)
     return found
 
 

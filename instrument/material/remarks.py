@@ -23,6 +23,8 @@ def remarks_on_law(law: MaterialLaw, *, beside_spread: bool) -> list[str]:
         said.append(f"verdict ambiguous ({law.found}): its band spans the laws of all of these")
     if not law.converged:
         said.append("its fit has not come to its end: values and their errors are provisional")
+    if law.hardly_known:
+        said.append(law.hardly_known)
     if doubt := kelvin_doubt(law.temperature_c):
         said.append(doubt)
     return said

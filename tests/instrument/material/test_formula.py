@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from conftest import TABLE_4
 
-from instrument.material.formula import formula
+from instrument.material.formula import formula, limits
 
 
 def test_a_law_is_what_its_parameters_say():
@@ -23,3 +23,10 @@ def test_lists_come_back_in_their_order():
 def test_a_parameter_that_is_missing_is_said():
     with pytest.raises(KeyError):
         formula(TABLE_4.kind, {})
+
+
+def test_limits_are_those_of_each_parameter_and_of_a_list_s_items():
+    found = limits("generalised-maxwell", {"g_inf_pa": 1e5, "g_1_pa": 2e5, "tau_1_s": 1e-3, "other": 1.0})
+    assert set(found) == {"g_inf_pa", "g_1_pa", "tau_1_s"}
+    assert found["g_1_pa"].lower == 1e1
+    assert limits("of-another-package", {"g_pa": 1.0}) == {}
