@@ -8,11 +8,9 @@ import numpy as np
 
 from fitting.modal.frf import Frf
 from instrument.errors import BadInput
-from instrument.files.table import LARGEST
+from instrument.files.table import LARGEST, SMALLEST
 from instrument.impact.record import Hit
 
-SMALLEST = 1e-30
-"""A size in SI units that no channel's largest value has."""
 _RATES_HZ = (20.0, 1e8)
 """Slower than any blow; a rate in kHz is below."""
 _LEAST_SAMPLES = 8

@@ -13,7 +13,7 @@ from fitting.mode_tables.table import ModalTable
 from instrument.errors import BadInput
 from instrument.files.nearest import nearest
 from instrument.files.sweep_file import IMPORT_READS
-from instrument.files.table import check_frequency, number, read_rows
+from instrument.files.table import check_above_zero, check_frequency, number, read_rows
 from instrument.files.text import read_text
 
 _SAID = re.compile(r"^\s*#\s*read\s*:\s*(.*?)\s*$", re.MULTILINE | re.IGNORECASE)
@@ -163,6 +163,8 @@ def _columns(path: Path) -> dict[str, Array]:
                 raise BadInput(f"{path}: line {line}: {name} = {row[k]}, expected {expected}")
             if name == "frequency_hz":
                 check_frequency(f"{path}: line {line}", name, value, row[k])
+            elif name not in ("mode", "temperature_c"):
+                check_above_zero(f"{path}: line {line}", name, value, row[k])
             values.append(value)
         columns[name] = np.array(values)
     return columns

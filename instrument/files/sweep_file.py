@@ -16,7 +16,7 @@ from instrument.files.column import Column
 from instrument.files.near_columns import words_of_near
 from instrument.files.nearest import nearest
 from instrument.files.point_columns import understood
-from instrument.files.table import check_frequency, check_whole, number, read_rows
+from instrument.files.table import SMALLEST, check_above_zero, check_frequency, check_whole, number, read_rows
 from instrument.files.text import read_text
 
 IMPORT_READS = "'viscorig import' reads other programs' tables"
@@ -230,10 +230,10 @@ def _number(path: Path, line: int, column: Column, text: str) -> float:
 
 
 def _check_number(where: str, column: Column, value: float, text: str) -> None:
-    if column.above_zero and value <= 0:
-        raise BadInput(f"{where}: {column.name} = {text}, expected more than 0")
     if column.name == "frequency_hz":
         check_frequency(where, column.name, value, text)
+    if column.above_zero:
+        check_above_zero(where, column.name, value, text)
     if column.whole:
         check_whole(where, column.name, value, text)
 
@@ -241,7 +241,7 @@ def _check_number(where: str, column: Column, value: float, text: str) -> None:
 def _check_phasors(path: Path, places: list[str], columns: dict[str, Array]) -> None:
     for real, imaginary in _phasors():
         if real in columns:
-            zero = np.flatnonzero((columns[real] == 0) & (columns[imaginary] == 0))
+            zero = np.flatnonzero(np.maximum(np.abs(columns[real]), np.abs(columns[imaginary])) < SMALLEST)
             if zero.size:
                 stem = real.partition("_re_")[0]
                 raise BadInput(f"{path}: {places[zero[0]]}: {stem} is zero, expected a reading")

@@ -16,6 +16,8 @@ from instrument.files.text import read_text
 Rows = list[tuple[int, list[str]]]
 LARGEST = 1e30
 """A size in SI units that nothing measured has; its square is still a number."""
+SMALLEST = 1e-30
+"""A size in SI units below all that is measured; its square is still above 0."""
 LARGEST_WHOLE = 1e9
 """Numbers of segments, passes and spots are small; beyond this a double may no longer be whole."""
 LOWEST_HZ = 1e-6
@@ -92,6 +94,14 @@ def check_frequency(where: str, name: str, value: float, text: str) -> None:
     """Raise `BadInput` for a frequency that is above 0 Hz and none all the same."""
     if 0 < value < LOWEST_HZ:
         raise BadInput(f"{where}: {name} = {text}, expected at least {LOWEST_HZ:g} Hz")
+
+
+def check_above_zero(where: str, name: str, value: float, text: str) -> None:
+    """Raise `BadInput` for a size that is none, or so small that its powers are lost."""
+    if value <= 0:
+        raise BadInput(f"{where}: {name} = {text}, expected more than 0")
+    if value < SMALLEST:
+        raise BadInput(f"{where}: {name} = {shown(text)}, expected at least {SMALLEST:g}")
 
 
 def check_whole(where: str, name: str, value: float, text: str) -> None:

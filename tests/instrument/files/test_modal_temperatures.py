@@ -75,3 +75,10 @@ def test_read_as_one_temperature_it_says_where_several_belong(tmp_path):
         BadInput, match="mode 1 stands twice, expected each once; rows of several temperatures"
     ):
         read_modal_table(path)
+
+
+def test_a_deviation_of_next_to_nothing_is_refused_with_its_line(tmp_path):
+    path = tmp_path / "modes.csv"
+    path.write_text(f"{STATED}\n1,20.0,0.1,20.0,1e-300,0.01\n")
+    with pytest.raises(BadInput, match=r"line 2: frequency_std_hz = 1e-300, expected at least 1e-30"):
+        read_modal_table(path)

@@ -99,6 +99,16 @@ BAD = {
         "base_accel_im_m_s2 missing",
     ),
     "column twice": ("frequency_hz,velocity_m_s,frequency_hz\n1,2,1\n", "twice"),
+    "next to nothing": (
+        AMPLITUDES.replace("0.0726", "1e-300"),
+        "line 2: velocity_m_s = 1e-300, expected at least",
+    ),
+    "a frequency of next to nothing": (AMPLITUDES.replace("18.4", "1e-300"), "expected at least 1e-06 Hz"),
+    "a weight of next to nothing": (
+        "frequency_hz,velocity_m_s,weight\n18.4,0.07,1\n19.3,0.1,1e-300\n",
+        "line 3: weight = 1e-300, expected at least 1e-30",
+    ),
+    "a phasor of next to nothing": (PHASORS.replace("-0.01,0.07", "1e-300,0"), "line 2: velocity is zero"),
     "nan": (AMPLITUDES.replace("0.0726", "nan"), "line 2: velocity_m_s = nan"),
     "infinite": (AMPLITUDES.replace("0.0726", "inf"), "line 2: velocity_m_s = inf"),
     "too large": (AMPLITUDES.replace("0.0726", "2e30"), "velocity_m_s = 2e30, expected nothing beyond"),
