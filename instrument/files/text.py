@@ -1,11 +1,14 @@
 """Reading a text file, or saying in one line why not."""
 
 import codecs
+import re
 from pathlib import Path
 
 from instrument.errors import BadInput, system_words
 
 LARGEST_BYTES = 200_000_000
+_LONE_RETURN = re.compile(r"\r(?!\n)")
+"""The line end of some old programs: a table is read with it, TOML and patterns know only the others."""
 
 
 def refuse_endless(path: Path) -> None:
@@ -26,7 +29,10 @@ def read_content(path: Path) -> bytes:
 
 
 def read_text(path: Path, encoding: str = "utf-8-sig") -> str:
-    """The file as text (UTF-8, a byte order mark dropped). Raises `BadInput`."""
+    """The file as text: UTF-8, a byte order mark dropped, a lone carriage return made a newline.
+
+    Raises `BadInput`.
+    """
     content = read_content(path)
     try:
         if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
@@ -40,4 +46,4 @@ def read_text(path: Path, encoding: str = "utf-8-sig") -> str:
         raise BadInput(f"{path}: byte {text.index(chr(0))}: a NUL byte, expected a text file")
     if not text.strip():
         raise BadInput(f"{path}: the file is empty")
-    return text
+    return _LONE_RETURN.sub("\n", text) if "\r" in text else text

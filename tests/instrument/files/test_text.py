@@ -16,6 +16,12 @@ def test_a_byte_order_mark_is_no_part_of_the_text(tmp_path):
     assert read_text(path) == "frequency_hz\n1\n"
 
 
+def test_a_lone_carriage_return_ends_a_line_and_other_line_ends_stay(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_bytes(b"f,v\r1,2\r\n3,4\n")
+    assert read_text(path) == "f,v\n1,2\r\n3,4\n"
+
+
 @pytest.mark.parametrize(
     ("content", "said"),
     [

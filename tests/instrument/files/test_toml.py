@@ -4,7 +4,7 @@ import pytest
 from pydantic import Field
 
 from instrument.errors import BadInput
-from instrument.files.toml import Positive, TomlTable, parse_document
+from instrument.files.toml import Positive, TomlTable, document_faults, parse_document, read_document
 
 
 class Part(TomlTable):
@@ -45,3 +45,12 @@ def test_what_was_expected_is_said_plainly(tmp_path, text, said):
     with pytest.raises(BadInput) as refused:
         parse_document(tmp_path / "a.toml", text, Small)
     assert str(refused.value) == f"{tmp_path / 'a.toml'}: {said}"
+
+
+@pytest.mark.parametrize("end", ["\r", "\n", "\r\n"])
+def test_a_file_is_read_whatever_ends_its_lines(tmp_path, end):
+    path = tmp_path / "a.toml"
+    path.write_bytes(end.join(["# a comment", "number = 2.5", "[[part]]", "count = 3", ""]).encode())
+    read = read_document(path, Small)
+    assert (read.number, read.part[0].count) == (2.5, 3)
+    assert document_faults(path, Small) == []
