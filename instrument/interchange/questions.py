@@ -30,6 +30,10 @@ _DRIFTED_K = 5.0
 """Within one sweep or table, from its coldest row to its warmest: no mean is that of all of it."""
 _MANY, _ENOUGH = 20_000, 2_000
 """Lines of a sweep: more take more than a minute, and say hardly more of a law than as many as are enough."""
+_TIMED_ROWS = 10
+"""Readings that share one time from which on it is no clock's: fewer may be told by hand, all at once."""
+_LONGEST_S = 3 * 7 * 86_400.0
+"""Of one sweep: rigs take hours, and half an hour in ms is as long."""
 _SECONDS_A_LINE = 3e-3
 """Of a plate's fit on one processor."""
 _BEST_FREQUENCY, _BEST_LOSS = 1e-6, 1e-4
@@ -46,7 +50,7 @@ def question_data(given: Given, path: Path, progress: Progress = quiet, like: Sp
     plate = given.specimen
     if not given.session:
         doubt = _otherwise_read(given) or kelvin_doubt(given.temperature_c)
-        doubt = doubt or _drifted(given.temperature_range_c)
+        doubt = doubt or _drifted(given.temperature_range_c) or _times(given.sweep.time_s)
         _ask(doubt or _many(len(given.sweep), isinstance(plate, Specimen)), [path])
     if (
         given.session
@@ -152,6 +156,23 @@ def _drifted(range_c: tuple[float, float] | None) -> str:
         f"temperature_c from {range_c[0]:g} to {range_c[1]:g} in one sweep: its law is that of no one "
         "temperature, expected a file for each"
     )
+
+
+def _times(time_s: Array | None) -> str:
+    """Of one sweep's readings, shape (points,)."""
+    if time_s is None:
+        return ""
+    first, duration = float(time_s.min()), float(np.ptp(time_s))
+    if first < 0:
+        return f"time_s down to {first:g}: expected seconds since the first point"
+    if duration > _LONGEST_S:
+        return f"time_s over {duration:.3g} s, {duration / 86_400:.0f} days, in one sweep: is it in ms or us?"
+    if duration == 0 and len(time_s) >= _TIMED_ROWS:
+        return (
+            f"time_s = {first:g} in all {len(time_s)} lines: expected seconds since the first point, or no "
+            "such column"
+        )
+    return ""
 
 
 def _of_several_temperatures(table: ModalTable) -> str:

@@ -125,6 +125,27 @@ def test_a_sweep_through_many_temperatures_is_asked_about():
     question_data(replace(given, temperature_range_c=(20.0, 22.0)), Path("sweep.csv"))
 
 
+@pytest.mark.parametrize(
+    ("times", "asked"),
+    [
+        (lambda n: -30.0 * np.arange(n), r"time_s down to -\d+: expected seconds since the first point"),
+        (lambda n: 6e4 * np.arange(n), r"time_s over .* days, in one sweep: is it in ms or us\?"),
+        (np.zeros, r"time_s = 0 in all \d+ lines: expected seconds since"),
+    ],
+)
+def test_times_that_no_clock_gives_are_asked_about(times, asked):
+    given = read_given(DATA / "practice-002.csv", case_file("zn1.toml"), None)
+    timed = replace(given.sweep, time_s=times(len(given.sweep)))
+    with pytest.raises(BadInput, match=rf"^sweep\.csv: {asked}.*; --force"):
+        question_data(replace(given, sweep=timed), Path("sweep.csv"))
+
+
+def test_times_of_a_long_sweep_since_any_moment_are_not_asked_about():
+    given = read_given(DATA / "practice-002.csv", case_file("zn1.toml"), None)
+    for times in (1.7e9 + 30.0 * np.arange(len(given.sweep)), 3600.0 * np.arange(len(given.sweep))):
+        question_data(replace(given, sweep=replace(given.sweep, time_s=times)), Path("sweep.csv"))
+
+
 def test_a_sweep_of_very_many_lines_is_asked_about_with_its_time_and_how_to_thin_it():
     given = read_given(DATA / "practice-002.csv", case_file("zn1.toml"), None)
     many = given.sweep.take(np.arange(100_000) % len(given.sweep))
