@@ -53,6 +53,7 @@ def read_hammer(path: Path) -> HammerModes:
         document = _Document.model_validate(json.loads(read_text(path)))
         if not any("damping_ratio" in m.model_fields_set for m in document.modes):
             raise BadInput(f"{path}: no damping_ratio, expected the JSON of 'viscorig damping'")
+        _refuse_undamped(path, document)
         return _modes(document)
     except json.JSONDecodeError as error:
         said = f"line {error.lineno}: not JSON ({error.msg})"
@@ -66,6 +67,16 @@ def read_hammer(path: Path) -> HammerModes:
         raise BadInput(f"{path}: {place}{said}, expected the JSON of 'viscorig damping'") from None
     except TooFewPoints as error:
         raise BadInput(f"{path}: {error}") from None
+
+
+def _refuse_undamped(path: Path, document: _Document) -> None:
+    """Raise `BadInput` for an accepted mode of no damping: it would silently stand for one not read."""
+    for k, mode in enumerate(document.modes):
+        if mode.accepted and mode.damping_ratio == 0:
+            raise BadInput(
+                f"{path}: modes.{k}.damping_ratio: 0 at {mode.frequency_hz:g} Hz, no plate rings for ever: "
+                "expected a fraction of critical, or null where none was read"
+            )
 
 
 def _words(kind: str, message: str) -> str:

@@ -50,3 +50,11 @@ def test_a_file_that_is_not_json_is_told_what_is_expected(tmp_path):
     said = r"a\.json: line 1: not JSON \(.*\), expected the JSON of 'viscorig damping', or a session"
     with pytest.raises(BadInput, match=said):
         read_hammer(tmp_path / "a.json")
+
+
+def test_an_accepted_mode_without_any_damping_is_refused(tmp_path):
+    still = {"frequency_hz": 40.0, "damping_ratio": 0}
+    said = r"h\.json: modes\.1\.damping_ratio: 0 at 40 Hz, no plate rings for ever: expected .* or null"
+    with pytest.raises(BadInput, match=said):
+        read_hammer(written(tmp_path, {"modes": [MODE, still]}))
+    assert len(read_hammer(written(tmp_path, {"modes": [MODE, still | {"accepted": False}]})).ratios) == 1
