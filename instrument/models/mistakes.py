@@ -220,4 +220,7 @@ def _size(size: float, drive: Drive) -> list[str]:
         return [known[nearest].format(drive=name)]
     if SLIGHT[0] < size < SLIGHT[1]:
         return []
-    return [f"the reading is {size:.2g} times this specimen's at all frequencies alike: unit, level or gain"]
+    return [
+        f"the reading is {size:.2g} times this specimen's at all frequencies alike: unit, level, gain or the "
+        "pickup's place"
+    ]

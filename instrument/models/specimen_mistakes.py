@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from fitting.specimen import Specimen
+from fitting.stated.edges import named
 from fitting.structures import AnySpecimen, Beam
 
 _CM, _INCH = 10.0, 25.4
@@ -47,12 +48,25 @@ def _sides(plate: Specimen) -> Iterator[Stated]:
     assert plate.pickup_m is not None
     length, width, (x, y) = plate.length_m, plate.width_m, plate.pickup_m
     sides = replace(plate, length_m=width, width_m=length)
+    held = _or_held_otherwise(plate)
     if x <= width and y <= length:
-        yield "plate.length_mm and plate.width_mm are exchanged", sides
-    yield "length and width are exchanged, and the pickup's with them", _at(sides, y, x)
+        yield f"plate.length_mm and plate.width_mm are exchanged{held if x == y else ''}", sides
+    yield f"length and width are exchanged, and the pickup's with them{held}", _at(sides, y, x)
     for unit, times in (("cm", _CM), ("inches", _INCH)):
         other = replace(plate, length_m=times * length, width_m=times * width)
         yield f"length, width and pickup are in {unit}, expected mm", _at(other, times * x, times * y)
+
+
+def _or_held_otherwise(plate: Specimen) -> str:
+    """The boundary that makes the same plate as sides and pickup exchanged; empty where it is the stated one.
+
+    Of a cantilever it is not told: of the usual plate exchanged sides are likelier.
+    """
+    x_0, y_0, x_1, y_1 = plate.edges
+    turned = named("-".join((y_0, x_0, y_1, x_1)))
+    if plate.boundary in (turned, "cantilever"):
+        return ""
+    return f", or plate.boundary is meant to be '{turned}'"
 
 
 def _spot_of_beam(beam: Beam) -> Iterator[Stated]:

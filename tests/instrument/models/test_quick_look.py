@@ -74,7 +74,8 @@ WRONG = {
     ),
     "some factor": (
         times(25),
-        "the reading is 25 times this specimen's at all frequencies alike: unit, level or gain",
+        "the reading is 25 times this specimen's at all frequencies alike: unit, level, gain or the "
+        "pickup's place",
     ),
     "rms": (times(0.5**0.5), "the pickup's reading is rms and the base acceleration an amplitude"),
     "peak to peak": (times(2), "the pickup's reading is peak to peak and the base acceleration an amplitude"),
@@ -200,7 +201,7 @@ def test_frequencies_in_radians_a_second_are_asked_about(plate, right):
     ("spoil", "said"),
     [
         (np.conj, "conjugate"),
-        (lambda v: v * 9.81e-6, "unit, level or gain"),
+        (lambda v: v * 9.81e-6, "unit, level, gain or"),
         (lambda v: v.imag + 1j * v.real, "exchanged"),
     ],
 )

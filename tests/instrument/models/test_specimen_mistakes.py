@@ -20,6 +20,19 @@ def test_a_plate_may_be_read_from_elsewhere_or_be_in_another_unit(zn1):
     assert thin.core.thickness_m == zn1.constraining.thickness_m
 
 
+def test_a_plate_whose_sides_seem_exchanged_may_be_held_at_another_edge(zn1):
+    instead = ", or plate.boundary is meant to be 'cantilever'"
+    at = min(zn1.length_m, zn1.width_m) / 3
+    held = replace(zn1, boundary="free-clamped-free-free", pickup_m=(at, at))
+    assert f"plate.length_mm and plate.width_mm are exchanged{instead}" in dict(specimen_mistakes(held))
+    # Read elsewhere in x and y, it is the edge alone only where the pickup goes along.
+    held = replace(held, pickup_m=(at, 2 * at))
+    found = dict(specimen_mistakes(held))
+    assert "plate.length_mm and plate.width_mm are exchanged" in found
+    assert f"length and width are exchanged, and the pickup's with them{instead}" in found
+    assert not any("boundary" in words for words, _ in specimen_mistakes(replace(held, boundary="free")))
+
+
 def test_a_beam_may_be_read_and_struck_from_the_other_end():
     beam = replace(beam_tables.BEAM, pickup_m=0.3, force_m=0.05)
     found = dict(specimen_mistakes(beam))
