@@ -54,7 +54,7 @@ def recover(folder: Path, json_path: str | None) -> None:
     # Of an older version: a whole run sweeps only after its hammer test, without one it was a sweep alone.
     alone = configuration.experiment.hammer is not None and bool(steps) and hits == 0
     command = configuration.command or ("sweep" if alone else "run")
-    out.say(f"to go on: viscorig {command} EXPERIMENT.toml --resume {folder}")
+    out.say(f"to go on: {configuration.resumed(command, folder)}")
     out.result(
         RecoverResult(
             session=str(path),

@@ -111,10 +111,10 @@ def _ended_early(contents: Contents) -> str:
     folder = f"{contents.configuration.name}.running"
     # A whole run sweeps only after its hammer test: without one it was begun as a sweep alone.
     alone = contents.configuration.experiment.hammer is not None and contents.damping is None and points > 0
+    again = contents.configuration.resumed("sweep" if alone else "run", folder)
     return (
-        f"{happened}{more} after {points} point{'' if points == 1 else 's'}; to go on: viscorig "
-        f"{'sweep' if alone else 'run'} EXPERIMENT.toml --resume {folder}; a law of what is there: "
-        f"viscorig identify {contents.path.name}"
+        f"{happened}{more} after {points} point{'' if points == 1 else 's'}; to go on: {again}; a law of "
+        f"what is there: viscorig identify {contents.path.name}"
     )
 
 

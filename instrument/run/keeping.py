@@ -38,7 +38,7 @@ def open_journal(
     name = f"{stem}-{now:%Y%m%dT%H%M%SZ}"
     journal = SessionJournal(out / f"{name}.running")
     made = experiment.configuration(name, now.isoformat(timespec="seconds"))
-    journal.begin(made.model_copy(update={"command": command}))
+    journal.begin(made.model_copy(update={"command": command, "experiment_file": experiment.path.name}))
     journal.lock()
     return journal, name
 

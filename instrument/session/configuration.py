@@ -1,6 +1,7 @@
 """What a session is kept with: experiment, rig and specimen as they were, versions, and what follows."""
 
 import re
+import shlex
 from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
@@ -34,6 +35,14 @@ def _plain(name: str) -> str:
     return name
 
 
+def _if_plain(name: str) -> str:
+    """A name that is only shown; empty where it is none."""
+    try:
+        return _plain(name)
+    except ValueError:
+        return ""
+
+
 class Configuration(BaseModel):
     """Kept in every session. The rig's `[simulation]` never is."""
 
@@ -45,6 +54,13 @@ class Configuration(BaseModel):
     specimen: AnyDocument
     command: str = ""
     """Which one began it: `run`, `hammer` or `sweep`; empty in sessions of older versions."""
+    experiment_file: Annotated[str, AfterValidator(_if_plain)] = ""
+    """Name of the experiment's file, without its folder; empty in sessions of older versions."""
+
+    def resumed(self, command: str, folder: Path | str) -> str:
+        """What a person types to carry a run on from its folder."""
+        file = self.experiment_file or "EXPERIMENT.toml"
+        return shlex.join(["viscorig", command, file, "--resume", str(folder)])
 
     def the_specimen(self) -> AnySpecimen:
         """The specimen as the model is told, read as this rig's laser does."""

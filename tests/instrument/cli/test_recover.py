@@ -50,6 +50,17 @@ def test_the_command_that_was_broken_off_is_named(tmp_path, capsys, command, sai
     assert f"to go on: viscorig {said} EXPERIMENT.toml --resume {folder}" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(
+    ("file", "said"),
+    [("plate 2.toml", "'plate 2.toml'"), ("a.toml", "a.toml"), ("../a.toml", "EXPERIMENT.toml")],
+)
+def test_the_experiment_s_file_is_named_where_the_folder_knows_it(tmp_path, capsys, file, said):
+    made = configuration().model_copy(update={"experiment_file": file})
+    folder = recorded(tmp_path / "one.running", 1, made)
+    assert run(["recover", str(folder)]) == 0
+    assert f" {said} --resume {folder}" in capsys.readouterr().out
+
+
 def test_of_two_runs_in_a_folder_one_has_to_be_named(tmp_path, capsys):
     for name in ("one", "two"):
         begun(tmp_path / f"{name}.running")

@@ -185,3 +185,9 @@ def test_where_the_disk_is_full_the_folder_goes_elsewhere_first(begin, tmp_path,
     monkeypatch.setattr("shutil.disk_usage", lambda _: SimpleNamespace(free=0))
     said = kept(journal, tmp_path / "a.h5")
     assert "make room, or copy that folder to another disk; then viscorig recover" in said
+
+
+def test_a_new_folder_knows_the_name_of_its_experiment_s_file(begin):
+    journal, _ = begin("a first try.toml")
+    again = journal.configuration().resumed("run", "a.running")
+    assert again == "viscorig run 'a first try.toml' --resume a.running"
