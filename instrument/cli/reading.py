@@ -107,6 +107,8 @@ def read_each(
             question_data(one, path, bar)
         if not at_temperatures:
             question_temperatures([one.temperature_c for one in given], data)
+    for remark in dict.fromkeys(one.level_remark for one in given if one.level_remark):
+        out.say(f"{remark}\n")
     return given
 
 

@@ -19,6 +19,7 @@ from instrument.files.sweep_file import read_sweep
 from instrument.interchange.base_frf import file_of_foreign, is_frf_csv, sweep_of_foreign, sweep_of_frf_csv
 from instrument.interchange.files_of import files_of
 from instrument.interchange.identified import session_modes, session_sweep
+from instrument.interchange.level_remark import level_remark
 from instrument.interchange.readers import is_foreign
 from instrument.models.files import File
 from instrument.results.session_result import recorded_result
@@ -56,6 +57,8 @@ class Given:
     where there is none."""
     temperature_range_c: tuple[float, float] | None = None
     """Lowest and highest temperature of a column."""
+    level_remark: str = ""
+    """For people, of levels far from the base that was read: only where the data are not asked about."""
 
     @property
     def plate(self) -> Specimen:
@@ -130,12 +133,14 @@ def _of_sweep(data: Path, specimen: Path | None) -> Given:
             "its specimen with [[mass]] (or the session itself)"
         )
     sweep, warm, ends = file.sweep(level, drive), file.temperature_c, file.temperature_range_c
+    off = level_remark(data, sweep, level, has_levels="level_g" in file.columns) if drive == "base" else ""
     return Given(
         read,
         sweep,
         None,
         reads=file.reads or "",
         remark=file.remark,
+        level_remark=off,
         temperature_c=warm,
         temperature_range_c=ends,
     )
