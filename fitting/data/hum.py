@@ -37,6 +37,9 @@ _BEYOND = 0.01
 coarse sweep's end would else pass for hum: damped structures have none that is narrower."""
 _ONCE_FOUND = 1e-3
 """Chance that is enough for a further point, once there is hum."""
+_FEWEST_POINTS = 2
+"""Within `_REACH_HZ` of multiples of one mains: a single reading may be off by anything, by noise too that is
+less even than it is taken to be. On sparse grids one in eight sweeps without hum had one such point."""
 _NEIGHBOURS = 10
 """Points that the curve at a point is drawn through, and that it is held against. A choice."""
 _STANDS_OUT = 1.5
@@ -125,6 +128,11 @@ def mains_hum(sweep: Sweep, noise: Noise) -> HumSeen | None:
         aside = aside | more
         now = _channels(sweep, noise, aside)
         more = reach & (now.worse("chance") < _ONCE_FOUND)
+    # Judged now, with the worst points out of all curves and the scatter.
+    beside = np.any([np.abs(f - line) <= _REACH_HZ for line in lines], axis=0)
+    shows = beside & (now.worse("chance") < _ONCE_FOUND)
+    if int(shows.sum()) < _FEWEST_POINTS:
+        return None
     return HumSeen(
         mains_hz=mains,
         multiples=tuple(int(line / mains) for line in lines),

@@ -221,5 +221,24 @@ def test_noise_of_blows_that_grows_along_the_band_is_no_hum():
         noise = 2e-3 * grows * (rng.normal(size=len(f)) + 1j * rng.normal(size=len(f)))
         data = Sweep(f, v + noise, 9.81 * ones, segment=ones, sweep=ones)
         assert found(data) is None
-    loud = hum(rng, f, 0.2, multiples=[10])
-    assert found(replace(data, velocity_m_s=data.velocity_m_s + loud)).multiples == (10,)
+    loud = hum(rng, f, 0.2, multiples=[8, 10])
+    assert found(replace(data, velocity_m_s=data.velocity_m_s + loud)).multiples == (8, 10)
+
+
+def test_one_point_alone_near_a_multiple_is_no_hum_and_two_at_two_multiples_are():
+    """A sparse grid with a point of its own at 100 and at 300 Hz."""
+    f = np.sort(np.append(np.geomspace(60.5, 580.0, 60), [100.1, 300.2]))
+    f = f[
+        (np.abs(f - 100.1) < 0.01) | (np.abs(f - 300.2) < 0.01) | (np.abs(f / 50 - np.round(f / 50)) > 0.03)
+    ]
+    ones, rng = np.ones(len(f), dtype=int), np.random.default_rng(0)
+    v = sum(size / (1 - (f / at) ** 2 + 0.3j) for at, size in ((90.0, 0.3), (400.0, 0.2)))
+    v = v * (1 + 2e-3 * (rng.normal(size=len(f)) + 1j * rng.normal(size=len(f))))
+
+    def off_at(*lines_hz):
+        off = np.any([np.abs(f - line) < 0.5 for line in lines_hz], axis=0)
+        return found(Sweep(f, v * (1 + 0.2j * off), 9.81 * ones, ones, ones))
+
+    assert off_at(100) is None
+    assert off_at(300) is None
+    assert off_at(100, 300).multiples == (2, 6)

@@ -51,9 +51,9 @@ def test_one_of_several_lost_readings_near_a_multiple_is_no_hum():
 def test_what_hums_is_not_said_twice():
     sweep = read_sweep(DATA / "practice-002.csv").sweep(9.81)
     v = sweep.velocity_m_s.copy()
-    near = np.argmin(np.abs(sweep.frequency_hz - 100))
-    v[near] *= 1.5
+    near = np.argsort(np.abs(sweep.frequency_hz - 100))[:2]
+    v[near] *= 1.5, 0.6
     both = [CATALOGUE["mains_hum"], CATALOGUE["signal_dropout"]]
     why, found, _ = seen_in_channels(replace(sweep, velocity_m_s=v), both)
     assert [one.name for one in found] == ["mains_hum"]
-    assert why[near] == "mains_hum"
+    assert (why[near] == "mains_hum").all()
