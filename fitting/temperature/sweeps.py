@@ -78,11 +78,17 @@ class Sweeps:
     evidence: Evidence
 
     @classmethod
-    def of(cls, begun: Sequence[Begun], specimens: Sequence[int] | None = None) -> Self:
-        """From the fits of each by itself; `specimens` are their numbers, one for all by default."""
+    def of(
+        cls, begun: Sequence[Begun], specimens: Sequence[int] | None = None, *, own_spots: bool = False
+    ) -> Self:
+        """From the fits of each by itself; `specimens` are their numbers, one for all by default.
+
+        With `own_spots` the laser was aimed anew at each sweep of a specimen.
+        """
         numbers = [1] * len(begun) if specimens is None else list(specimens)
         stays = [numbers.index(k) for k in numbers]
-        problem = SeveralProblem.of_members([b.problem for b in begun], [None] * len(begun), stays=stays)
+        members = [b.problem for b in begun]
+        problem = SeveralProblem.of_members(members, [None] * len(begun), stays=stays, own_spots=own_spots)
         return cls(problem, _alike(_side_by_side(begun), begun))
 
     @property

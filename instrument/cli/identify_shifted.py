@@ -114,7 +114,7 @@ def _fitted(
 
 def _tell(out: Output, found: Shifted, every: Sequence[AtTemperature], asked: Asked) -> None:
     if found.verdict.simple is False:
-        raise OutsideModel(found.verdict.words)
+        raise OutsideModel(found.verdict.words + _if_mounted_anew(every))
     result = shifted_from(found, every)
     _print(out, found, every)
     if asked.depths:
@@ -123,6 +123,16 @@ def _tell(out: Output, found: Shifted, every: Sequence[AtTemperature], asked: As
         print_in_depth(out, looked)
         result = result.but(uncertainty=tuple(in_depth_facts(looked)))
     out.result(result)
+
+
+def _if_mounted_anew(every: Sequence[AtTemperature]) -> str:
+    """What else to try of one specimen, said to have stayed where it was."""
+    if len({one.specimen for one in every}) > 1 or len({one.name for one in every}) == 1:
+        return ""
+    return (
+        "; the specimen is taken to have stayed where it was: if it was mounted anew at each temperature, "
+        "state it for each file (--specimen as often, copies of its file under other names)"
+    )
 
 
 def _print(out: Output, found: Shifted, every_one: Sequence[AtTemperature]) -> None:

@@ -61,6 +61,8 @@ class Members:
     specimens: Sequence[AnySpecimen]
     """By their numbers, from 1."""
     hammer: Hammer | None = None
+    own_spots: bool = False
+    """Whether the laser was aimed anew at each sweep of a specimen."""
     remarks: list[str] = field(default_factory=list)
     """What is to be said of the data."""
 
@@ -134,8 +136,9 @@ class Members:
 
     def joined(self, begun: Sequence[Any]) -> Joined:
         """Fits of each by itself, side by side."""
-        kind = Tables if self.are_tables else Sweeps
-        return kind.of(begun, self.numbers)
+        if self.are_tables:
+            return Tables.of(begun, self.numbers)
+        return Sweeps.of(begun, self.numbers, own_spots=self.own_spots)
 
     @property
     def effects(self) -> list[Effect]:

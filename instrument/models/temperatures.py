@@ -1,13 +1,14 @@
 """Data of several temperatures under one law in reduced frequency, whatever they were measured on."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import perf_counter
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array
+from fitting.digits import two_digits
 from fitting.errors import OutsideModel
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.result import BIASED, LawBand, moved_too_far
@@ -20,6 +21,7 @@ from fitting.temperature.members import Alone
 from fitting.temperature.shifted_fit import ShiftedFit
 from fitting.temperature.shifts import Kind, Shift
 from fitting.temperature.simple import Verdict, in_doubt, judge, serving
+from fitting.temperature.spots import spots_apart_m, spots_moved
 from fitting.temperature.tables import Tables
 from fitting.temperature.thermometers import each_its_own, rising
 from instrument.errors import BadInput
@@ -40,6 +42,8 @@ _ROUNDS = 2
 _SCATTERED = 0.01
 """Tail probability below which temperatures lie farther off than is said of them."""
 _FORMS = {"wlf": "WLF", "arrhenius": "Arrhenius' line"}
+_ASIDE = 3.0
+"""Standard deviations of a spot's place: one that is aimed anew lies no further off. A choice."""
 _PLAIN = 3.0
 """Standard errors of a shift factor, by which it lies above a colder one's. A choice."""
 THERMOMETER_K = 0.3
@@ -156,6 +160,9 @@ def identify_shifted(
         alone, problem, fit = asked.fitted(with_effects=False)
         if in_doubt(fit) and explains(fit):
             fit = asked.freer(problem, fit)
+        aimed_anew = asked.with_own_spots(alone) if in_doubt(fit) else None
+        if aimed_anew is not None:
+            problem, fit = aimed_anew
         # A column that is meant otherwise is no row's fault, a row that is wrong is no temperature's, nor a
         # cause that all have.
         otherwise = asked.read_otherwise(alone) if in_doubt(fit) else ""
@@ -168,6 +175,12 @@ def identify_shifted(
     cause = next(iter(serving(causes)), None)
     fit = cause.fit if cause is not None else fit
     remarks = asked.remarks(problem, fit)
+    if aimed_anew is not None:
+        apart_mm = 1e3 * spots_apart_m(problem.joined, fit.one.z)
+        remarks += (
+            "the laser's spot was elsewhere from temperature to temperature (up to "
+            f"{two_digits(apart_mm)} mm): each has its own",
+        )
     band = _band(fit)
     reach_hz = float(band.frequency_hz[0]), float(band.frequency_hz[-1])
     remarks += remark_on_free_layers(stated, fit.law, fit.law_covariance, reach_hz, fit.quantities)
@@ -270,6 +283,25 @@ class _Asked:
                     break
                 tried = found
         return fit if in_doubt(tried) else tried
+
+    def with_own_spots(self, alone: Sequence[Alone]) -> tuple[TemperatureProblem, ShiftedFit] | None:
+        """A fit in which the laser was aimed anew at each sweep; None where one law serves no better so.
+
+        Nor is it one where a spot would have to lie further off than it is stated to.
+        """
+        numbers = self.members.numbers
+        if self.members.are_tables or len(set(numbers)) == len(numbers):
+            return None
+        again = replace(self, members=replace(self.members, own_spots=True))
+        task = again._task(alone, self.shift)
+        if not len(spots_moved(task.joined, np.zeros(len(task.joined.each)))):
+            return None
+        with self.progress("a spot of its own for each temperature"):
+            problem, fit = again._fit_of(task, alone)
+        if in_doubt(fit) and explains(fit):
+            fit = again.freer(problem, fit)
+        near = np.all(np.abs(spots_moved(problem.joined, fit.one.z)) <= _ASIDE)
+        return (problem, fit) if near and fit.one.converged and not in_doubt(fit) else None
 
     def each_apart(self, alone: Sequence[Alone]) -> ShiftedFit | None:
         """One law with a factor for every member, whatever its temperature; None where it is no other."""

@@ -61,10 +61,12 @@ class SeveralProblem(DiagnosisProblem):
         of: Sequence[Place] = (),
         *,
         stays: Sequence[int] | None = None,
+        own_spots: bool = False,
     ) -> "SeveralProblem":
         """One problem of several, `of` these files, a file each by default.
 
-        `stays`: of every member the first one whose specimen it is, which stayed where it is, spot and all.
+        `stays`: of every member the first one whose specimen it is, which stayed where it is, spot and all;
+        with `own_spots` all but the spot.
         Raises `OutsideModel` where they cannot be fitted together.
         """
         of = tuple(of) or tuple(Place(k + 1) for k in range(len(members)))
@@ -76,7 +78,7 @@ class SeveralProblem(DiagnosisProblem):
             raise OutsideModel("some specimens are exact, others not, expected one of them")
         plates = one_plate.plates_of(members)
         mounted = mountings(members, plates) if stays is None else stays
-        each, places, owners = shared(members, of, mounted, stays)
+        each, places, owners = shared(members, of, mounted, stays, own_spots=own_spots)
         sweep = joined([m.sweep for m in members])
         rational = side_by_side([m.rational for m in members])
         nodes = EveryPoint.at(sweep.omega)

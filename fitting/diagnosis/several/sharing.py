@@ -27,11 +27,14 @@ def shared(
     of: Sequence[Place],
     mounted: Sequence[int],
     stays: Sequence[int] | None = None,
+    *,
+    own_spots: bool = False,
 ) -> tuple[tuple[Nuisance, ...], Places, tuple[tuple[int, ...], ...]]:
     """All stated numbers, those of the same thing once: where each member's are, and whose each is.
 
     `mounted`: of every member the first one of its mounting. `stays`: the first one that it was measured in
     the place of, spot and all, so that only the channels are another matter; None: none was.
+    With `own_spots` the laser was aimed anew there each time.
     """
     there = of if stays is None else [of[k] for k in stays]
     keys: dict[tuple[object, ...], int] = {}
@@ -48,7 +51,7 @@ def shared(
                 case "channel":
                     key = (n.name, of[k])
                 case "spot":
-                    key = (n.name, there[k])
+                    key = (n.name, of[k] if own_spots else there[k])
                 case "specimen" | "mounting":
                     # The same where one plate is struck, there or elsewhere: it was not mounted anew.
                     key = (n.name, there[mounted[k]].file)
