@@ -61,8 +61,16 @@ class Cause:
     @property
     def serves(self) -> bool:
         """Whether one shifted law explains all there is beside it, and the effect is there."""
-        one = self.fit.one
-        return one_law_serves(self.fit) and one.converged and self.gain > 0 and not has_no_size(one)
+        return self._is_there and self.fit.one.converged
+
+    @property
+    def may_serve(self) -> bool:
+        """Whether all that it lacks to serve is that its fit has not come to its end."""
+        return self._is_there and not self.fit.one.converged
+
+    @property
+    def _is_there(self) -> bool:
+        return one_law_serves(self.fit) and self.gain > 0 and not has_no_size(self.fit.one)
 
 
 def one_law_serves(fit: ShiftedFit) -> bool:
@@ -132,6 +140,9 @@ def _beside(problem: TemperatureProblem, fit: ShiftedFit, effect: Effect, u: Arr
 def _cause(problem: TemperatureProblem, fit: ShiftedFit) -> Cause:
     plate = problem.joined.plate
     (effect,) = fit.one.effects
+    if one_law_serves(fit) and not fit.one.converged:
+        # It would serve but for a few steps more.
+        fit = replace(fit, one=problem.fitted(fit.one.law, fit.one.u, [effect]))
     (found,) = found_effects(fit.one, plate)
     cause = Cause(effect, fit, cost(fit.one, plate), found)
     if not one_law_serves(fit):

@@ -110,6 +110,16 @@ def _judged(
         wrong = misread(fit.shift, apart)
         words = _temperatures_refused(fit, apart, wrong, names)
         return Verdict(False, best.p_value, _wicket(apart)[0], words, wrong)
+    nearly = next((c for c in causes if c.may_serve), None)
+    if nearly is not None:
+        # A fit that is still on its way refuses no material.
+        maybe = told(
+            None,
+            f"whether one shifted law serves cannot be told: it does where {story(nearly)} at all "
+            f"temperatures ({_gain(nearly.fit)}), but that fit has not come to its end; this law is not to "
+            f"be used. What decides: {nearly.effect.discriminating_test}",
+        )
+        return replace(maybe, law_stands=False)
     if apart is not None and explains(fit):
         off, at = _wicket(apart)
     if explains(fit):

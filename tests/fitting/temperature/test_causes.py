@@ -63,3 +63,10 @@ def test_a_cause_has_a_size_a_gain_and_a_fit_that_came_to_its_end():
     assert not with_size(1.005).serves
     assert not with_size(1.05, converged=False).serves
     assert not with_size(1.05, gain=-1.0).serves
+
+
+def test_a_cause_may_serve_where_all_that_it_lacks_is_the_end_of_its_fit():
+    assert with_size(1.05, converged=False).may_serve
+    assert not with_size(1.05).may_serve
+    assert not with_size(1.005, converged=False).may_serve
+    assert not with_size(1.05, converged=False, gain=-1.0).may_serve

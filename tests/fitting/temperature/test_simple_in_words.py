@@ -42,12 +42,12 @@ def fit(p=0.4, own=1.0, *, noise_known=True, off=1.0):
     )
 
 
-def cause(name, cost, *, serves=True, p=0.5):
+def cause(name, cost, *, serves=True, may_serve=False, p=0.5):
     effect = CATALOGUE[name]
     one = SimpleNamespace(of=lambda e: np.array([q.typical for q in e.parameters]))
     its = fit(p=p)
     its.one = one
-    return SimpleNamespace(effect=effect, fit=its, cost=cost, serves=serves)
+    return SimpleNamespace(effect=effect, fit=its, cost=cost, serves=serves, may_serve=may_serve)
 
 
 def test_one_law_that_leaves_noise_is_simple_and_its_wicket_is_one_curve():
@@ -99,6 +99,15 @@ def test_a_cause_that_cannot_serve_is_no_excuse():
     beside = judge(fit(p=0.0, own=50.0), poor)
     assert beside.simple is False
     assert beside.p_value == 1e-5
+
+
+def test_a_cause_whose_fit_is_still_on_its_way_refuses_no_material():
+    on_its_way = [cause("gain_error", 10.0, serves=False, p=1e-5), cause("spot_offset", 11.0, serves=False)]
+    on_its_way[1].may_serve = True
+    for own in (1.0, 50.0):
+        said = judge(fit(p=0.0, own=own), on_its_way)
+        assert (said.simple, said.law_stands) == (None, False)
+        assert "that fit has not come to its end" in said.words
 
 
 def test_causes_of_all_sweeps_are_the_plate_s_and_the_rig_s_not_the_core_s_nor_time_s():
