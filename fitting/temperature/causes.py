@@ -134,7 +134,7 @@ def _promising(
 def _beside(problem: TemperatureProblem, fit: ShiftedFit, effect: Effect, u: Array) -> Cause:
     one = problem.fitted(fit.one.law, np.append(fit.one.u, u), [effect])
     own = problem.fitted(fit.own.law, np.append(fit.own.u, one.of(effect)), [effect])
-    return _cause(problem, ShiftedFit(one, own, problem.joined))
+    return _cause(problem, problem.both(one, own))
 
 
 def _cause(problem: TemperatureProblem, fit: ShiftedFit) -> Cause:
@@ -148,8 +148,7 @@ def _cause(problem: TemperatureProblem, fit: ShiftedFit) -> Cause:
     if not one_law_serves(fit):
         return cause
     one, own = (problem.fitted(f.law, f.z) for f in (fit.one, fit.own))
-    without = ShiftedFit(one, own, problem.joined)
-    return replace(cause, without=without, gain=cost(one, plate) - cause.cost)
+    return replace(cause, without=problem.both(one, own), gain=cost(one, plate) - cause.cost)
 
 
 def _of_the_worst(alone: Sequence[Alone], effects: Sequence[Effect], executor: Executor) -> list[Effect]:

@@ -15,7 +15,7 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refit import refit
-from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.inference.refitted import Refitted, by_chi2
 from fitting.diagnosis.thresholds import STOPPING
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
@@ -24,7 +24,7 @@ from fitting.temperature.members import Joined
 from fitting.temperature.one_law import OneLaw, OwnLaws
 from fitting.temperature.shifted_fit import ShiftedFit
 from fitting.temperature.shifts import Shift
-from fitting.temperature.start import start_of
+from fitting.temperature.start import laws_near, start_of
 
 _SLOW_BY, _REACH_BY = 1.5, 4.0
 """Decades of reduced frequency for each time that a law bends slowly as far as it usually does, and for each
@@ -39,6 +39,8 @@ _FAINT, _LEAST = 0.03, 1e-3
 smallest that is told from none."""
 FREER = 2.0
 """Times that, where no law bends enough: no material owes a formula anything. A choice."""
+_STUCK = 1.0
+"""In chi-square: by how much more than one law does a law for each may miss and be at its end. A choice."""
 _ROUNDS = 4
 """Of a fit's most evaluations: a bound on time; what has not come to its end by then says so."""
 
@@ -110,6 +112,18 @@ class TemperatureProblem:
                 break
         return found
 
+    def both(self, one: Refitted, own: Refitted) -> ShiftedFit:
+        """One law and a law for each side by side: a law for each can do whatever one law does.
+
+        Where it does worse its fit is stuck, and begins again from the one law at each temperature.
+        """
+        joint, each = one.law, own.law
+        if own.chi2 <= one.chi2 + _STUCK or not isinstance(joint, OneLaw) or not isinstance(each, OwnLaws):
+            return ShiftedFit(one, own, self.joined)
+        laws = tuple(laws_near(joint, each.laws, self.bands_hz))
+        again = self.fitted(replace(each, laws=laws), one.u, one.effects)
+        return ShiftedFit(one, min(own, again, key=by_chi2), self.joined)
+
     def freer(self, fit: ShiftedFit) -> ShiftedFit | None:
         """A fit of one law that may bend further than in `fit`; None where it may not bend."""
         joint = fit.joint
@@ -153,4 +167,4 @@ def fit_shifted(
     start = np.concatenate([z, np.empty(0) if u is None else u])
     own = problem.fitted(OwnLaws(tuple(laws), problem.points), start, effects)
     one = problem.fitted(problem.one_law(laws), start, effects)
-    return ShiftedFit(one, own, problem.joined)
+    return problem.both(one, own)

@@ -8,7 +8,10 @@ from scipy.optimize import least_squares
 
 from fitting.arrays import Array
 from fitting.laws import CoreLaw
+from fitting.temperature.one_law import OneLaw
 
+Band = tuple[float, float]
+"""Lowest and highest frequency in Hz."""
 _POINTS = 15
 """Over a sweep's band: curves are laid over each other at them."""
 _STORAGE, _LOSS = 0.02, 0.04
@@ -20,7 +23,7 @@ _FAR = np.linspace(-18.0, 18.0, 361)
 
 
 def start_of(
-    laws: Sequence[CoreLaw], bands_hz: Sequence[tuple[float, float]], temperature_c: Array, reference_c: float
+    laws: Sequence[CoreLaw], bands_hz: Sequence[Band], temperature_c: Array, reference_c: float
 ) -> tuple[CoreLaw, Array]:
     """A law at the reference and ln a_T of every sweep, from curves alone.
 
@@ -41,6 +44,28 @@ def start_of(
     nearest = int(np.argmin(np.abs(temperature_c - reference_c)))
     shift -= shift[nearest]
     return _one_law(laws, omegas, curves, shift, nearest, temperature_c)
+
+
+def laws_near(one: OneLaw, forms: Sequence[CoreLaw], bands_hz: Sequence[Band]) -> list[CoreLaw]:
+    """Of each form, unbent, the law that lies nearest one law at its sweep's temperature, over its band."""
+    omegas = [2 * np.pi * np.geomspace(low, high, _POINTS) for low, high in bands_hz]
+    aims = [_curve(one.at(k), omega) for k, omega in enumerate(omegas)]
+    return [_nearest(one.law.plain, *each) for each in zip(aims, forms, omegas, strict=True)]
+
+
+def _nearest(begin: CoreLaw, aim: Array, form: CoreLaw, omega: Array) -> CoreLaw:
+    plain = form.plain
+    low, high = plain.log_limits
+    fits = [
+        least_squares(
+            lambda x: _curve(plain.with_logs(x), omega) - aim,
+            np.clip(np.log(law.values), low, high),
+            bounds=(low, high),
+        )
+        for law in (plain, begin)
+    ]
+    found = plain.with_logs(min(fits, key=lambda f: float(f.cost)).x)
+    return form.with_values(np.append(found.values, np.ones(form.bend_count)))
 
 
 def _some(laws: Sequence[CoreLaw], temperature_c: Array) -> list[CoreLaw]:

@@ -1,5 +1,7 @@
 """One law shifted, fitted to a shear pair's sweeps of three temperatures at once."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shear_pair_cases as cases
@@ -59,6 +61,15 @@ def test_each_temperature_s_own_law_is_its_true_one(found):
 def test_what_no_shift_explains_has_no_chance(apart):
     assert apart.p_value < 1e-6
     assert apart.chi2 > apart.chi2_own + 50
+
+
+def test_a_law_for_each_that_is_stuck_begins_again_from_the_one_law(found):
+    problem, fit, _ = found
+    stuck = replace(fit.own, residuals=10 * fit.own.residuals)
+    again = problem.both(fit.one, stuck)
+    assert stuck.chi2 > fit.chi2
+    assert again.chi2_own == pytest.approx(fit.chi2_own, abs=0.3)
+    assert problem.both(fit.one, fit.own).own is fit.own
 
 
 def test_vertical_shifts_are_each_temperature_s_own_but_the_reference_s():
