@@ -2,12 +2,14 @@
 
 What a law, mass, gain, delay or softening may leave is smooth in frequency, seen through how the reading
 depends on the core. That is taken off (`smooth_core`); stretches of the rest far above its scatter elsewhere
-are flagged. Every curve by itself: no law, and no other file, has a say in it.
+are flagged. Every curve by itself: no law, and no other file, has a say in it. But what another level of
+the same does not show is no fixture's, which is linear: pads slip or soften so, and that stays in.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
 from fitting.arrays import Array, Mask
@@ -31,6 +33,9 @@ _SHORTEST = 4
 """Points that are off together: fewer are outliers of another kind."""
 _MOST = 0.5
 """Of a curve: what is off in more than that is not local."""
+_LINEAR = 1 / 3
+"""Of what one level is off by: another level of a linear disturbance is not off by less, nor by its noise. A
+choice."""
 _MEDIAN = 1.177
 """Of a complex normal variable's size, in standard deviations of a part."""
 
@@ -48,6 +53,8 @@ class Glitch:
     points: int
     at_end: bool = False
     """Whether it goes on up to an end of its curve: nothing shows then that it is local."""
+    at_peak: bool = False
+    """Whether the pads move most in it: they may slip or soften there, and the fixture be quiet."""
 
 
 def glitches(problem: SmallProblem, law: CoreLaw) -> tuple[Mask, tuple[Glitch, ...]]:
@@ -59,22 +66,48 @@ def glitches(problem: SmallProblem, law: CoreLaw) -> tuple[Mask, tuple[Glitch, .
     aside, found = np.zeros(len(sweep), bool), list[Glitch]()
     if not sweep.has_phase:
         return aside, ()
-    for group in groups_of(sweep):
-        if len(group) < FEWEST:
-            continue
-        at = group[np.argsort(sweep.frequency_hz[group], kind="stable")]
-        curve = sweep.take(at)
-        rest = np.abs(unexplained(curve, problem.rational.at(at), problem.specimen.reads, law))
-        inside = _stretches(curve.frequency_hz, rest)
+    curves = [_looked_at(problem, group, law) for group in groups_of(sweep) if len(group) >= FEWEST]
+    for k, curve in enumerate(curves):
+        others = curves[:k] + curves[k + 1 :]
+        inside = _stretches(curve.frequency_hz, curve.rest)
         if not inside or np.any(inside, axis=0).mean() > _MOST:
             continue
         for here in inside:
-            aside[at[here]] = True
-            f = curve.frequency_hz[here]
-            size = float(rest[here].max()), rms(rest[here])
+            f, rest = curve.frequency_hz[here], curve.rest[here]
+            if any(other.is_calm(float(f.min()), float(f.max()), rms(rest)) for other in others):
+                continue
+            aside[curve.at[here]] = True
+            size = float(rest.max()), rms(rest)
             at_end = bool(here[0] or here[-1])
-            found.append(Glitch(float(f.min()), float(f.max()), *size, int(here.sum()), at_end))
+            at_peak = bool(here[np.argmax(curve.moves)])
+            found.append(Glitch(float(f.min()), float(f.max()), *size, int(here.sum()), at_end, at_peak))
     return aside, tuple(found)
+
+
+@dataclass(frozen=True)
+class _Curve:
+    """One curve of a sweep, ascending in frequency. Shapes (points,)."""
+
+    at: NDArray[np.intp]
+    frequency_hz: Array
+    rest: Array
+    """What no core explains, relative."""
+    moves: Array
+    """The pads' shear, up to a factor."""
+
+    def is_calm(self, low_hz: float, high_hz: float, off: float) -> bool:
+        """Whether it shows nothing where another level is off by so much."""
+        f = self.frequency_hz
+        inside = (f >= low_hz) & (f <= high_hz)
+        return int(inside.sum()) >= _SHORTEST and rms(self.rest[inside]) < _LINEAR * off
+
+
+def _looked_at(problem: SmallProblem, group: NDArray[np.intp], law: CoreLaw) -> _Curve:
+    sweep = problem.sweep
+    at = group[np.argsort(sweep.frequency_hz[group], kind="stable")]
+    curve, rational = sweep.take(at), problem.rational.at(at)
+    left, G = unexplained(curve, rational, problem.specimen.reads, law)
+    return _Curve(at, curve.frequency_hz, np.abs(left), np.abs(rational.displacement(G)))
 
 
 def _stretches(f: Array, rest: Array) -> list[Mask]:

@@ -28,6 +28,8 @@ _STEPS = 15
 """Of Gauss-Newton; real curves need four to six."""
 _STILL = 1e-4
 """Of a modulus: a step that moves nothing by more is the last."""
+_NEWTON, _LONGEST = 60, 0.3
+"""Steps for each reading by itself, and how far one goes in ln G*. A choice."""
 _HALVED = 6
 """Times at most, where a step goes too far."""
 _LEAST_LEFT, _ROUNDING = 1e-4, 1e-12
@@ -38,18 +40,34 @@ _ANGLES = (-0.2, 0.0, 0.2, 0.4)
 """And radians more of its argument."""
 
 
-def unexplained(sweep: Sweep, rational: RationalSweep, reads: Reading, law: CoreLaw) -> Complex:
-    """What is left of each reading, relative. Shape (points,).
+def unexplained(
+    sweep: Sweep, rational: RationalSweep, reads: Reading, law: CoreLaw
+) -> tuple[Complex, Complex]:
+    """What is left of each reading, relative, and the core's modulus in Pa. Shape (points,) each.
 
     `rational` holds the sweep's frequencies, ascending as its points are; `law` is a first guess.
     """
     velocity_of = velocity_of_sweep(sweep, rational, reads)
     read, f = sweep.response_m_s, sweep.frequency_hz
-    G_0 = _begin(velocity_of, read, law.modulus(sweep.omega))
-    B, drift = _of_modulus(f, np.abs(rational.displacement(G_0))), 1j * f / f.max()
+    drift = 1j * f / f.max()
+    whole = _begin(velocity_of, read, law.modulus(sweep.omega))
+    each = _by_points(velocity_of, read, whole)
+    B, felt = (_of_modulus(f, np.abs(rational.displacement(G))) for G in (whole, each))
+    nothing, near = np.zeros(B.shape[1], complex), _laid_through(felt, np.log(each / whole))
+    left = [
+        _followed(velocity_of, read, whole, B, nothing, drift),
+        _followed(velocity_of, read, whole, felt, near, drift),
+    ]
+    return min(left, key=lambda found: float(np.sum(np.abs(found[0]))))
+
+
+def _followed(
+    velocity_of: VelocityOf, read: Complex, G_0: Complex, B: Array, start: Complex, drift: Complex
+) -> tuple[Complex, Complex]:
+    """As `unexplained`, hats `B` having gone from a `start` to the least sum of sizes."""
     bend = B.shape[1]
     expected = np.repeat([_MODULUS, _CHANNEL], [bend, 2])
-    held = np.diag(np.sqrt(_HELD * len(f)) / expected)
+    held = np.diag(np.sqrt(_HELD * len(read)) / expected)
 
     def at(c: Complex) -> tuple[Complex, Complex, float]:
         """What is left, d ln v / d ln G*, and the sum to be least."""
@@ -58,10 +76,10 @@ def unexplained(sweep: Sweep, rational: RationalSweep, reads: Reading, law: Core
         off = read / (v * np.exp(c[bend] + c[bend + 1] * drift)) - 1
         return off, by_G * G / v, float(np.sum(np.abs(off)) + np.sum(np.abs(held @ c) ** 2))
 
-    c = np.zeros(bend + 2, complex)
+    c: Complex = np.append(start, np.zeros(2))
     off, feels, cost = at(c)
     for _ in range(_STEPS):
-        A = np.hstack([feels[:, None] * B, np.ones((len(f), 1)), drift[:, None]])
+        A = np.hstack([feels[:, None] * B, np.ones((len(read), 1)), drift[:, None]])
         step = _least_sizes(A, off, held, c)
         for halved in range(_HALVED):
             there, felt, costs = at(c + step / 2**halved)
@@ -72,7 +90,30 @@ def unexplained(sweep: Sweep, rational: RationalSweep, reads: Reading, law: Core
         c, off, feels, cost = c + step / 2**halved, there, felt, costs
         if np.abs(step).max() < _STILL:
             break
-    return off
+    return off, G_0 * np.exp(B @ c[:bend])
+
+
+def _by_points(velocity_of: VelocityOf, read: Complex, G: Complex) -> Complex:
+    """A modulus of every reading by itself, by Newton's method on ln v. Shape (points,).
+
+    A search that begins with one beside a narrow resonance takes the whole of it for an outlier: all that
+    readings say of the core is nearer.
+    """
+    for _ in range(_NEWTON):
+        v, by_G = velocity_of(G)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            step = np.log(read / v) * v / (by_G * G)
+        size = np.abs(step)
+        step = np.where(np.isfinite(size), step * np.minimum(1, _LONGEST / np.maximum(size, _STILL)), 0)
+        G = G * np.exp(step)
+        if size[np.isfinite(size)].max(initial=0.0) < _STILL:
+            break
+    return G
+
+
+def _laid_through(B: Array, moved: Complex) -> Complex:
+    """Coefficients of the hats nearest to a modulus moved point by point. Shapes (points, n), (points,)."""
+    return np.asarray(np.linalg.lstsq(B, moved, rcond=None)[0], complex)
 
 
 def _begin(velocity_of: VelocityOf, read: Complex, stated: Complex) -> Complex:

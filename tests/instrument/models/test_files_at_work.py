@@ -46,6 +46,11 @@ def test_a_stretch_is_told_with_its_file():
     assert one.words(FILES).endswith("40 points set aside")
 
 
+def test_a_stretch_where_pads_move_most_may_be_of_pads_that_slip():
+    words = SetAside(1, Glitch(100.0, 130.0, 0.03, 0.01, 40, at_peak=True)).words(FILES)
+    assert "or of pads that slip or soften, which move most there: measure at another level" in words
+
+
 def test_a_stretch_up_to_where_its_curve_ends_is_doubt():
     words = SetAside(1, Glitch(100.0, 130.0, 0.03, 0.01, 40, at_end=True)).words(FILES)
     assert "or of a sensor that is loose, up to where the curve ends" in words

@@ -8,6 +8,7 @@ from shear_pair_cases import LAW, pair, sweep
 
 from fitting.diagnosis.problem.glitch import glitches
 from fitting.diagnosis.problem.small_problem import SmallProblem
+from fitting.diagnosis.several.joining import joined
 
 PAIR = pair(0.2533)
 NOISE = 5e-4
@@ -98,3 +99,44 @@ def test_what_is_off_in_most_of_a_curve_is_not_local(monkeypatch):
     _, aside, found = looked_at(resonance(300.0))
     assert not aside.any()
     assert found == ()
+
+
+@pytest.mark.parametrize("guess_pa", [0.8e6, 2e6, 4e6])
+@pytest.mark.parametrize(
+    "law", [(1.1e6, 8.8e6, 1e-7, 0.6), (1.1e6, 4.4e6, 1e-8, 0.3), (1.1e6, 33e6, 1e-7, 0.7)]
+)
+def test_the_narrow_resonance_of_a_rubber_of_low_loss_is_no_glitch(law, guess_pa):
+    """Loss factors of 0.02 to 0.04, guessed from a law whose loss is ten times that."""
+    low_loss = LAW.with_values(np.array(law))
+    true = replace(PAIR, core=replace(PAIR.core, law=low_loss))
+    s = sweep(true, points=120, noise=1e-3)
+    guess = LAW.with_values(np.array([guess_pa, 30 * guess_pa, 1e-5, 0.6]))
+    assert glitches(SmallProblem.of_small(s, true), guess)[1] == ()
+
+
+def at_two_levels(low, high):
+    """Sweeps at a tenth and at one g in one, off by what each function makes of them."""
+    each = [
+        replace(s, velocity_m_s=s.velocity_m_s * changed(s.frequency_hz), sweep=np.full(160, k + 1))
+        for k, (s, changed) in enumerate(
+            ((sweep(PAIR, level=0.981, noise=NOISE), low), (sweep(PAIR, noise=NOISE, seed=1), high))
+        )
+    ]
+    return glitches(SmallProblem.of_small(joined(each), PAIR), GUESS)[1]
+
+
+def test_what_one_level_shows_and_another_does_not_is_no_fixture():
+    def nothing(f):
+        return np.ones(len(f))
+
+    assert at_two_levels(nothing, resonance(300.0)) == ()
+    assert len(at_two_levels(resonance(300.0), resonance(300.0))) == 2
+
+
+def test_a_stretch_in_which_the_pads_move_most_says_so():
+    f, _, (elsewhere,) = looked_at(resonance(300.0))
+    s = sweep(PAIR, points=160, noise=0.0)
+    moves = np.abs(s.velocity_m_s - s.commanded_m_s2 / (1j * s.omega)) / s.omega
+    _, _, (there,) = looked_at(resonance(float(f[np.argmax(moves)])))
+    assert there.at_peak
+    assert not elsewhere.at_peak
