@@ -19,7 +19,8 @@ def fit_of(begun: Begun) -> Fit:
         velocity_m_s=none.velocity_m_s,
         iterations=first.iterations + none.iterations,
         evaluations=first.evaluations + none.evaluations,
-        converged=first.converged and none.converged,
+        # Where the law alone ended is where this fit began, no more.
+        converged=none.converged,
         readings=none.data,
         covariance=C[:n, :n],
         posterior=C,

@@ -14,7 +14,7 @@ from fitting.diagnosis.checks.structure import roughness
 from fitting.diagnosis.inference.begin import Begun
 from fitting.diagnosis.inference.evidence import Evidence
 from fitting.diagnosis.inference.refitted import Refitted
-from fitting.diagnosis.inference.usual_law import polished
+from fitting.diagnosis.inference.usual_law import followed_to_convergence, polished
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.sweep import Sweep
 
@@ -44,4 +44,5 @@ def with_own_noise(begun: Begun, noise: Noise) -> Begun:
     if not is_overstated(sweep, noise, begun.evidence, none):
         return begun
     evidence = with_noise_of_left(sweep, begun.evidence, none)
-    return replace(begun, evidence=evidence, none=polished(begun.problem, (), evidence, none.law, none.u))
+    again = polished(begun.problem, (), evidence, none.law, none.u)
+    return replace(begun, evidence=evidence, none=followed_to_convergence(begun.problem, evidence, again))

@@ -190,3 +190,10 @@ def test_one_beyond_them_is_brought_in_by_its_modulus():
     for value, q in zip(near.values, near.limits, strict=True):
         assert q.search[0] * (1 - 1e-6) <= value <= q.search[1] * (1 + 1e-6)
     np.testing.assert_allclose(near.modulus(OMEGA), far.modulus(OMEGA), rtol=0.02)
+
+
+def test_where_the_law_alone_began_from_does_not_matter_to_what_has_come_to_its_end(ready):
+    begun = Drawn(ready, 0).begun
+    cut_short = replace(begun, first=replace(begun.first, converged=False))
+    assert fit_of(cut_short).converged
+    assert not fit_of(replace(begun, none=replace(begun.none, converged=False))).converged
