@@ -9,14 +9,13 @@ from threadpoolctl import threadpool_limits
 from fitting.data.aside import Reasons
 from fitting.diagnosis.diagnose import diagnose_problem, seen_in_channels
 from fitting.diagnosis.verdict.result import Diagnosis
-from fitting.effects import CATALOGUE, Effect
-from fitting.effects.base import BASE, FORCE, ROOT
+from fitting.effects import Effect
 from fitting.errors import OutsideModel
-from fitting.specimen import Specimen, StatedSpecimen
+from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.errors import BadInput
 from instrument.models.clamp_remarks import remarks_on_clamps
-from instrument.models.effect_names import refuse_unknown_effects
+from instrument.models.effect_names import effects_on
 from instrument.models.other_processes import executor
 from instrument.models.remarks import (
     remarks_on_damping,
@@ -41,43 +40,6 @@ class Diagnosed:
     """Everything else."""
     effects: tuple[Effect, ...] = ()
     """What was looked for; empty where effects were accepted by hand."""
-
-
-def effects_on(
-    specimen: StatedSpecimen, without: Collection[str] = (), accept: Sequence[str] | None = None
-) -> list[Effect]:
-    """The forms that effects have on a specimen. Raises `BadInput` for a name that is none of them."""
-    return [effect for effect, _ in effects_among([specimen], without, accept)]
-
-
-def effects_among(
-    specimens: Sequence[StatedSpecimen], without: Collection[str] = (), accept: Sequence[str] | None = None
-) -> list[tuple[Effect, tuple[bool, ...]]]:
-    """Effects on some specimens of one kind, and on which of these each has a meaning.
-
-    A base that moves, or a clamp, is of those that have one; all must offer what else an effect needs. What
-    goes with the level of a base is of those that one drives, where others are struck. Raises `BadInput` for
-    a name that is none of them.
-    """
-    refuse_unknown_effects([*without, *(accept or ())])
-    first = specimens[0]
-    standing = {}
-    for name, effect in CATALOGUE.items():
-        form = effect.form_on(specimens)
-        if form is None or not all(form.needs - (BASE | FORCE | ROOT) <= s.offers for s in specimens):
-            continue
-        of_level = form.enters == "level" and any(s.drive == "base" for s in specimens)
-        stands = tuple(form.needs <= s.offers and not (of_level and s.drive == "force") for s in specimens)
-        if any(stands):
-            standing[name] = form, stands
-    for name in accept or ():
-        if name not in standing:
-            drives = " or ".join(sorted({s.drive for s in specimens}))
-            raise BadInput(
-                f"effect {name!r} has no meaning on this {first.kind} driven by a {drives}, "
-                f"expected one of {', '.join(sorted(standing))}"
-            )
-    return [found for name, found in standing.items() if name not in without]
 
 
 def diagnose(

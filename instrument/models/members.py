@@ -30,7 +30,7 @@ from fitting.temperature.sweeps import AloneSweep, Sweeps
 from fitting.temperature.tables import Tables, alone
 from fitting.widened.enriching import reach_over
 from instrument.errors import BadInput
-from instrument.models.diagnosis import effects_among
+from instrument.models.effect_names import effects_among
 from instrument.models.files import File
 from instrument.models.files_at_work import FilesAtWork
 from instrument.models.modal import widened

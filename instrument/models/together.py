@@ -27,7 +27,8 @@ from fitting.identification.validation import rms
 from fitting.laws import CoreLaw
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
-from instrument.models.diagnosis import Diagnosed, effects_among
+from instrument.models.diagnosis import Diagnosed
+from instrument.models.effect_names import effects_among
 from instrument.models.exchanged import exchanged, leaves_much
 from instrument.models.file_remarks import (
     remarks_on_files,

@@ -17,7 +17,8 @@ from fitting.stated.patches import Patch
 from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
-from instrument.models.diagnosis import diagnose, effects_among, effects_on
+from instrument.models.diagnosis import diagnose
+from instrument.models.effect_names import effects_among, effects_on
 from instrument.models.other_processes import VARIABLE
 from instrument.paper_case import case_file
 from tests.beam_temperatures import beam

@@ -12,7 +12,7 @@ from fitting.identification.model import velocity
 from fitting.plate.plate import Plate
 from instrument.cli.main import run
 from instrument.files.specimen_file import read_specimen
-from instrument.models.diagnosis import effects_among
+from instrument.models.effect_names import effects_among
 from instrument.models.files import File, mounted, one_plate
 from tests.rivals import all_but
 
