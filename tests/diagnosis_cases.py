@@ -10,7 +10,10 @@ from fitting.identification.uncertainty import Uncertainty
 from fitting.identification.validation import HeldOutSegment, Validation
 from fitting.sweep import Sweep
 from instrument.facts.diagnosis import UnseenEffect
+from instrument.files.specimen_file import read_specimen
 from instrument.models.diagnosis import Diagnosed
+from instrument.models.files import File
+from instrument.paper_case import case_file
 from instrument.results.diagnosis_from import diagnosis_from
 
 MASS = FoundEffect(
@@ -66,8 +69,8 @@ def stage(s, off, *, one_by_one=None):
     )
 
 
-def diagnosed(s, *, verdict="effect", one_by_one=None):
-    """An added mass, hum in a channel, an alternative and a pair."""
+def diagnosed(s, files=None, *, verdict="effect", one_by_one=None):
+    """An added mass, hum in a channel, an alternative and a pair; of one plate where no `files` are given."""
     keep = used(s)
     part = s.take(keep)
     result = Diagnosis(
@@ -90,7 +93,8 @@ def diagnosed(s, *, verdict="effect", one_by_one=None):
         why_aside=reasons(~keep, "mains_hum"),
         warnings=("the points carry no time",),
     )
-    return Diagnosed(result, 1.5, 0.25)
+    files = files or [File(s, read_specimen(case_file("zn1.toml")))]
+    return Diagnosed(result, tuple(files), s, 1.5, 0.25)
 
 
 UNSEEN = (
@@ -117,4 +121,4 @@ UNSEEN = (
 def diagnosis(**how):
     """Its result."""
     s = sweep(phase=how.pop("phase", True))
-    return diagnosis_from(diagnosed(s, **how), s)
+    return diagnosis_from(diagnosed(s, **how))

@@ -23,7 +23,6 @@ from instrument.progress import bar
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 from instrument.results.pointwise_from import with_second_look
-from instrument.results.together_from import diagnosed_together_from, identified_together_from
 from viscorig.diagnosis import Diagnosis
 from viscorig.hammer import HammerTest, hammer_modes_of
 from viscorig.identification import Identification
@@ -77,9 +76,9 @@ def identify(
     if given.points.pickup is not None:
         _whole_sweeps_alone(given, pointwise=pointwise, method=method)
         spots = spots_of(given.points, model)
-        return Identification(identified_together_from(identify_together(spots, bar), spots), given.plate)
+        return Identification(identification_from(identify_together(spots, bar)), given.plate)
     found = identify_sweep(given.points, model, method, bar, given.modes)
-    result = identification_from(found, model)
+    result = identification_from(found)
     if pointwise:
         result = with_second_look(result, pointwise_of(found))
     return Identification(given.said(result), given.plate)
@@ -105,11 +104,10 @@ def diagnose(
     points, model, declined = given.points, given.plate.model, frozenset(without)
     if points.pickup is not None:
         _whole_sweeps_alone(given, resamples=resamples)
-        spots = spots_of(points, model)
-        several = diagnose_together(spots, declined, bar, accept)
-        return Diagnosis(with_open_questions(diagnosed_together_from(several, spots), several.found))
+        several = diagnose_together(spots_of(points, model), declined, bar, accept)
+        return Diagnosis(with_open_questions(diagnosis_from(several), several))
     found = diagnose_sweep(points, model, given.modes, declined, bar, accept, resamples=resamples)
-    return Diagnosis(given.said(with_open_questions(diagnosis_from(found, points), found)))
+    return Diagnosis(given.said(with_open_questions(diagnosis_from(found), found)))
 
 
 def _whole_sweeps_alone(

@@ -4,16 +4,17 @@ from campaign.beams.cases import BeamCase
 from campaign.plates.answers import Answer, Band, answer_from, band_from
 from instrument.models.files import File
 from instrument.models.together import diagnose_together, identify_together
-from instrument.results.together_from import diagnosed_together_from, identified_together_from
+from instrument.results.diagnosis_from import diagnosis_from
+from instrument.results.identification_from import identification_from
 
 
 def identified(case: BeamCase) -> Band:
     """The law with its errors."""
     files = [File(case.sweep, case.specimen)]
-    return band_from(identified_together_from(identify_together(files), files).law)
+    return band_from(identification_from(identify_together(files)).law)
 
 
 def diagnosed(case: BeamCase) -> Answer:
     """With the whole catalogue."""
     files = [File(case.sweep, case.specimen)]
-    return answer_from(diagnosed_together_from(diagnose_together(files), files))
+    return answer_from(diagnosis_from(diagnose_together(files)))

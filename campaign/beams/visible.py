@@ -23,6 +23,6 @@ def visible_chi2(case: BeamCase) -> float | None:
 
 def _left(case: BeamCase, velocity_m_s: Complex) -> float:
     """Chi-square, what the stated numbers are moved counted in."""
-    found = identify_together([File(silent(case.sweep, velocity_m_s), case.specimen)]).found
+    found = identify_together([File(silent(case.sweep, velocity_m_s), case.specimen)])
     assert found.joint is not None
     return found.joint.begun.none.chi2

@@ -23,7 +23,7 @@ _SEED, _MIDDLE_HZ, _RATIO = 7, 100.0, 2e-3
 def identified(case: PlateCase) -> Band:
     """The law with its errors."""
     found = identify(case.sweep, case.specimen, hammer=case.hammer, like=_like(case))
-    return band_from(identification_from(found, case.specimen).law)
+    return band_from(identification_from(found).law)
 
 
 def diagnosed(case: PlateCase) -> Answer:
@@ -43,7 +43,7 @@ def left_out(there: Collection[str]) -> list[str]:
 
 def _diagnosed(case: PlateCase, without: Collection[str] = ()) -> Answer:
     found = diagnose(case.sweep, case.specimen, hammer=case.hammer, without=without, like=_like(case))
-    return answer_from(diagnosis_from(found, case.sweep))
+    return answer_from(diagnosis_from(found))
 
 
 def _like(case: PlateCase) -> Specimen | None:

@@ -79,7 +79,7 @@ class RemeasuredPlate:
     def diagnosed(self) -> Diagnosed:
         """Everything together."""
         if len(self.files) > 1:
-            return diagnose_together(self.files, hammer=self.hammer).found
+            return diagnose_together(self.files, hammer=self.hammer)
         (one,) = self.files
         return diagnose(one.sweep, self._stated, self.hammer, like=one.like)
 

@@ -32,7 +32,6 @@ from instrument.models.sharing import serves
 from instrument.models.together import diagnose_together, identify_together
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
-from instrument.results.together_from import diagnosed_together_from, identified_together_from
 from instrument.stream.jsonable import to_jsonable
 
 Outcome = dict[str, Any]
@@ -165,8 +164,9 @@ def _identified(given: Given, like: Specimen | None) -> dict[str, Any]:
     files = _files(given)
     if not files:
         found = identify(given.sweep, given.plate, hammer=given.modes, like=like)
-        return _of_fit(identification_from(found, given.plate))
-    return _of_fit(identified_together_from(identify_together(files, hammer=given.modes), files))
+    else:
+        found = identify_together(files, hammer=given.modes)
+    return _of_fit(identification_from(found))
 
 
 def _files(given: Given) -> list[File]:
@@ -182,10 +182,9 @@ def _diagnosed(given: Given, like: Specimen | None) -> dict[str, Any]:
     files = _files(given)
     if files:
         found = diagnose_together(files, hammer=given.modes)
-        return _of_diagnosis(diagnosed_together_from(found, files))
-    return _of_diagnosis(
-        diagnosis_from(diagnose(given.sweep, given.plate, given.modes, like=like), given.sweep)
-    )
+    else:
+        found = diagnose(given.sweep, given.plate, given.modes, like=like)
+    return _of_diagnosis(diagnosis_from(found))
 
 
 def _of_fit(result: IdentificationResult | ModalResult) -> dict[str, Any]:

@@ -22,9 +22,9 @@ def show_paper_case(out: Output, folder: Path) -> None:
     _print_beside_paper(out, run)
     out.say()
     _print_diagnosis(out, run)
-    Output(str(folder / "identify-direct.json")).result(identification_from(run.direct, run.specimen))
-    Output(str(folder / "identify-paper.json")).result(identification_from(run.paper, run.specimen))
-    Output(str(folder / "diagnose-paper.json")).result(diagnosis_from(run.diagnosis, run.sweep))
+    Output(str(folder / "identify-direct.json")).result(identification_from(run.direct))
+    Output(str(folder / "identify-paper.json")).result(identification_from(run.paper))
+    Output(str(folder / "diagnose-paper.json")).result(diagnosis_from(run.diagnosis))
     out.say()
     for path in save_figures(run, folder, bar):
         out.say(f"saved {path}")
@@ -32,7 +32,7 @@ def show_paper_case(out: Output, folder: Path) -> None:
 
 def _print_diagnosis(out: Output, run: PaperRun) -> None:
     """What the nine amplitudes say of the difference that four parameters leave."""
-    found = diagnosis_from(run.diagnosis, run.sweep)
+    found = diagnosis_from(run.diagnosis)
     out.say("What the nine points say of that:")
     print_story(out, found)
     out.say()

@@ -19,7 +19,6 @@ from instrument.planning.open_questions import with_open_questions
 from instrument.progress import bar
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.session_result import Conditions, result_of
-from instrument.results.together_from import diagnosed_together_from
 
 
 @click.command()
@@ -86,15 +85,13 @@ def diagnose(
                 "--resamples with several files or spots, a beam or a shear pair: "
                 "expected one sweep of a plate at one spot"
             )
-        several = diagnose_together(files, declined, bar, accepted, given.modes)
-        result = with_open_questions(diagnosed_together_from(several, files), several.found)
+        found = diagnose_together(files, declined, bar, accepted, given.modes)
     else:
         assert isinstance(given.specimen, Specimen)
         found = diagnose_sweep(
             given.sweep, given.specimen, given.modes, declined, bar, accepted, resamples=resamples
         )
-        result = with_open_questions(diagnosis_from(found, given.sweep), found)
-    result = given.said(result)
+    result = given.said(with_open_questions(diagnosis_from(found), found))
     print_diagnosis(out, result)
     if files is None:
         out.say()

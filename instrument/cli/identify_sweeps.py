@@ -33,7 +33,6 @@ from instrument.results.budget_from import budget, budget_from
 from instrument.results.identification_from import identification_from
 from instrument.results.pointwise_from import with_second_look
 from instrument.results.session_result import BEFORE_DIAGNOSIS
-from instrument.results.together_from import identified_together_from
 from instrument.results.uncertainty_facts import Depth, in_depth, in_depth_facts
 
 
@@ -51,7 +50,7 @@ def identify_one(out: Output, data: Path, given: Given, asked: Asked) -> None:
     if given.recorded is not None:
         out.say(f"the law {BEFORE_DIAGNOSIS}, which the session's own result below is not:\n")
     print_identification(out, found, read)
-    result = identification_from(found, read)
+    result = identification_from(found)
     if found.bare is not None:
         print_bare_plate(out, found.bare, read)
     result = _looked_deeper(out, found, result, asked, asked.samples)
@@ -68,12 +67,11 @@ def identify_one(out: Output, data: Path, given: Given, asked: Asked) -> None:
 def identify_files(out: Output, files: Sequence[File], every: Sequence[Given], asked: Asked) -> None:
     """Several files or spots under one law, or one file of something else than a plate."""
     only = every[0] if len(every) == 1 else None
-    together = identify_together(files, bar, every[0].modes)
-    found, plate = together.found, files[0].specimen
+    found, plate = identify_together(files, bar, every[0].modes), files[0].specimen
     print_identification(out, found, plate)
     if found.bare is not None and isinstance(plate, Specimen):
         print_bare_plate(out, found.bare, plate)
-    result = identified_together_from(together, files)
+    result = identification_from(found)
     result = _looked_deeper(out, found, result, asked, SAMPLES)
     if only is not None and only.recorded is not None:
         out.say()

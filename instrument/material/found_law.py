@@ -20,13 +20,14 @@ from instrument.facts.identification import IdentificationResult
 from instrument.files.table import LARGEST
 from instrument.files.text import read_text
 from instrument.interchange.given import is_session
-from instrument.interchange.identified import identify_session, result_of_fit
+from instrument.interchange.identified import identify_session
 from instrument.material.contradictions import refuse_contradictions
 from instrument.material.found_shift import FoundShift
 from instrument.material.knowledge import known_curve_of
 from instrument.material.stated_part import Stated, digest_of, stated_numbers
 from instrument.progress import Progress, quiet
 from instrument.results.diagnosis_words import NOT_NAMED
+from instrument.results.identification_from import identification_from
 from instrument.results.session_result import recorded_result
 from instrument.results.standing import none_leads
 from instrument.session.contents import Contents, contents_of
@@ -300,10 +301,10 @@ def stated_poisson(specimen: AnySpecimen) -> float | None:
 def _identified_now(path: Path, contents: Contents, progress: Progress) -> MaterialLaw:
     """Of a session that was recorded without a fit."""
     try:
-        fit = identify_session(contents, progress)
+        identified = identify_session(contents, progress)
     except FittingError as error:
         raise BadInput(f"{path}: no law in this session, and none to be found: {error}") from None
-    found = law_of_result(path, result_of_fit(fit))
+    found = law_of_result(path, identification_from(identified))
     if found is None:
         raise BadInput(f"{path}: the law of this session has no band, expected a sweep over a range")
     return found

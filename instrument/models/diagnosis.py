@@ -16,6 +16,8 @@ from fitting.sweep import Sweep
 from instrument.errors import BadInput
 from instrument.models.clamp_remarks import remarks_on_clamps
 from instrument.models.effect_names import effects_on
+from instrument.models.files import File
+from instrument.models.files_at_work import SetAside
 from instrument.models.other_processes import executor
 from instrument.models.remarks import (
     remarks_on_damping,
@@ -34,12 +36,18 @@ class Diagnosed:
     """A diagnosis and how long its parts took."""
 
     result: Diagnosis
+    files: tuple[File, ...]
+    """What was given, with what it was measured on as stated."""
+    sweep: Sweep
+    """All points given, file after file."""
     setup_seconds: float
     """Models made or loaded."""
     seconds: float
     """Everything else."""
     effects: tuple[Effect, ...] = ()
     """What was looked for; empty where effects were accepted by hand."""
+    aside: tuple[SetAside, ...] = ()
+    """Stretches of files that take no part."""
 
 
 def diagnose(
@@ -93,7 +101,8 @@ def diagnose(
     theory_over(specimen, result.after.law, sweep.frequency_hz)
     further = _remarks(sweep, why_aside, specimen, result, tested=hammer is not None)
     result = replace(result, warnings=(*result.warnings, *further))
-    return Diagnosed(result, ready - began, seconds, () if accept is not None else tuple(effects))
+    files, looked_for = (File(sweep, specimen, like=like),), () if accept is not None else tuple(effects)
+    return Diagnosed(result, files, sweep, ready - began, seconds, looked_for)
 
 
 def _remarks(

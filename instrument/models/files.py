@@ -41,6 +41,12 @@ def spots_of(sweep: Sweep, specimen: AnySpecimen, name: str = "", number: int = 
     ]
 
 
+def lone_plate(files: Sequence[File]) -> Specimen | None:
+    """The plate, where all there is is one file of it: nothing is joined then, and nothing told apart."""
+    first = files[0].specimen
+    return first if len(files) == 1 and isinstance(first, Specimen) else None
+
+
 def numbers_of(files: Sequence[File]) -> list[int]:
     """Of each of them the number of its file."""
     return [f.number or k + 1 for k, f in enumerate(files)]

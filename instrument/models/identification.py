@@ -16,6 +16,8 @@ from fitting.identification.bare_plate import BarePlateFit
 from fitting.identification.result import Identification, summarise, sweep_range
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
+from instrument.models.files import File
+from instrument.models.files_at_work import SetAside
 from instrument.models.free_layers import remark_on_free_layers
 from instrument.models.methods import (
     DirectMethod,
@@ -42,8 +44,10 @@ class Identified:
     """An identification and how long its parts took."""
 
     result: Identification
+    files: tuple[File, ...]
+    """What was given, with what it was measured on as stated."""
     sweep: Sweep
-    """The sweep that was fitted."""
+    """The points that were fitted, file after file."""
     given: Sweep
     """The same with what was set aside."""
     why_aside: Reasons
@@ -59,6 +63,8 @@ class Identified:
     """What a second look at the same fit needs; None for the paper's method."""
     bare: BarePlateFit | None = None
     """What the hammer test gave; None without one."""
+    aside: tuple[SetAside, ...] = ()
+    """Stretches of files that take no part."""
 
 
 def identify(
@@ -112,4 +118,7 @@ def identify(
         free = remark_on_free_layers([specimen], result.law, covariance, reach_hz, way.joint.quantities)
         result = replace(result, warnings=(*result.warnings, *free))
     took = perf_counter() - began
-    return Identified(result, sweep, given, why_aside, setup, seconds, took, theory, way.joint, way.bare)
+    files = (File(given, specimen, like=like),)
+    return Identified(
+        result, files, sweep, given, why_aside, setup, seconds, took, theory, way.joint, way.bare
+    )

@@ -1,7 +1,7 @@
 """Files with their specimens under one law: any structure, one file or several; identified and diagnosed."""
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from time import perf_counter
 
 import numpy as np
@@ -57,27 +57,9 @@ not what a law leaves.
 """
 
 
-@dataclass(frozen=True)
-class Together:
-    """An identification of all files."""
-
-    found: Identified
-    aside: tuple[SetAside, ...] = ()
-
-
-@dataclass(frozen=True)
-class DiagnosedTogether:
-    """A diagnosis of all files."""
-
-    found: Diagnosed
-    sweep: Sweep
-    """All points, file after file."""
-    aside: tuple[SetAside, ...] = ()
-
-
 def identify_together(
     files: Sequence[File], progress: Progress = quiet, hammer: Hammer | None = None
-) -> Together:
+) -> Identified:
     """One law from all files, each with its own plate and channels. Raises `FittingError`, `BadInput`.
 
     `hammer` is the test of the bare plate that all files are of.
@@ -123,8 +105,9 @@ def identify_together(
     free = remark_on_free_layers(stated, result.law, covariance, sweep_range(sweep), joint.quantities)
     result = replace(result, warnings=(*reading, *misfit, *result.warnings, *free, *rest))
     validated = perf_counter() - checked
-    found = Identified(
+    return Identified(
         result,
+        tuple(files),
         sweep,
         _all(files),
         np.concatenate(work.why_aside),
@@ -133,8 +116,8 @@ def identify_together(
         validated,
         joint=joint,
         bare=bare,
+        aside=tuple(work.aside),
     )
-    return Together(found, tuple(work.aside))
 
 
 def _by_misfit(work: FilesAtWork) -> tuple[Begun, Noise]:
@@ -154,7 +137,7 @@ def diagnose_together(
     progress: Progress = quiet,
     accept: Sequence[str] | None = None,
     hammer: Hammer | None = None,
-) -> DiagnosedTogether:
+) -> Diagnosed:
     """What one law cannot explain, traced to an effect of all files or of one.
 
     `hammer` is the test of the bare plate that all files are of. Raises as `identify_together`.
@@ -200,8 +183,8 @@ def diagnose_together(
     further = (*same_one, *remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
     result = replace(result, warnings=(*result.warnings, *further))
     asked = tuple(tried) if accept is None else ()
-    found = Diagnosed(result, ready - began, perf_counter() - ready, asked)
-    return DiagnosedTogether(found, _all(files), tuple(work.aside))
+    seconds = perf_counter() - ready
+    return Diagnosed(result, tuple(files), _all(files), ready - began, seconds, asked, tuple(work.aside))
 
 
 def _channels(

@@ -8,7 +8,7 @@ from fitting.identification.result import Identification
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
 from instrument.facts.session_result import SessionResult
-from instrument.interchange.identified import SessionFit
+from instrument.models.identification import Identified
 from instrument.report.blocks import Block, FactsBlock, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.report.fitted import ReportedFit
 from instrument.report.law_figures import law_figure, residual_figures
@@ -47,7 +47,7 @@ def identification_section(contents: Contents, fitted: ReportedFit) -> ReportSec
     if fitted.fit is None:
         return ReportSection(title, (Sentence(f"No law could be identified: {fitted.why}.", "warning"),))
     fit = fitted.fit
-    r = fit.identified.result
+    r = fit.result
     blocks: list[Block] = [
         Sentence(f"{r.law.kind} law from {_points(fit)} by {r.method} least squares, {_hammer(fit)}."),
         *_doubt(contents),
@@ -87,7 +87,7 @@ def unexplained_section(fitted: ReportedFit) -> ReportSection:
     title = "What the fit cannot explain"
     if fitted.fit is None:
         return ReportSection(title, (Sentence("There is no fit to say it of.", "note"),))
-    r = fitted.fit.identified.result
+    r = fitted.fit.result
     v = r.validation
     chi2 = (
         format_number(r.uncertainty.chi2_per_dof, 3)
@@ -110,7 +110,7 @@ def unexplained_section(fitted: ReportedFit) -> ReportSection:
             ("each point predicted from the others", f"{written_out(v.leave_one_out_rms_percent, 3)} % rms")
         )
     blocks: list[Block] = [
-        Sentence(f"Before: the model has no further effects than {_parts(fitted.fit.specimen)}."),
+        Sentence(f"Before: the model has no further effects than {_parts(fitted.fit.files[0].specimen)}."),
         FactsBlock("", tuple(rows)),
     ]
     if v.held_out:
@@ -132,19 +132,19 @@ def _parts(specimen: AnySpecimen) -> str:
     return f"the {in_words(specimen.kind)} and its core"
 
 
-def _points(fit: SessionFit) -> str:
+def _points(fit: Identified) -> str:
     """How many took part, and how many did not."""
-    taken, aside = len(fit.identified.sweep), int(np.sum(fit.identified.why_aside != ""))
+    taken, aside = len(fit.sweep), int(np.sum(fit.why_aside != ""))
     return f"{taken} points" + (f" ({aside} set aside)" if aside else "")
 
 
-def _hammer(fit: SessionFit) -> str:
-    if fit.specimen.kind != "plate":
+def _hammer(fit: Identified) -> str:
+    plate = fit.files[0].specimen
+    if not isinstance(plate, Specimen):
         return "stated numbers within their tolerances"
     if fit.bare is None:
         return "without a hammer test: stiffness and viscous damping as the specimen states them"
-    assert isinstance(fit.specimen, Specimen)
-    young = fit.specimen.substrate.young_pa * fit.bare.young_scale
+    young = plate.substrate.young_pa * fit.bare.young_scale
     said = f"{with_error(young, young * fit.bare.standard_error, 1e-9)} GPa by itself"
     return f"jointly with the hammer test: {len(fit.bare.measured_hz)} modes, substrate {said}"
 
@@ -217,12 +217,12 @@ def _correlations(r: Identification) -> TableBlock:
     )
 
 
-def _adjusted(fit: SessionFit) -> list[Block]:
+def _adjusted(fit: Identified) -> list[Block]:
     """The stated numbers as the fit has them; nothing where all are exact."""
-    found = fit.identified.result.fit.adjusted
+    found = fit.result.fit.adjusted
     if not found:
         return []
-    rows = tuple(tuple(row) for row in adjusted_rows(found, fit.specimen, len(found)))
+    rows = tuple(tuple(row) for row in adjusted_rows(found, fit.files[0].specimen, len(found)))
     return [TableBlock("Stated numbers the data moved, most moved first", COLUMNS, rows, folded=True)]
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from fitting.numerics.chances import Z_95
-from instrument.interchange.identified import SessionFit
+from instrument.models.identification import Identified
 from instrument.report.fitted import ReportedFit
 from instrument.report.measured import Measured
 from instrument.results.drawing import (
@@ -23,10 +23,10 @@ from instrument.results.drawing import (
 )
 
 
-def law_figure(fit: SessionFit, name: str = "identified") -> Figure:
+def law_figure(fit: Identified, name: str = "identified") -> Figure:
     """G' and eta over the measured range with 95 % bands, ticks where it was measured; `name` of the law."""
     figure, ((left, right),) = panels(1, 2, 3.9)
-    b = fit.identified.result.band
+    b = fit.result.band
     for ax, value, error, scale, y in (
         (left, b.storage_modulus_pa, b.storage_modulus_standard_error_pa, 1e-6, "Storage modulus G' / MPa"),
         (right, b.loss_factor, b.loss_factor_standard_error, 1.0, "Loss factor η"),
@@ -36,8 +36,8 @@ def law_figure(fit: SessionFit, name: str = "identified") -> Figure:
             ax.fill_between(b.frequency_hz, low, high, color=DATA, alpha=0.2, linewidth=0, label="95 % band")
         ax.plot(b.frequency_hz, value * scale, color=DATA, label=name)
         ax.plot(
-            fit.identified.sweep.frequency_hz,
-            np.full(len(fit.identified.sweep), 0.015),
+            fit.sweep.frequency_hz,
+            np.full(len(fit.sweep), 0.015),
             "|",
             color="#222222",
             markersize=6,

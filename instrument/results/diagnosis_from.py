@@ -15,6 +15,7 @@ from instrument.facts.diagnosis import (
     StageFitted,
 )
 from instrument.models.diagnosis import Diagnosed
+from instrument.results.of_files import with_files
 from instrument.results.rows_from import (
     adjusted_from,
     held_out_from,
@@ -24,11 +25,11 @@ from instrument.results.rows_from import (
 )
 
 
-def diagnosis_from(found: Diagnosed, sweep: Sweep) -> DiagnosisResult:
-    """The result of `diagnose`; `sweep` is the whole one that was diagnosed."""
-    r = found.result
+def diagnosis_from(found: Diagnosed) -> DiagnosisResult:
+    """Read the result of `diagnose` off what it found."""
+    r, sweep = found.result, found.sweep
     fitted = {effect.name for effect in r.effects}
-    return DiagnosisResult(
+    result = DiagnosisResult(
         verdict=r.verdict,
         effects=tuple(
             EffectFound(name=e.name, parameters=parameters_from(e), probability=e.probability)
@@ -53,6 +54,7 @@ def diagnosis_from(found: Diagnosed, sweep: Sweep) -> DiagnosisResult:
         seconds=found.seconds,
         setup_seconds=found.setup_seconds,
     )
+    return with_files(result, found.files, r.used, found.aside)
 
 
 def candidate_from(c: Candidate) -> CandidateFitted:

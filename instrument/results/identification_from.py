@@ -23,6 +23,7 @@ from instrument.facts.identification import (
     TheoryErrorRow,
 )
 from instrument.models.identification import Identified
+from instrument.results.of_files import with_files
 from instrument.results.rows_from import (
     adjusted_from,
     held_out_from,
@@ -32,8 +33,8 @@ from instrument.results.rows_from import (
 )
 
 
-def identification_from(found: Identified, specimen: Specimen | None = None) -> IdentificationResult:
-    """The result of `identify`; `specimen` as stated, where a hammer test may have taken part."""
+def identification_from(found: Identified) -> IdentificationResult:
+    """Read the result of `identify` off its fit."""
     r = found.result
     names, v = r.law.names, r.validation
     result = IdentificationResult(
@@ -68,9 +69,10 @@ def identification_from(found: Identified, specimen: Specimen | None = None) -> 
         posterior=_posterior(r.fit),
         theory_error=_theory(found.theory),
     )
-    if found.bare is None or specimen is None:
-        return result
-    return result.but(hammer=_bare_plate(found.bare, specimen))
+    plate = found.files[0].specimen
+    if found.bare is not None and isinstance(plate, Specimen):
+        result = result.but(hammer=_bare_plate(found.bare, plate))
+    return with_files(result, found.files, found.why_aside == "", found.aside)
 
 
 def _bare_plate(bare: BarePlateFit, specimen: Specimen) -> BarePlateFound:

@@ -21,7 +21,6 @@ from instrument.planning.follow_up import Possible
 from instrument.planning.open_questions import with_open_questions
 from instrument.progress import Progress, quiet
 from instrument.results.diagnosis_from import diagnosis_from
-from instrument.results.together_from import diagnosed_together_from
 from instrument.run.analysis import Analysis
 from instrument.session.points import sweep_of, uncalibrated
 from instrument.stepped_sine.settings import SweepSettings
@@ -96,11 +95,10 @@ def _result(asked: ToDiagnose, progress: Progress) -> DiagnosisResult:
     sweep = sweep_of(points, asked.times_s)
     files = files_of(sweep, points, specimen, asked.struck)
     if len(files) > 1 or not isinstance(specimen, Specimen):
-        several = diagnose_together(files, progress=progress, hammer=hammer)
-        result = with_open_questions(diagnosed_together_from(several, files), several.found, possible).untimed
+        found = diagnose_together(files, progress=progress, hammer=hammer)
     else:
         found = diagnose(sweep, specimen, hammer, progress=progress)
-        result = with_open_questions(diagnosis_from(found, sweep), found, possible).untimed
+    result = with_open_questions(diagnosis_from(found), found, possible).untimed
     said = [f"damped plate struck: {remark}" for one in asked.struck for remark in one.remarks]
     return result.but(warnings=(*result.warnings, *uncalibrated(points), *said))
 

@@ -17,7 +17,6 @@ from instrument.models.identification import identify
 from instrument.models.together import identify_together
 from instrument.progress import Progress, quiet
 from instrument.results.identification_from import identification_from
-from instrument.results.together_from import identified_together_from
 from instrument.session.points import sweep_of, uncalibrated
 from instrument.stream.derived import DampingFound, FitUpdated, PointMeasured
 from instrument.stream.event import Event
@@ -56,10 +55,10 @@ def _result(
     sweep = sweep_of(used)
     files = files_of(sweep, used, specimen)
     if len(files) > 1 or not isinstance(specimen, Specimen):
-        result = identified_together_from(identify_together(files, progress, modes), files).untimed
+        found = identify_together(files, progress, modes)
     else:
         found = identify(sweep, specimen, progress=progress, hammer=modes)
-        result = identification_from(found, specimen).untimed
+    result = identification_from(found).untimed
     return _with_temperature(result.but(warnings=(*result.warnings, *uncalibrated(used))), used)
 
 

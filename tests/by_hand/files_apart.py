@@ -23,8 +23,9 @@ from fitting.laws import LAWS
 from fitting.stated.layers import Core
 from fitting.structures.shear_pair import ShearPair, disc
 from fitting.sweep import Sweep
+from instrument.models.diagnosis import Diagnosed
 from instrument.models.files import File
-from instrument.models.together import DiagnosedTogether, diagnose_together
+from instrument.models.together import diagnose_together
 
 LEVEL_M_S2, POINTS, NOISE = 9.81, 120, 2e-3
 MASSES_KG = (0.1, 0.2, 0.35, 0.6, 1.0, 1.4)
@@ -86,9 +87,9 @@ def _sweep(r: np.random.Generator, f: Array, mass: float, G: Complex, thickness:
     return Sweep(f, T * level / (1j * w), level, one, one, base_m_s2=level + 0j)
 
 
-def off(found: DiagnosedTogether, material: Material, warmer: Array) -> list[tuple[float, float]]:
+def off(found: Diagnosed, material: Material, warmer: Array) -> list[tuple[float, float]]:
     """(found - true) / standard error of G' and eta at each frequency of `AT_HZ` that was measured."""
-    result = found.found.result
+    result = found.result
     of = [e for e in result.effects if e.name == "temperature_difference"]
     number = int(of[0].parameters["file"].value) if of else 0
     its = warmer[:1] if number < 0 else np.delete(warmer, number - 1) if number else warmer
@@ -130,7 +131,7 @@ def main() -> None:
     for seed in range(given.seed, given.seed + given.cases):
         files, material, warmer = drawn(seed, given.kelvin, given.masses)
         found = diagnose_together(files)
-        result = found.found.result
+        result = found.result
         names = "+".join(e.name for e in result.effects) or "-"
         verdicts[result.verdict] += 1
         first[names] += 1

@@ -66,7 +66,7 @@ def main() -> None:
         hit = {(k, hz) for k, hz in inside if any(n == k and lo <= hz <= hi for n, lo, hi in spans)}
         wrong = sum(not any(lo <= hz <= hi for hz in at) for _, lo, hi in spans)
         there, seen, elsewhere = there + len(inside), seen + len(hit), elsewhere + wrong
-        band = found.found.result.band
+        band = found.result.band
         assert band is not None
         z += pulls(band, lambda hz, of=material: complex(of.modulus(2 * np.pi * hz, 0.0)))
         print(seed, np.round(at), [(n, round(lo), round(hi)) for n, lo, hi in sorted(spans)], flush=True)

@@ -47,7 +47,6 @@ from instrument.models.identification import identify
 from instrument.models.together import diagnose_together, identify_together
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
-from instrument.results.together_from import diagnosed_together_from, identified_together_from
 from instrument.simulated_case import case_file
 
 LAYERS = ("substrate", "constraining", "core")
@@ -256,19 +255,19 @@ def identified(one: Given) -> tuple[Band, tuple[str, ...]]:
     """The law, and the remarks; of a plate how likely stated numbers are moved together as far."""
     if isinstance(one.specimen, Specimen):
         found = identify(one.sweep, one.specimen, hammer=one.hammer)
-        facts = identification_from(found, one.specimen)
+        facts = identification_from(found)
         return band_from(facts.law), (*found.result.warnings, f"p = {chance_of(found.result.fit):.2g}")
     files = [File(one.sweep, one.specimen)]
-    together = identified_together_from(identify_together(files), files)
+    together = identification_from(identify_together(files))
     return band_from(together.law), tuple(together.warnings)
 
 
 def diagnosed(one: Given) -> Answer:
     """The verdict."""
     if isinstance(one.specimen, Specimen):
-        return answer_from(diagnosis_from(diagnose(one.sweep, one.specimen, hammer=one.hammer), one.sweep))
+        return answer_from(diagnosis_from(diagnose(one.sweep, one.specimen, hammer=one.hammer)))
     files = [File(one.sweep, one.specimen)]
-    return answer_from(diagnosed_together_from(diagnose_together(files), files))
+    return answer_from(diagnosis_from(diagnose_together(files)))
 
 
 def asked(one: Given, *, law_alone: bool) -> list[str]:

@@ -27,8 +27,8 @@ from campaign.plates.tables import summary
 from fitting.errors import FittingError
 from instrument.models.files import spots_of
 from instrument.models.together import diagnose_together, identify_together
+from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
-from instrument.results.together_from import diagnosed_together_from
 
 EVERY = "hidden"
 _LIKELIEST = 4
@@ -49,14 +49,14 @@ def pulls(case: StruckCase, band: Band) -> np.ndarray:
 def said_of_law(case: StruckCase) -> tuple[Band, float]:
     """What `identify` says of a case: the law, and chi-square per degree of freedom."""
     found = identify_together(spots_of(case.sweep, case.specimen))
-    said = identification_from(found.found, case.specimen)
+    said = identification_from(found)
     return band_from(said.law), said.chi2_per_dof
 
 
 def said_of_cause(case: StruckCase) -> tuple[Answer, Sequence[str]]:
     """What `diagnose` says of it, and its words."""
     files = spots_of(case.sweep, case.specimen)
-    found = diagnosed_together_from(diagnose_together(files), files)
+    found = diagnosis_from(diagnose_together(files))
     return answer_from(found), found.explanation
 
 

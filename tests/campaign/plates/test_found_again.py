@@ -90,7 +90,7 @@ def test_a_treatment_that_ends_short_is_told_from_one_that_is_let_go(monkeypatch
     short = HiddenTreatmentNotGripped(begins_m=8e-3)
     monkeypatch.setattr(HiddenTreatmentNotGripped, "draw", classmethod(lambda cls, rng, at: short))
     case = draw_beam("treatment_not_gripped", 9932001, beam="bar")
-    found = diagnose_together([File(case.sweep, case.specimen)]).found.result
+    found = diagnose_together([File(case.sweep, case.specimen)]).result
     assert [e.name for e in found.effects] == ["treatment_not_gripped"]
     gap = found.effects[0].parameters["gap"]
     assert gap.value == pytest.approx(8e-3, abs=2 * gap.standard_error)

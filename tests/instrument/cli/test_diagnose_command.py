@@ -38,7 +38,7 @@ def given(monkeypatch):
         return diagnosed(some_sweep())
 
     monkeypatch.setattr(command, "diagnose_sweep", stub)
-    monkeypatch.setattr(command, "diagnosis_from", lambda found, sweep: diagnosis())
+    monkeypatch.setattr(command, "diagnosis_from", lambda found: diagnosis())
     return seen
 
 

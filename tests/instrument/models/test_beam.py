@@ -32,7 +32,7 @@ def sweep_of(beam, seed=0, factor=1.0, noise=2e-3):
 
 
 def test_a_sandwich_beam_gives_its_law(beam):
-    found = identify_together([File(sweep_of(beam), beam)]).found
+    found = identify_together([File(sweep_of(beam), beam)])
     f = found.result.band.frequency_hz
     G, eta = beam.core.law.storage_and_loss(2 * np.pi * f)
     off = (found.result.band.storage_modulus_pa - G) / found.result.band.storage_modulus_standard_error_pa
@@ -43,7 +43,7 @@ def test_a_sandwich_beam_gives_its_law(beam):
 
 @among("gain_error", "added_mass", "phase_scale")
 def test_a_gain_is_named_on_a_beam(beam, without):
-    found = diagnose_together([File(sweep_of(beam, factor=1.05), beam)], without=without).found.result
+    found = diagnose_together([File(sweep_of(beam, factor=1.05), beam)], without=without).result
     assert found.verdict in ("effect", "ambiguous")
     assert found.effects[0].name == "gain_error"
     assert found.effects[0].parameters["factor"].value == pytest.approx(1.05, abs=0.01)

@@ -75,7 +75,7 @@ MASS = {"mass": 3e-3, "x": 0.16}, {"mass": 3e-4, "x": 1e-3}
 )
 def test_what_is_hidden_is_named_with_its_size_and_place(beam, name, hidden, found_within, without):
     files = [File(read(beam, name, list(hidden.values()), 1), beam)]
-    result = diagnose_together(files, without=without).found.result
+    result = diagnose_together(files, without=without).result
     assert result.effects[0].name == name
     for key, within in found_within.items():
         assert result.effects[0].parameters[key].value == pytest.approx(hidden[key], abs=within)
@@ -87,7 +87,7 @@ def test_what_is_hidden_is_named_with_its_size_and_place(beam, name, hidden, fou
 
 @pytest.mark.long
 def test_a_clean_free_beam_struck_at_a_point_has_nothing():
-    result = diagnose_together([File(read(FREE, None, (), 3), FREE)]).found.result
+    result = diagnose_together([File(read(FREE, None, (), 3), FREE)]).result
     assert result.verdict == "none"
     assert max(off(result.after.law)) < 0.08
 
@@ -104,7 +104,7 @@ def test_two_spots_of_one_file_are_fitted_together_where_each_was_read():
     )
     files = spots_of(sweep, beam)
     assert [f.specimen.pickup_m for f in files] == [0.05, 0.15]
-    found = identify_together(files).found.result
+    found = identify_together(files).result
     assert max(off(found.fit.law)) < 0.05
     names = [one.name for one in found.fit.adjusted]
     assert {"pickup_x [pickup 0]", "pickup_x [pickup 1]", "force_x"} <= set(names)
@@ -118,7 +118,7 @@ def test_a_reading_lost_at_one_spot_of_a_file_is_said_with_the_spot():
     spoiled = files[1].sweep.velocity_m_s.copy()
     spoiled[60] *= 3
     files[1] = replace(files[1], sweep=replace(files[1].sweep, velocity_m_s=spoiled))
-    result = diagnose_together(files, accept=[]).found.result
+    result = diagnose_together(files, accept=[]).result
     (lost,) = [one for one in result.channels if one.name == "signal_dropout"]
     assert lost.parameters["pickup"].value == 1
     assert "at pickup 1 one reading leaves" in " ".join(result.explanation).lower()

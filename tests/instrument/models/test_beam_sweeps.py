@@ -37,7 +37,7 @@ def absolute(frequency_hz=FREQUENCY_HZ):
 
 def test_stated_numbers_that_a_lost_fit_had_moved_do_not_stay_where_the_cause_is_found():
     others = [name for name in CATALOGUE if name != "absolute_velocity"]
-    found = diagnose_together([File(absolute(), OBERST)], others).found.result
+    found = diagnose_together([File(absolute(), OBERST)], others).result
     assert found.verdict == "effect"
     assert [e.name for e in found.effects] == ["absolute_velocity"]
     w = 2 * np.pi * np.array([30.0, 100.0, 300.0, 1000.0])

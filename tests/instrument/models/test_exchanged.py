@@ -47,7 +47,7 @@ def test_a_mass_that_is_stated_wrongly_is_no_exchange():
 
 
 def test_identify_says_so_first():
-    said = identify_together(files((0, 2, 1))).found.result.warnings[0]
+    said = identify_together(files((0, 2, 1))).result.warnings[0]
     assert said.startswith("0.573 kg and 1.196 kg seem to have each other's specimens")
 
 

@@ -30,7 +30,7 @@ def identified():
     specimen = replace(read_specimen(case_file("zn1.toml")), exact=False)
     sweep = read_sweep(DATA / "practice-005.csv").sweep(9.81)
     found = identify(sweep, specimen)
-    return specimen, sweep, found, identification_from(found, specimen)
+    return specimen, sweep, found, identification_from(found)
 
 
 def test_it_predicts_what_was_fitted(identified):

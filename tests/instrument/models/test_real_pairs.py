@@ -19,7 +19,7 @@ NOMINAL_C = 21.0
 @pytest.mark.skipif(not REAL.exists(), reason="the real records are not here")
 def test_real_records_of_three_masses_follow_one_law():
     given = [_real(name, edges=True, every=5) for name in ("253g", "573g", "1196g")]
-    band = identify_together(given).found.result.band
+    band = identify_together(given).result.band
     k = int(np.flatnonzero(band.frequency_hz == 100.0)[0])
     for storage_pa, loss_factor in _on_another_machine():
         assert band.storage_modulus_pa[k] == pytest.approx(storage_pa, rel=0.12)

@@ -78,7 +78,7 @@ def test_diagnose_refuses_the_law_it_ends_with(coarse):
 def test_a_usual_core_is_identified_and_its_error_stated(coarse):
     sweep = sweep_of(coarse.with_law(TABLE_4))
     found = identify(sweep, coarse)
-    rows = identification_from(found, coarse).theory_error
+    rows = identification_from(found).theory_error
     assert len(rows) == 10
     assert set(rows[0].as_json()) == {"frequency_hz", "frequency_error", "loss_factor_error"}
     assert (rows[0].frequency_hz, rows[-1].frequency_hz) == (pytest.approx(14), pytest.approx(290))

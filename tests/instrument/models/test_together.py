@@ -25,7 +25,7 @@ def law_error(found, f=(60.0, 150.0, 400.0)):
 
 
 def test_one_pair_gives_its_law():
-    found = identify_together(files([0.573])).found.result
+    found = identify_together(files([0.573])).result
     assert law_error(found.law, (60, 150)).max() < 0.01
     # Area and thickness are known to 2 % each, and what free edges give way is left open by 7 %.
     error = found.band.storage_modulus_standard_error_pa / found.band.storage_modulus_pa
@@ -37,7 +37,7 @@ def test_one_pair_gives_its_law():
 
 def test_edges_that_are_counted_leave_the_modulus_as_well_known_as_area_and_thickness():
     given = [File(sweep(pair(0.573)), pair(0.573, edges=True))]
-    band = identify_together(given).found.result.band
+    band = identify_together(given).result.band
     error = band.storage_modulus_standard_error_pa / band.storage_modulus_pa
     assert 0.025 < np.median(error) < 0.05
 
@@ -45,7 +45,7 @@ def test_edges_that_are_counted_leave_the_modulus_as_well_known_as_area_and_thic
 def test_four_masses_give_one_law_and_each_its_own_gain():
     given = files()
     given[1] = File(sweep(pair(MASSES_KG[1]), seed=1, factor=1.006), pair(MASSES_KG[1]))
-    found = identify_together(given).found.result
+    found = identify_together(given).result
     assert law_error(found.law).max() < 0.015
     adjusted = {one.name: one for one in found.fit.adjusted}
     # How much is common to all of them, the core hides.
@@ -57,7 +57,7 @@ def test_four_masses_give_one_law_and_each_its_own_gain():
 
 
 def test_one_mass_stated_wrongly_and_the_modulus_are_one():
-    found = diagnose_together(files([0.573], more_kg=0.05 * 0.573)).found.result
+    found = diagnose_together(files([0.573], more_kg=0.05 * 0.573)).result
     assert found.verdict == "ambiguous"
     assert found.effects[0].name == "added_mass"
     assert found.equivalent["added_mass"] == ("added_mass", "none")
@@ -69,7 +69,7 @@ def test_one_mass_stated_wrongly_and_the_modulus_are_one():
 @among("added_mass", "gain_error", "channel_delay")
 def test_four_masses_name_what_all_of_them_lack(without):
     more = 0.05 * MASSES_KG[0]
-    found = diagnose_together(files(more_kg=more), without=without).found.result
+    found = diagnose_together(files(more_kg=more), without=without).result
     assert found.verdict == "effect"
     (effect,) = found.effects
     assert effect.name == "added_mass"
@@ -81,7 +81,7 @@ def test_four_masses_name_what_all_of_them_lack(without):
 @pytest.mark.long
 def test_a_common_mass_is_named_where_channels_wander_too():
     more = 0.05 * 0.573
-    found = diagnose_together(files(more_kg=more, wander=1e-3, points=160)).found.result
+    found = diagnose_together(files(more_kg=more, wander=1e-3, points=160)).result
     assert found.verdict == "effect"
     (effect,) = found.effects
     assert effect.name == "added_mass"
@@ -91,7 +91,7 @@ def test_a_common_mass_is_named_where_channels_wander_too():
 
 def test_one_mass_with_wandering_channels_names_nothing():
     given = files([0.573], more_kg=0.05 * 0.573, wander=1e-3, points=160)
-    found = diagnose_together(given).found.result
+    found = diagnose_together(given).result
     assert found.verdict == "ambiguous"
 
 
@@ -100,7 +100,7 @@ def test_a_mass_of_one_file_is_that_file_s_or_its_core_was_warmer(without):
     # 5 per cent in mass is 0.8 K: readings cannot tell them, chi-squares differ by one.
     given = files()
     given[2] = File(sweep(pair(0.573), seed=2, points=80, more_kg=0.05 * 0.573), pair(0.573))
-    found = diagnose_together(given, without=without).found.result
+    found = diagnose_together(given, without=without).result
     assert found.verdict == "ambiguous"
     assert set(found.equivalent["added_mass"]) == {"added_mass", "temperature_difference"}
     mass = found.effects[0].parameters["mass"]
@@ -127,7 +127,7 @@ def test_files_whose_cores_were_apart_are_no_mass(warmer, without):
         own = pair(mass)
         warm = replace(own, core=replace(own.core, law=at(kelvin)))
         given.append(File(sweep(warm, seed=k, points=80), own))
-    found = diagnose_together(given, without=without).found.result
+    found = diagnose_together(given, without=without).result
     assert found.effects[0].name == "temperature_difference"
     assert "none" not in found.equivalent["temperature_difference"]
     (band,) = [found.after.band]
@@ -143,7 +143,7 @@ def test_a_tenth_of_a_kelvin_between_files_is_no_effect():
         own = pair(mass)
         warm = replace(own, core=replace(own.core, law=at(kelvin)))
         given.append(File(sweep(warm, seed=k, points=80), own))
-    assert diagnose_together(given).found.result.verdict == "none"
+    assert diagnose_together(given).result.verdict == "none"
 
 
 def turned(degrees, masses=HEAVIER_KG):
@@ -156,7 +156,7 @@ def turned(degrees, masses=HEAVIER_KG):
 @among("phase_offset", "phase_scale", "gain_error", "channel_delay")
 def test_an_angle_between_two_accelerometers_is_not_taken_for_the_core(without):
     # With time stamps a gain and a drift did as well: certain, and the modulus off by a quarter.
-    found = diagnose_together(turned(-3.0), without=without).found.result
+    found = diagnose_together(turned(-3.0), without=without).result
     (effect,) = found.effects
     # The prior of the angle alone speaks for it: the law takes up what it does to the readings.
     assert found.equivalent == {"phase_offset": ("phase_offset", "unlisted")}
@@ -167,13 +167,13 @@ def test_an_angle_between_two_accelerometers_is_not_taken_for_the_core(without):
 
 @among("phase_offset", "phase_scale", "gain_error", "channel_delay")
 def test_an_angle_of_four_deviations_is_an_effect_or_the_tolerance_of_one(without):
-    found = diagnose_together(turned(-2.0), without=without).found.result
+    found = diagnose_together(turned(-2.0), without=without).result
     assert found.equivalent == {"phase_offset": ("phase_offset", "none", "unlisted")}
     assert law_error(found.after.law).max() < 0.02
 
 
 def test_a_degree_between_two_accelerometers_is_found_beside_the_law():
-    found = identify_together(turned(1.0)).found.result
+    found = identify_together(turned(1.0)).result
     (phase,) = [one for one in found.fit.adjusted if one.name == "phase"]
     assert phase.found == pytest.approx(1.0, abs=3 * phase.standard_error)
     assert phase.standard_error < 0.2 < phase.tolerance == pytest.approx(0.5)
@@ -183,7 +183,7 @@ def test_a_degree_between_two_accelerometers_is_found_beside_the_law():
 def test_one_mass_leaves_an_angle_to_the_band_of_the_loss_factor():
     """Half a degree, as two accelerometers may be apart: the loss factor is no better known than that."""
     at_resonance, below = (
-        identify_together([File(f.sweep.take(kept(f.sweep.frequency_hz)), f.specimen)]).found.result.band
+        identify_together([File(f.sweep.take(kept(f.sweep.frequency_hz)), f.specimen)]).result.band
         for f, kept in ((turned(0.5, [0.573])[0], k) for k in (lambda f: f > 200.0, lambda f: f < 170.0))
     )
     for band in (at_resonance, below):
@@ -196,7 +196,7 @@ def test_one_mass_leaves_an_angle_to_the_band_of_the_loss_factor():
 @pytest.mark.parametrize("masses", [[0.573], HEAVIER_KG])
 def test_what_may_hide_in_a_pair_s_law_is_said(masses):
     among_these = all_but("channel_delay", "gain_error")
-    found = diagnose_together(files(masses, points=40), without=among_these).found
+    found = diagnose_together(files(masses, points=40), without=among_these)
     hidden = {one.name: one for one in unseen(found.result.rivals, found.effects)}
     # One mass over another is all that is read: a law follows a delay, and three masses part them.
     assert ("channel_delay" in hidden) == (len(masses) == 1)
@@ -204,7 +204,7 @@ def test_what_may_hide_in_a_pair_s_law_is_said(masses):
 
 
 def test_four_masses_as_stated_leave_nothing():
-    assert diagnose_together(files(points=40)).found.result.verdict == "none"
+    assert diagnose_together(files(points=40)).result.verdict == "none"
 
 
 def softened(*levels):
@@ -214,14 +214,14 @@ def softened(*levels):
 
 def test_softening_is_not_told_from_one_level():
     rivals = all_but("amplitude_softening", "added_mass", "gain_error")
-    one = diagnose_together(softened(9.81), without=rivals).found.result
+    one = diagnose_together(softened(9.81), without=rivals).result
     assert "amplitude_softening" not in {e.name for e in one.effects}
 
 
 @pytest.mark.long
 @among("amplitude_softening", "added_mass", "gain_error")
 def test_softening_is_told_by_two_levels(without):
-    two = diagnose_together(softened(9.81, 2.5), without=without).found.result
+    two = diagnose_together(softened(9.81, 2.5), without=without).result
     assert two.verdict == "effect"
     assert two.effects[0].name == "amplitude_softening"
 
@@ -234,7 +234,7 @@ def test_what_softens_at_a_strain_does_so_under_every_mass():
         for k, (m, a) in enumerate((m, a) for m in (0.2, 0.5, 1.2) for a in (9.81, 2.5))
     ]
     rivals = all_but("amplitude_softening", "added_mass", "temperature_difference", "gain_error")
-    found = diagnose_together(given, without=rivals).found.result
+    found = diagnose_together(given, without=rivals).result
     (effect,) = found.effects
     assert effect.name == "amplitude_softening"
     assert effect.parameters["file"].value == 0
@@ -254,7 +254,7 @@ def test_a_resonance_of_the_fixture_is_set_aside():
     assert {one.file for one in found.aside} == {1}
     assert any(one.glitch.low_hz < 330 < one.glitch.high_hz for one in found.aside)
     # Its tails stay.
-    assert law_error(found.found.result.law).max() < 0.03
+    assert law_error(found.result.law).max() < 0.03
 
 
 @pytest.mark.parametrize(("mass_kg", "at_hz"), [(0.2533, 410.0), (0.1178, 690.0)])
@@ -264,7 +264,7 @@ def test_where_a_fixture_resonates_the_rest_is_worth_less_too(mass_kg, at_hz):
     r, side = s.frequency_hz / at_hz, np.sign(mass_kg - 0.2)
     v = s.velocity_m_s * 0.995 * np.exp(-0.014j * side) * (1 + 0.005 / (1 - r**2 + 0.04j * r))
     found = identify_together([File(replace(s, velocity_m_s=v), pair(mass_kg))])
-    result = found.found.result
+    result = found.result
     assert found.aside
     assert result.noise.source == "misfit"
     assert any("where a fixture resonates" in said for said in result.warnings)
@@ -286,7 +286,7 @@ def test_a_sensor_on_wax_is_not_taken_for_the_core(without, on_base):
         rises = 1 / (1 - (file.sweep.frequency_hz / f_0) ** 2)
         factor = 1 / rises if on_base else rises
         given.append(replace(file, sweep=replace(file.sweep, velocity_m_s=factor * file.sweep.velocity_m_s)))
-    found = diagnose_together(given, without=without).found.result
+    found = diagnose_together(given, without=without).result
     # It shows by too little for its formula to be tested.
     assert found.equivalent == {"sensor_mounting": ("sensor_mounting", "unlisted")}
     (effect,) = found.effects
@@ -307,11 +307,11 @@ def test_one_file_is_not_spoken_of_as_several():
 
 
 def _misfit(masses):
-    return identify_together(files(masses, wander=0.02)).found.result.warnings
+    return identify_together(files(masses, wander=0.02)).result.warnings
 
 
 def test_where_no_law_fits_there_is_no_chi_square(capsys):
-    found = identify_together(files([0.2533, 0.573], wander=0.02)).found
+    found = identify_together(files([0.2533, 0.573], wander=0.02))
     result = found.result
     assert result.noise.source == "misfit"
     assert not result.chi2_means_something
@@ -326,9 +326,9 @@ def test_where_no_law_fits_there_is_no_chi_square(capsys):
 @pytest.mark.long
 def test_another_process_changes_no_law(monkeypatch):
     given = files([0.2533, 0.573], wander=0.02)
-    alone = identify_together(given).found.result
+    alone = identify_together(given).result
     monkeypatch.setenv(VARIABLE, "2")
-    assert np.array_equal(identify_together(given).found.result.law.values, alone.law.values)
+    assert np.array_equal(identify_together(given).result.law.values, alone.law.values)
 
 
 @pytest.mark.long
@@ -339,7 +339,7 @@ def test_a_gain_and_a_phase_of_all_files_do_not_become_the_core_s():
         File(sweep(pair(m), seed=k, points=120, wander=0.01, factor=apart), pair(m))
         for k, m in enumerate(HEAVIER_KG)
     ]
-    found = identify_together(given).found.result
+    found = identify_together(given).result
     assert found.noise.source == "misfit"
     # Each file's own wandering is what is left: without what they have in common 8 and 10 %.
     assert law_error(found.law, (60.0, 100.0)).max() < 0.045

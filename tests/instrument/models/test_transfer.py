@@ -28,7 +28,7 @@ def law_off(band):
 def test_only_what_all_files_have_in_common_is_listed_and_changes_the_law(alike):
     given = files(alike=alike)
     # Nothing searched: as where the catalogue has explained nothing.
-    before = diagnose_together(given, accept=[]).found.result
+    before = diagnose_together(given, accept=[]).result
     work = FilesAtWork(given, quiet, with_effects=True)
     work.used = np.split(before.used, np.cumsum([len(one.sweep) for one in given])[:-1])
     found = with_transfer(before, work)
@@ -50,7 +50,7 @@ def test_only_what_all_files_have_in_common_is_listed_and_changes_the_law(alike)
 
 def test_a_factor_that_leaves_more_than_the_law_alone_changes_nothing():
     given = files(alike=True)
-    before = diagnose_together(given, accept=[]).found.result
+    before = diagnose_together(given, accept=[]).result
     # As if the law alone had left less.
     better = replace(before, before=replace(before.before, chi2_per_dof=1e-3))
     work = FilesAtWork(given, quiet, with_effects=True)

@@ -22,7 +22,6 @@ from fitting.planning.further_readings import FurtherReadings
 from fitting.planning.rival_forecasts import RivalForecasts
 from fitting.planning.rivalry import outcome
 from fitting.planning.unseen import unseen
-from instrument.models.diagnosis import Diagnosed
 from instrument.planning import follow_up
 from instrument.planning.costs import dwell_seconds
 from instrument.planning.follow_up import Possible, rank_follow_ups, with_follow_ups
@@ -56,7 +55,7 @@ def ranked(rivals):
 
 def ambiguous(rivals):
     found = diagnosed(sweep(), verdict="ambiguous")
-    return Diagnosed(replace(found.result, rivals=rivals), 0.0, 0.0)
+    return replace(found, result=replace(found.result, rivals=rivals))
 
 
 def one(template, kind):

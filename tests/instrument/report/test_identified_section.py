@@ -16,7 +16,10 @@ from fitting.identification.fit import Fit
 from fitting.identification.result import Identification, law_band
 from fitting.identification.uncertainty import Uncertainty
 from fitting.identification.validation import HeldOutSegment, Validation
-from instrument.interchange.identified import SessionFit
+from instrument.files.specimen_file import read_specimen
+from instrument.models.files import File
+from instrument.models.identification import Identified
+from instrument.paper_case import case_file
 from instrument.report.blocks import FactsBlock, FigureBlock, Sentence, TableBlock
 from instrument.report.fitted import ReportedFit
 from instrument.report.identification import (
@@ -30,7 +33,7 @@ from instrument.report.measured import Measured
 from instrument.results.set_aside import NAME
 
 SWEEP = sweep()
-PLATE = SimpleNamespace(kind="plate")
+PLATE = read_specimen(case_file("zn1.toml"))
 PULLED = (Adjusted("gain", 1.0, 0.02, 0.96, 0.01, -2.0, "1"),)
 
 
@@ -66,8 +69,10 @@ def found(std=0.01, *, noise="stated", adjusted=(), warnings=(), bound=None, **v
 
 def reported(result, bare=None, specimen=PLATE, aside=0):
     why = reasons(np.arange(len(SWEEP)) < aside, LOST)
-    identified = SimpleNamespace(result=result, sweep=SWEEP.take(why == ""), given=SWEEP, why_aside=why)
-    return ReportedFit(SessionFit(identified, SWEEP, specimen, bare))
+    taken = SWEEP.take(why == "")
+    return ReportedFit(
+        Identified(result, (File(SWEEP, specimen),), taken, SWEEP, why, 0.0, 0.0, 0.0, bare=bare)
+    )
 
 
 def contents(*, live=None, diagnosis=None, points=()):

@@ -112,7 +112,7 @@ def test_what_a_fit_set_aside_is_drawn_and_listed_apart(contents):
     n = len(contents.measured)
     lost = reasons(np.arange(n) == 4, LOST)
     sweep = sweep_of(contents.measured)
-    fit = SimpleNamespace(identified=SimpleNamespace(given=sweep, why_aside=lost))
+    fit = SimpleNamespace(given=sweep, why_aside=lost)
     without_model = SimpleNamespace(
         fit=None, points_set_aside=ReportedFit(fit).points_set_aside, over_base=lambda f: None
     )

@@ -1,4 +1,4 @@
-"""Results of several files, or of a structure other than the plate, read off what was found."""
+"""What a result of several files, or of a structure other than the plate, says of its files."""
 
 from collections.abc import Sequence
 from typing import TypeVar
@@ -6,41 +6,28 @@ from typing import TypeVar
 import numpy as np
 
 from fitting.arrays import Mask
-from fitting.specimen import Specimen
 from instrument.facts.diagnosis import DiagnosisResult, PointLeft
 from instrument.facts.identification import IdentificationResult, PointFitted
 from instrument.facts.rows import PointSetAside, StretchSetAside
-from instrument.models.files import File, name_of, numbers_of
+from instrument.models.files import File, lone_plate, name_of, numbers_of
 from instrument.models.files_at_work import SetAside
-from instrument.models.together import DiagnosedTogether, Together
-from instrument.results.diagnosis_from import diagnosis_from
-from instrument.results.identification_from import identification_from
 
 P = TypeVar("P", PointFitted, PointLeft, PointSetAside)
+R = TypeVar("R", IdentificationResult, DiagnosisResult)
 
 
-def identified_together_from(found: Together, files: Sequence[File]) -> IdentificationResult:
-    """The result of `identify`, each point with its file (from 1), and what was set aside."""
-    plate = files[0].specimen
-    result = identification_from(found.found, plate if isinstance(plate, Specimen) else None)
-    used = found.found.why_aside == ""
+def with_files(result: R, files: Sequence[File], used: Mask, aside: Sequence[SetAside]) -> R:
+    """The result with the file of each point (from 1), and what was set aside; of one plate as it is.
+
+    `used` are the readings that took part, among those of all files, shape (readings,).
+    """
+    if lone_plate(files) is not None:
+        return result
     return result.but(
         points=_owned(result.points, files, used),
         points_set_aside=_owned(result.points_set_aside, files, ~used),
         files=_names(files),
-        set_aside=_set_aside(found.aside, files),
-    )
-
-
-def diagnosed_together_from(found: DiagnosedTogether, files: Sequence[File]) -> DiagnosisResult:
-    """The result of `diagnose`, each point with its file (from 1), and what was set aside."""
-    result = diagnosis_from(found.found, found.sweep)
-    used = found.found.result.used
-    return result.but(
-        points=_owned(result.points, files, used),
-        points_set_aside=_owned(result.points_set_aside, files, ~used),
-        files=_names(files),
-        set_aside=_set_aside(found.aside, files),
+        set_aside=_set_aside(aside, files),
     )
 
 

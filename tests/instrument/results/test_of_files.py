@@ -8,9 +8,11 @@ from instrument.files.hammer_file import HammerModes
 from instrument.files.specimen_file import read_specimen
 from instrument.hammer_test.expected import expected_modes_hz
 from instrument.models.files import File
-from instrument.models.together import DiagnosedTogether, identify_together
+from instrument.models.together import identify_together
 from instrument.paper_case import case_file
-from instrument.results.together_from import diagnosed_together_from, identified_together_from
+from instrument.results.diagnosis_from import diagnosis_from
+from instrument.results.identification_from import identification_from
+from instrument.results.of_files import with_files
 
 
 def test_every_point_diagnosed_tells_its_file_and_spot():
@@ -21,7 +23,7 @@ def test_every_point_diagnosed_tells_its_file_and_spot():
         File(one, plate, "", 2),
     ]
     whole = joined([f.sweep for f in files])
-    found = diagnosed_together_from(DiagnosedTogether(diagnosed(whole), whole), files)
+    found = diagnosis_from(diagnosed(whole, files))
     taken = len(found.points)
     assert taken == len(whole) - len(found.set_aside_hz)
     assert [p.frequency_hz for p in found.points_set_aside] == list(found.set_aside_hz)
@@ -37,7 +39,15 @@ def test_a_hammer_test_that_took_part_is_told_of_several_files_too(coarse):
     measured_hz = expected_modes_hz(coarse, None, 300.0)
     hammer = HammerModes(measured_hz, np.full(len(measured_hz), 2e-3), None)
     files = [File(sweep(), coarse, name, k) for k, name in enumerate(("a.csv", "b.csv"), start=1)]
-    told = identified_together_from(identify_together(files, hammer=hammer), files).hammer
+    told = identification_from(identify_together(files, hammer=hammer)).hammer
     assert [m.measured_hz for m in told.modes] == measured_hz.tolist()
     assert abs(told.substrate_young_over_stated - 1) < 0.02
-    assert identified_together_from(identify_together(files), files).hammer is None
+    assert identification_from(identify_together(files)).hammer is None
+
+
+def test_a_result_of_one_plate_names_no_file():
+    found = diagnosed(sweep())
+    result = diagnosis_from(found)
+    assert with_files(result, found.files, found.result.used, ()) is result
+    assert "files" not in result.as_json()
+    assert "file" not in result.as_json()["points"][0]
