@@ -11,6 +11,7 @@ from fitting.dynamics.direct import displacement_direct
 from instrument.bench.sweeps import GRID_HZ, synthetic_sweep
 from instrument.files.specimen_file import read_specimen
 from instrument.models.diagnosis import diagnose
+from instrument.models.files import File
 from instrument.models.identification import identify
 from instrument.models.specimen_models import Models
 from instrument.paper_case import TABLE_4, case_file
@@ -53,7 +54,7 @@ def test_one_point_in_full(benchmark, models):
 
 
 def test_an_identification_set_up(benchmark, sweep, specimen):
-    identify(sweep, specimen)
+    identify([File(sweep, specimen)])
     benchmark(identify, sweep, specimen)
 
 

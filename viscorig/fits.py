@@ -14,10 +14,10 @@ from instrument.files.hammer_file import HammerModes
 from instrument.interchange.given import at_its_spot
 from instrument.models.diagnosis import diagnose as diagnose_sweep
 from instrument.models.files import spots_of
-from instrument.models.identification import Method
-from instrument.models.identification import identify as identify_sweep
+from instrument.models.identification import identify as identify_files
+from instrument.models.methods import Method
 from instrument.models.pointwise import pointwise_of
-from instrument.models.together import diagnose_together, identify_together
+from instrument.models.together import diagnose_together
 from instrument.planning.open_questions import with_open_questions
 from instrument.progress import bar
 from instrument.results.diagnosis_from import diagnosis_from
@@ -73,15 +73,14 @@ def identify(
     if pointwise:
         # Said before the work, not after it.
         phase_is_kept(given.points)
-    if given.points.pickup is not None:
+    several = given.points.pickup is not None
+    if several:
         _whole_sweeps_alone(given, pointwise=pointwise, method=method)
-        spots = spots_of(given.points, model)
-        return Identification(identification_from(identify_together(spots, bar)), given.plate)
-    found = identify_sweep(given.points, model, method, bar, given.modes)
+    found = identify_files(spots_of(given.points, model), method, bar, given.modes)
     result = identification_from(found)
     if pointwise:
         result = with_second_look(result, pointwise_of(found))
-    return Identification(given.said(result), given.plate)
+    return Identification(result if several else given.said(result), given.plate)
 
 
 def diagnose(

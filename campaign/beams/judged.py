@@ -3,7 +3,8 @@
 from campaign.beams.cases import BeamCase
 from campaign.plates.answers import Answer, Band, answer_from, band_from
 from instrument.models.files import File
-from instrument.models.together import diagnose_together, identify_together
+from instrument.models.identification import identify
+from instrument.models.together import diagnose_together
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 
@@ -11,7 +12,7 @@ from instrument.results.identification_from import identification_from
 def identified(case: BeamCase) -> Band:
     """The law with its errors."""
     files = [File(case.sweep, case.specimen)]
-    return band_from(identification_from(identify_together(files)).law)
+    return band_from(identification_from(identify(files)).law)
 
 
 def diagnosed(case: BeamCase) -> Answer:

@@ -5,7 +5,7 @@ from campaign.plates.visible import silent
 from fitting.arrays import Complex
 from fitting.errors import OutsideModel
 from instrument.models.files import File
-from instrument.models.together import identify_together
+from instrument.models.identification import identify
 
 
 def visible_chi2(case: BeamCase) -> float | None:
@@ -23,6 +23,6 @@ def visible_chi2(case: BeamCase) -> float | None:
 
 def _left(case: BeamCase, velocity_m_s: Complex) -> float:
     """Chi-square, what the stated numbers are moved counted in."""
-    found = identify_together([File(silent(case.sweep, velocity_m_s), case.specimen)])
+    found = identify([File(silent(case.sweep, velocity_m_s), case.specimen)])
     assert found.joint is not None
     return found.joint.begun.none.chi2

@@ -13,6 +13,7 @@ from campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
 from fitting.effects import CATALOGUE
 from fitting.specimen import Specimen
 from instrument.models.diagnosis import diagnose
+from instrument.models.files import File
 from instrument.models.identification import identify
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
@@ -22,7 +23,7 @@ _SEED, _MIDDLE_HZ, _RATIO = 7, 100.0, 2e-3
 
 def identified(case: PlateCase) -> Band:
     """The law with its errors."""
-    found = identify(case.sweep, case.specimen, hammer=case.hammer, like=_like(case))
+    found = identify([File(case.sweep, case.specimen, like=_like(case))], hammer=case.hammer)
     return band_from(identification_from(found).law)
 
 

@@ -14,6 +14,7 @@ from fitting.arrays import Complex
 from fitting.data.noise import noise_of
 from fitting.errors import OutsideModel
 from fitting.sweep import Sweep
+from instrument.models.files import File
 from instrument.models.identification import identify
 
 
@@ -47,6 +48,6 @@ def _left(case: PlateCase, velocity_m_s: Complex) -> float:
     """Chi-square, what the stated numbers are moved counted in."""
     sweep = silent(case.sweep, velocity_m_s)
     like = None if case.exact else models_of(case.truth.plate.name)
-    found = identify(sweep, case.specimen, hammer=case.hammer, like=like)
+    found = identify([File(sweep, case.specimen, like=like)], hammer=case.hammer)
     assert found.joint is not None
     return found.joint.begun.none.chi2

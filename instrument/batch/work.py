@@ -2,6 +2,7 @@
 
 import os
 import traceback
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -25,11 +26,11 @@ from instrument.interchange.given import Given, read_given
 from instrument.interchange.questions import question_data
 from instrument.material.stated_part import stated_columns
 from instrument.models.diagnosis import diagnose
-from instrument.models.files import File, spots_of
+from instrument.models.files import File, lone_plate
 from instrument.models.identification import identify
 from instrument.models.other_processes import VARIABLE as PROCESSES
 from instrument.models.sharing import serves
-from instrument.models.together import diagnose_together, identify_together
+from instrument.models.together import diagnose_together
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 from instrument.stream.jsonable import to_jsonable
@@ -161,29 +162,21 @@ def _lender(task: BatchTask, given: Given) -> Specimen | None:
 
 
 def _identified(given: Given, like: Specimen | None) -> dict[str, Any]:
-    files = _files(given)
-    if not files:
-        found = identify(given.sweep, given.plate, hammer=given.modes, like=like)
-    else:
-        found = identify_together(files, hammer=given.modes)
-    return _of_fit(identification_from(found))
+    return _of_fit(identification_from(identify(_files(given, like), hammer=given.modes)))
 
 
-def _files(given: Given) -> list[File]:
-    """As files under one law, where there are several spots or known masses, or no plate."""
-    if given.with_masses:
-        return list(given.with_masses)
-    if given.sweep.pickup is None and isinstance(given.specimen, Specimen):
-        return []
-    return spots_of(given.sweep, given.specimen)
+def _files(given: Given, like: Specimen | None) -> list[File]:
+    """As files under one law; `like` is the plate whose model one plate borrows, as `serves` allows."""
+    return [replace(one, like=like) for one in given.files()]
 
 
 def _diagnosed(given: Given, like: Specimen | None) -> dict[str, Any]:
-    files = _files(given)
-    if files:
+    files = _files(given, like)
+    plate = lone_plate(files)
+    if plate is None:
         found = diagnose_together(files, hammer=given.modes)
     else:
-        found = diagnose(given.sweep, given.plate, given.modes, like=like)
+        found = diagnose(given.sweep, plate, given.modes, like=like)
     return _of_diagnosis(diagnosis_from(found))
 
 

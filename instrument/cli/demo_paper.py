@@ -17,7 +17,7 @@ def show_paper_case(out: Output, folder: Path) -> None:
     """Identify ZN_1 from its published tables, diagnose what is left; save results and figures."""
     out.say("The published case: Table 3's damping and Table 5's nine measured responses.\n")
     run = run_paper_case(bar)
-    print_identification(out, run.direct, run.specimen)
+    print_identification(out, run.direct)
     out.say()
     _print_beside_paper(out, run)
     out.say()

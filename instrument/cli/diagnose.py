@@ -4,16 +4,16 @@ from pathlib import Path
 
 import click
 
-from fitting.specimen import Specimen
 from instrument.cli.diagnose_modes import diagnose_modes
 from instrument.cli.naming import naming_files
 from instrument.cli.options import figures_option, file_arguments, json_option, refuse_with_tables
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.cli.print_run import print_result
-from instrument.cli.reading import are_tables, read_each, reading_options, together
+from instrument.cli.reading import are_tables, files_of_data, read_each, reading_options
 from instrument.files.repeated import refuse_repeats
 from instrument.models.diagnosis import diagnose as diagnose_sweep
+from instrument.models.files import lone_plate
 from instrument.models.together import diagnose_together
 from instrument.planning.open_questions import with_open_questions
 from instrument.progress import bar
@@ -78,8 +78,9 @@ def diagnose(
         return
     every = read_each(out, data, specimen, hammer, no_hammer=no_hammer, insist=insist, one_plate=True)
     declined, accepted = frozenset(without), _accepted(accept)
-    files, given = together(every, data), every[0]
-    if files is not None:
+    files, given = files_of_data(every, data), every[0]
+    plate = lone_plate(files)
+    if plate is None:
         if resamples is not None:
             raise click.UsageError(
                 "--resamples with several files or spots, a beam or a shear pair: "
@@ -87,13 +88,10 @@ def diagnose(
             )
         found = diagnose_together(files, declined, bar, accepted, given.modes)
     else:
-        assert isinstance(given.specimen, Specimen)
-        found = diagnose_sweep(
-            given.sweep, given.specimen, given.modes, declined, bar, accepted, resamples=resamples
-        )
+        found = diagnose_sweep(given.sweep, plate, given.modes, declined, bar, accepted, resamples=resamples)
     result = given.said(with_open_questions(diagnosis_from(found), found))
     print_diagnosis(out, result)
-    if files is None:
+    if plate is not None:
         out.say()
         print_result(out, result_of(None, result, Conditions.of_sweep(given.sweep, given.temperature_c)))
     if figures is not None:

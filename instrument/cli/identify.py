@@ -10,11 +10,11 @@ from fitting.depth.posterior import SAMPLES
 from instrument.cli.identify_asked import Asked
 from instrument.cli.identify_modes import identify_modes
 from instrument.cli.identify_shifted import identify_shifted, identify_tables_shifted
-from instrument.cli.identify_sweeps import identify_files, identify_one
+from instrument.cli.identify_sweeps import identify_sweeps
 from instrument.cli.naming import naming_files
 from instrument.cli.options import NumberRange, figures_option, file_arguments, json_option
 from instrument.cli.output import Output
-from instrument.cli.reading import are_tables, read_each, reading_options, together
+from instrument.cli.reading import are_tables, read_each, reading_options
 from instrument.files.repeated import refuse_repeats
 
 
@@ -145,12 +145,7 @@ def identify(
             insist=insist,
         )
         return
-    files = together(every, data)
-    if files is None:
-        identify_one(out, data[0], every[0], asked)
-        return
-    asked.check_together(files)
-    identify_files(out, files, every, asked)
+    identify_sweeps(out, data, every, asked)
 
 
 def _identify_tables(

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from fitting.depth.posterior import SAMPLES
 from fitting.errors import OutsideModel
 from fitting.identification.pointwise import phase_is_kept
 from fitting.specimen import Specimen
@@ -12,9 +11,10 @@ from instrument.cli.identify_asked import Asked
 from instrument.cli.output import Output
 from instrument.cli.print_beside import print_beside
 from instrument.cli.print_budget import print_budget
-from instrument.cli.print_identification import print_bare_plate, print_identification
+from instrument.cli.print_identification import print_identification
 from instrument.cli.print_run import print_result
 from instrument.cli.print_uncertainty import print_in_depth
+from instrument.cli.reading import files_of_data
 from instrument.facts.beside import BesideTable
 from instrument.facts.budget import BudgetRow
 from instrument.facts.identification import IdentificationResult
@@ -23,11 +23,9 @@ from instrument.files.dma_file import DmaTable, read_dma
 from instrument.interchange.given import Given
 from instrument.material.beside import beside, beside_table
 from instrument.material.found_law import law_of_result
-from instrument.models.files import File
-from instrument.models.identification import Identified
-from instrument.models.identification import identify as identify_sweep
+from instrument.models.files import lone_plate
+from instrument.models.identification import Identified, identify
 from instrument.models.pointwise import pointwise_of
-from instrument.models.together import identify_together
 from instrument.progress import bar
 from instrument.results.budget_from import budget, budget_from
 from instrument.results.identification_from import identification_from
@@ -36,57 +34,43 @@ from instrument.results.session_result import BEFORE_DIAGNOSIS
 from instrument.results.uncertainty_facts import Depth, in_depth, in_depth_facts
 
 
-def identify_one(out: Output, data: Path, given: Given, asked: Asked) -> None:
-    """One plate read at one spot: everything that was asked for."""
-    read = given.specimen
-    assert isinstance(read, Specimen)
-    if asked.no_viscous_damping:
-        read = replace(read, modal_ratios=(0.0,))
+def identify_sweeps(out: Output, data: Sequence[Path], every: Sequence[Given], asked: Asked) -> None:
+    """Everything that was asked for. Raises `BadInput`, `FittingError`, `UsageError`."""
+    files = files_of_data(every, data)
+    plate = lone_plate(files)
+    if plate is None:
+        asked.check_together(files)
+    elif asked.no_viscous_damping:
+        plate = replace(plate, modal_ratios=(0.0,))
+        files = [replace(files[0], specimen=plate)]
     if asked.pointwise:
         # Said before the work, not after it.
-        phase_is_kept(given.sweep)
-    table = _table(asked.dma, read)
-    found: Identified = identify_sweep(given.sweep, read, asked.method, bar, given.modes)
-    if given.recorded is not None:
+        phase_is_kept(files[0].sweep)
+    table = _table(asked.dma, plate) if plate is not None else None
+    found = identify(files, asked.method, bar, every[0].modes)
+    recorded = every[0].recorded if len(every) == 1 else None
+    if recorded is not None and plate is not None:
         out.say(f"the law {BEFORE_DIAGNOSIS}, which the session's own result below is not:\n")
-    print_identification(out, found, read)
-    result = identification_from(found)
-    if found.bare is not None:
-        print_bare_plate(out, found.bare, read)
-    result = _looked_deeper(out, found, result, asked, asked.samples)
+    print_identification(out, found)
+    result = _looked_deeper(out, found, identification_from(found), asked)
     if asked.pointwise:
         result = _pointwise(out, found, result, asked.figures)
     if table is not None:
-        result = result.but(beside=_beside(out, table, data, result, asked.figures))
-    if given.recorded is not None:
+        result = result.but(beside=_beside(out, table, data[0], result, asked.figures))
+    if recorded is not None:
         out.say()
-        print_result(out, given.recorded)
-    out.result(given.said(result))
-
-
-def identify_files(out: Output, files: Sequence[File], every: Sequence[Given], asked: Asked) -> None:
-    """Several files or spots under one law, or one file of something else than a plate."""
-    only = every[0] if len(every) == 1 else None
-    found, plate = identify_together(files, bar, every[0].modes), files[0].specimen
-    print_identification(out, found, plate)
-    if found.bare is not None and isinstance(plate, Specimen):
-        print_bare_plate(out, found.bare, plate)
-    result = identification_from(found)
-    result = _looked_deeper(out, found, result, asked, SAMPLES)
-    if only is not None and only.recorded is not None:
-        out.say()
-        print_result(out, only.recorded)
-    out.result(result if only is None else only.said(result))
+        print_result(out, recorded)
+    out.result(every[0].said(result) if len(every) == 1 else result)
 
 
 def _looked_deeper(
-    out: Output, found: Identified, result: IdentificationResult, asked: Asked, samples: int
+    out: Output, found: Identified, result: IdentificationResult, asked: Asked
 ) -> IdentificationResult:
     """With the budget and the intervals that were asked for."""
     if asked.with_budget:
         result = result.but(budget=_budget(out, found))
     if asked.depths:
-        looked = [one for d in dict.fromkeys(asked.depths) for one in _in_depth(out, found, d, samples)]
+        looked = [one for d in dict.fromkeys(asked.depths) for one in _in_depth(out, found, d, asked.samples)]
         result = result.but(uncertainty=tuple(looked))
     return result
 

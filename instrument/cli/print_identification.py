@@ -15,9 +15,9 @@ from instrument.results.numbers import error_beside, to_error, with_error
 _MOST_ROWS = 30
 
 
-def print_identification(out: Output, found: Identified, specimen: StatedSpecimen) -> None:
-    """What was found, how well it is known, and what the data do not say; `specimen` as stated."""
-    r, sweep = found.result, found.sweep
+def print_identification(out: Output, found: Identified) -> None:
+    """What was found, how well it is known, and what the data do not say."""
+    r, sweep, stated = found.result, found.sweep, found.files[0].specimen
     errors = r.standard_errors
     values = zip(r.law.names, r.law.values.tolist(), strict=True)
     rows = [[n, to_error(v, errors[n]), _relative(errors[n], v)] for n, v in values]
@@ -30,16 +30,18 @@ def print_identification(out: Output, found: Identified, specimen: StatedSpecime
     out.say()
     out.say(f"difference in amplitude: rms {r.rms_percent:.2f} %, largest {r.max_percent:.2f} %")
     _print_validation(out, r)
-    _print_adjusted(out, r, specimen)
+    _print_adjusted(out, r, stated)
     for warning in r.warnings:
         out.say(f"note: {warning}")
     out.say(
         f"{len(sweep)} points, {r.fit.iterations} iterations; set-up {found.setup_seconds:.2f} s, "
         f"fit {found.seconds * 1e3:.0f} ms, validation {found.validation_seconds * 1e3:.0f} ms"
     )
+    if found.bare is not None and isinstance(stated, Specimen):
+        _print_bare_plate(out, found.bare, stated)
 
 
-def print_bare_plate(out: Output, bare: BarePlateFit, specimen: Specimen) -> None:
+def _print_bare_plate(out: Output, bare: BarePlateFit, specimen: Specimen) -> None:
     """What the hammer test gives by itself; `specimen` as stated."""
     young, error = specimen.substrate.young_pa * bare.young_scale / 1e9, 100 * bare.standard_error
     worst = 100 * np.max(np.abs(bare.measured_hz / bare.fitted_hz - 1))

@@ -20,7 +20,7 @@ from instrument.files.structure_file import read_structure
 from instrument.interchange.cut_sweep import looks_cut
 from instrument.interchange.given import Given, read_given
 from instrument.interchange.questions import question_data, question_temperatures
-from instrument.models.files import File, spots_of
+from instrument.models.files import File
 from instrument.models.members import AtTemperature
 from instrument.progress import bar
 
@@ -204,27 +204,17 @@ def _but_for_its_law(specimen: AnySpecimen) -> AnySpecimen:
     return specimen if core is None else replace(specimen, core=replace(core, law=_NO_LAW))
 
 
-def together(given: Sequence[Given], data: Sequence[Path]) -> list[File] | None:
-    """As files under one law, each of their spots apart; None for a single plate read at one spot.
+def files_of_data(given: Sequence[Given], data: Sequence[Path]) -> list[File]:
+    """Make DATA files under one law, each of their spots apart.
 
     Raises `BadInput` for a session with known masses, clampings or blows beside other files.
     """
-    only = given[0]
-    if len(given) == 1 and not only.with_masses and isinstance(only.specimen, Specimen):
-        if only.sweep.pickup is None:
-            return None
-    elif len(given) == 1 and only.with_masses:
-        return list(only.with_masses)
-    if any(one.with_masses for one in given):
+    if len(given) > 1 and any(one.with_masses for one in given):
         raise BadInput(
             "a session with a known mass put on, clamped anew or struck beside other files, expected it alone"
         )
     each = zip(given, data, strict=True)
-    return [
-        spot
-        for number, (g, path) in enumerate(each, start=1)
-        for spot in spots_of(g.sweep, g.specimen, path.name, number)
-    ]
+    return [spot for number, (g, path) in enumerate(each, start=1) for spot in g.files(path.name, number)]
 
 
 def _read_data(data: Path, specimen: Path | None, hammer: Path | None, *, no_hammer: bool) -> Given:

@@ -21,7 +21,7 @@ from instrument.interchange.files_of import files_of
 from instrument.interchange.identified import session_modes, session_sweep
 from instrument.interchange.level_remark import level_remark
 from instrument.interchange.readers import is_foreign
-from instrument.models.files import File
+from instrument.models.files import File, spots_of
 from instrument.results.session_result import recorded_result
 from instrument.session.contents import Contents, contents_of
 from instrument.session.points import is_one_mounting, with_spots
@@ -66,6 +66,10 @@ class Given:
         if not isinstance(self.specimen, Specimen):
             raise BadInput(f"the specimen is a {self.specimen.kind}, expected a plate")
         return self.specimen
+
+    def files(self, name: str = "", number: int = 1) -> list[File]:
+        """The data as files under one law, each of their spots for itself; `number` is that of their file."""
+        return list(self.with_masses) or spots_of(self.sweep, self.specimen, name, number)
 
     def said(self, result: R) -> R:
         """A result of these data, which says whose they are."""

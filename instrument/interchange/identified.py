@@ -9,7 +9,6 @@ from instrument.files.hammer_file import HammerModes, accepted_modes
 from instrument.files.toml import one_line
 from instrument.models.files import File
 from instrument.models.identification import Identified, identify
-from instrument.models.together import identify_together
 from instrument.progress import Progress, quiet
 from instrument.session.contents import Contents
 from instrument.session.points import sweep_of
@@ -20,11 +19,8 @@ def identify_session(contents: Contents, progress: Progress = quiet) -> Identifi
 
     Raises `BadInput` without points, `FittingError` where these points carry no law.
     """
-    specimen, modes = contents.specimen, session_modes(contents)
-    sweep = session_sweep(contents)
-    if not isinstance(specimen, Specimen):
-        return identify_together([File(sweep, specimen)], progress)
-    return identify(sweep, specimen, "direct", progress, modes)
+    modes, files = session_modes(contents), [File(session_sweep(contents), contents.specimen)]
+    return identify(files, progress=progress, hammer=modes)
 
 
 def session_sweep(contents: Contents) -> Sweep:

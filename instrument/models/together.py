@@ -1,4 +1,4 @@
-"""Files with their specimens under one law: any structure, one file or several; identified and diagnosed."""
+"""Files with their specimens under one law: any structure, one file or several; diagnosed."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
@@ -7,128 +7,28 @@ from time import perf_counter
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from fitting.data.noise import Noise
-from fitting.diagnosis.checks.overstated_noise import with_own_noise
-from fitting.diagnosis.checks.prediction import held_out
-from fitting.diagnosis.checks.stretches import parts_held_out, words_of_stretches
 from fitting.diagnosis.diagnose import diagnose_problem, seen_in_channels
-from fitting.diagnosis.inference.begin import Begun, ended
-from fitting.diagnosis.inference.freer_law import loosened
-from fitting.diagnosis.joint import fit_of
 from fitting.diagnosis.several.effect_among_files import among
 from fitting.diagnosis.several.joining import joined
 from fitting.diagnosis.verdict.confounded import last_word
 from fitting.diagnosis.verdict.result import FoundEffect, ParameterEstimate
 from fitting.effects import Effect
 from fitting.errors import OutsideModel
-from fitting.identification.bare_plate import fit_bare_plate
-from fitting.identification.result import summarise, sweep_range
-from fitting.identification.validation import rms
 from fitting.laws import CoreLaw
-from fitting.specimen import Specimen
-from fitting.sweep import Sweep
 from instrument.models.diagnosis import Diagnosed
 from instrument.models.effect_names import effects_among
-from instrument.models.exchanged import exchanged, leaves_much
+from instrument.models.exchanged import exchanged
 from instrument.models.file_remarks import (
     remarks_on_files,
     remarks_on_one_specimen,
-    remarks_on_rest,
-    remarks_on_scale,
 )
 from instrument.models.files import File, mounted, numbers_of, one_plate
 from instrument.models.files_at_work import FilesAtWork, SetAside
-from instrument.models.free_layers import remark_on_free_layers
-from instrument.models.identification import Identified
-from instrument.models.methods import Joint
 from instrument.models.other_processes import executor
-from instrument.models.quick_look import remarks_on_reading
-from instrument.models.remarks import remarks_on_bend
 from instrument.models.set_up import Hammer
 from instrument.models.theory import check_each_theory
 from instrument.models.transfer import with_transfer
 from instrument.progress import Progress, quiet
-
-_ROUNDS, _SETTLED = 6, 0.1
-"""Fits in which a misfit is found: at most so many, the last of them changing it by less than that share.
-
-The first fit takes noise alone for what readings are worth, which bends a law to anything: what it leaves is
-not what a law leaves.
-"""
-
-
-def identify_together(
-    files: Sequence[File], progress: Progress = quiet, hammer: Hammer | None = None
-) -> Identified:
-    """One law from all files, each with its own plate and channels. Raises `FittingError`, `BadInput`.
-
-    `hammer` is the test of the bare plate that all files are of.
-    """
-    began = perf_counter()
-    plate = files[0].specimen
-    bare = fit_bare_plate(plate, *hammer) if hammer is not None and isinstance(plate, Specimen) else None
-    work = FilesAtWork(files, progress, with_effects=False, hammer=hammer)
-    with threadpool_limits(1, "blas"), progress("fitting"):
-        work.problem()
-        ready = perf_counter()
-        work.set_disturbances_aside()
-        begun, noise = work.fit(to_its_end=False)
-        scatters = work.with_misfit(begun)
-        if scatters:
-            begun, noise = _by_misfit(work)
-        else:
-            # What a misfit says of a law's form is a guess.
-            begun = loosened(with_own_noise(ended(begun), noise))
-        other = exchanged(files) if scatters or leaves_much(begun) else None
-        misfit = (work.about_misfit(),) if scatters else ()
-        if other is not None:
-            misfit = (f"{other.words}. The law means nothing",)
-        fit = fit_of(begun)
-    seconds = perf_counter() - ready
-    theory = _check_theories(files, fit.law)
-    checked = perf_counter()
-    with threadpool_limits(1, "blas"), progress("validating"):
-        parts = parts_held_out(begun.problem, begun.none.law)
-        validation = held_out(begun.problem, begun.evidence, begun.none, parts)
-        if noise.source == "misfit":
-            validation = validation.without_noise
-    sweep = begun.problem.sweep
-    scale = remarks_on_scale(plate, fit.law, sweep.frequency_hz)
-    bend = remarks_on_bend(fit.law, begun.problem.freedom)
-    further = (*scale, *bend, *remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
-    further += words_of_stretches(sweep, parts)
-    result = summarise("direct", sweep, noise, fit, validation, further)
-    rest = remarks_on_rest(result.rms_percent, validation.held_out) if not misfit else ()
-    reading = remarks_on_reading(files[0].sweep, plate, result.rms_percent, progress)
-    stated = [file.specimen for file in files]
-    joint, covariance = Joint(begun, None), result.uncertainty.covariance
-    free = remark_on_free_layers(stated, result.law, covariance, sweep_range(sweep), joint.quantities)
-    result = replace(result, warnings=(*reading, *misfit, *result.warnings, *free, *rest))
-    validated = perf_counter() - checked
-    return Identified(
-        result,
-        tuple(files),
-        sweep,
-        _all(files),
-        np.concatenate(work.why_aside),
-        ready - began,
-        seconds,
-        validated,
-        joint=joint,
-        bare=bare,
-        aside=tuple(work.aside),
-    )
-
-
-def _by_misfit(work: FilesAtWork) -> tuple[Begun, Noise]:
-    """The fit by readings that are worth what it leaves of them."""
-    with executor() as workers:
-        for _ in range(_ROUNDS):
-            before = rms(np.array(work.misfit))
-            work.with_misfit(work.fit(workers, to_its_end=False)[0])
-            if abs(rms(np.array(work.misfit)) / before - 1) < _SETTLED:
-                break
-        return work.fit(workers)
 
 
 def diagnose_together(
@@ -184,7 +84,8 @@ def diagnose_together(
     result = replace(result, warnings=(*result.warnings, *further))
     asked = tuple(tried) if accept is None else ()
     seconds = perf_counter() - ready
-    return Diagnosed(result, tuple(files), _all(files), ready - began, seconds, asked, tuple(work.aside))
+    whole = joined([f.sweep for f in files])
+    return Diagnosed(result, tuple(files), whole, ready - began, seconds, asked, tuple(work.aside))
 
 
 def _channels(
@@ -214,10 +115,6 @@ def _tried(files: Sequence[File], among_files: Sequence[tuple[Effect, tuple[bool
 
 def _check_theories(files: Sequence[File], law: CoreLaw) -> tuple[str, ...]:
     return check_each_theory([f.specimen for f in files], law, [f.sweep.frequency_hz for f in files])
-
-
-def _all(files: Sequence[File]) -> Sweep:
-    return joined([f.sweep for f in files])
 
 
 def _with_file(one: FoundEffect, file: int, files: int) -> FoundEffect:

@@ -7,6 +7,7 @@ from fitting.sweep import Sweep
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.diagnosis import Diagnosed, diagnose
+from instrument.models.files import File
 from instrument.models.identification import Identified, identify
 from instrument.paper_case import case_file
 from instrument.progress import Progress, quiet
@@ -32,8 +33,8 @@ def run_paper_case(progress: Progress = quiet) -> PaperRun:
     return PaperRun(
         specimen=specimen,
         sweep=sweep,
-        direct=identify(sweep, specimen, "direct", progress),
-        paper=identify(sweep, specimen, "paper", progress),
-        undamped=identify(sweep, replace(specimen, modal_ratios=()), "direct", progress),
+        direct=identify([File(sweep, specimen)], "direct", progress),
+        paper=identify([File(sweep, specimen)], "paper", progress),
+        undamped=identify([File(sweep, replace(specimen, modal_ratios=()))], "direct", progress),
         diagnosis=diagnose(sweep, specimen, progress=progress),
     )

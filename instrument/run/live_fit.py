@@ -8,13 +8,11 @@ from pydantic import ValidationError
 from threadpoolctl import threadpool_limits
 
 from fitting.errors import FittingError
-from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
 from instrument.facts.identification import IdentificationResult
 from instrument.files.hammer_file import accepted_modes
 from instrument.interchange.files_of import files_of
 from instrument.models.identification import identify
-from instrument.models.together import identify_together
 from instrument.progress import Progress, quiet
 from instrument.results.identification_from import identification_from
 from instrument.session.points import sweep_of, uncalibrated
@@ -52,13 +50,8 @@ def _result(
     used: list[PointMeasured], damping: DampingFound | None, specimen: AnySpecimen, progress: Progress
 ) -> IdentificationResult:
     modes = accepted_modes(damping.result) if damping is not None else None
-    sweep = sweep_of(used)
-    files = files_of(sweep, used, specimen)
-    if len(files) > 1 or not isinstance(specimen, Specimen):
-        found = identify_together(files, progress, modes)
-    else:
-        found = identify(sweep, specimen, progress=progress, hammer=modes)
-    result = identification_from(found).untimed
+    files = files_of(sweep_of(used), used, specimen)
+    result = identification_from(identify(files, progress=progress, hammer=modes)).untimed
     return _with_temperature(result.but(warnings=(*result.warnings, *uncalibrated(used))), used)
 
 

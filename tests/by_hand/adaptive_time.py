@@ -20,6 +20,7 @@ from planned_cases import PlannedCase, planned_case
 from fitting.arrays import Array
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.sweep import Sweep
+from instrument.models.files import File
 from instrument.models.identification import identify
 from instrument.planning.choosing import Goal, choose_steps, lay_out
 from instrument.planning.costs import decay_of
@@ -144,7 +145,7 @@ def _step(rig: Rig, action: StepBegan) -> Result:
 
 def stated(case: PlannedCase, sweep: Sweep, f: Array) -> tuple[float, Array]:
     """Largest standard error of G' and eta by `identify`, and errors over the stated ones."""
-    band = identify(sweep, case.specimen).result.band
+    band = identify([File(sweep, case.specimen)]).result.band
     rows = np.array([band.storage_modulus_pa, band.loss_factor])
     errors = np.array([band.storage_modulus_standard_error_pa, band.loss_factor_standard_error])
     inside = (f >= band.frequency_hz[0] * (1 - 1e-3)) & (f <= band.frequency_hz[-1] * (1 + 1e-3))

@@ -22,6 +22,7 @@ from fitting.laws import LAWS
 from fitting.specimen import Specimen
 from fitting.stated.layers import Core, Face
 from fitting.sweep import Sweep
+from instrument.models.files import File
 from instrument.models.identification import identify
 
 KINDS = ("soft", "usual", "thick", "thick-faced", "stiff")
@@ -173,7 +174,7 @@ def judge(one: Swept) -> Judged:
     wrong = LAWS["fractional-zener"](*np.array(law.values) * [1.5, 0.8, 1.5, 0.95])
     none = np.zeros(0)
     try:
-        found = identify(one.sweep, plate.with_law(wrong)).result
+        found = identify([File(one.sweep, plate.with_law(wrong))]).result
     except FittingError as refused:
         return Judged(type(refused).__name__, none, none)
     if not found.fit.converged:

@@ -16,7 +16,7 @@ from files_apart import drawn, pulls, within
 
 from fitting.arrays import Array, Complex
 from instrument.models.files import File
-from instrument.models.together import identify_together
+from instrument.models.identification import identify
 
 GAIN, PHASE = 0.005, np.radians(0.5)
 
@@ -55,7 +55,7 @@ def main() -> None:
     for seed in range(given.seed, given.seed + given.cases):
         files, material, _ = drawn(seed, 0.0, given.masses)
         files, at = behind(np.random.default_rng([seed, 1]), files, still=given.still)
-        found = identify_together(files)
+        found = identify(files)
         spans = {(a.file, a.glitch.low_hz, a.glitch.high_hz) for a in found.aside}
         inside = [
             (k + 1, hz)

@@ -23,6 +23,7 @@ from fitting.depth.many import ManyResiduals
 from fitting.depth.posterior import sample
 from fitting.depth.profile import profile
 from fitting.errors import OutsideModel
+from instrument.models.files import File
 from instrument.models.identification import identify
 from instrument.results.uncertainty_facts import quantities_of
 
@@ -39,7 +40,7 @@ def looked_at(seed, samples):
     plate, drawn = draw(seed)
     line = {"seed": seed, "plate": plate}
     try:
-        found = identify(drawn.sweep, drawn.stated)
+        found = identify([File(drawn.sweep, drawn.stated)])
     except OutsideModel as refused:
         return line | {"refused": str(refused)}
     line["chi2_per_dof"] = found.result.uncertainty.chi2_per_dof

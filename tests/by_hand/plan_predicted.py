@@ -11,6 +11,7 @@ import numpy as np
 from planned_cases import PlannedCase, planned_case
 
 from fitting.arrays import Array
+from instrument.models.files import File
 from instrument.models.identification import identify
 from instrument.planning.plan import Plan, make_plan
 from instrument.planning.wish import Wish
@@ -47,7 +48,7 @@ def compare(case: PlannedCase, target: float, number: int = 0) -> tuple[Plan, Co
         plan.level.level_g,
         rng,
     )
-    band = identify(sweep, case.specimen).result.band
+    band = identify([File(sweep, case.specimen)]).result.band
     f = plan.aims.frequency_hz
     found = np.array([band.storage_modulus_pa, band.loss_factor])
     errors = np.array([band.storage_modulus_standard_error_pa, band.loss_factor_standard_error])

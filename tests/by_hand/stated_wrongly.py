@@ -44,7 +44,7 @@ from instrument.files.sweep_file import read_sweep
 from instrument.models.diagnosis import diagnose
 from instrument.models.files_at_work import File
 from instrument.models.identification import identify
-from instrument.models.together import diagnose_together, identify_together
+from instrument.models.together import diagnose_together
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 from instrument.simulated_case import case_file
@@ -253,13 +253,11 @@ def remarked(warnings: tuple[str, ...]) -> str:
 
 def identified(one: Given) -> tuple[Band, tuple[str, ...]]:
     """The law, and the remarks; of a plate how likely stated numbers are moved together as far."""
+    found = identify([File(one.sweep, one.specimen)], hammer=one.hammer)
+    said = found.result.warnings
     if isinstance(one.specimen, Specimen):
-        found = identify(one.sweep, one.specimen, hammer=one.hammer)
-        facts = identification_from(found)
-        return band_from(facts.law), (*found.result.warnings, f"p = {chance_of(found.result.fit):.2g}")
-    files = [File(one.sweep, one.specimen)]
-    together = identification_from(identify_together(files))
-    return band_from(together.law), tuple(together.warnings)
+        said = (*said, f"p = {chance_of(found.result.fit):.2g}")
+    return band_from(identification_from(found).law), said
 
 
 def diagnosed(one: Given) -> Answer:

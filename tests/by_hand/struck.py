@@ -26,7 +26,8 @@ from campaign.plates.struck_cases import StruckCase, draw_struck
 from campaign.plates.tables import summary
 from fitting.errors import FittingError
 from instrument.models.files import spots_of
-from instrument.models.together import diagnose_together, identify_together
+from instrument.models.identification import identify
+from instrument.models.together import diagnose_together
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 
@@ -48,7 +49,7 @@ def pulls(case: StruckCase, band: Band) -> np.ndarray:
 
 def said_of_law(case: StruckCase) -> tuple[Band, float]:
     """What `identify` says of a case: the law, and chi-square per degree of freedom."""
-    found = identify_together(spots_of(case.sweep, case.specimen))
+    found = identify(spots_of(case.sweep, case.specimen))
     said = identification_from(found)
     return band_from(said.law), said.chi2_per_dof
 

@@ -15,6 +15,7 @@ import numpy as np
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.sweep import Sweep
 from instrument.files.specimen_file import read_specimen
+from instrument.models.files import File
 from instrument.models.identification import identify
 from instrument.models.set_up import set_up
 from instrument.paper_case import case_file
@@ -45,7 +46,7 @@ def main() -> None:
         true = plate.core.law.modulus(2 * np.pi * np.array(AT_HZ))
         for said, stated in (("nothing said", ()), ("none, it says", (0.0,))):
             band = identify(
-                replace(blank, velocity_m_s=v + noise), replace(plate, modal_ratios=stated)
+                [File(replace(blank, velocity_m_s=v + noise), replace(plate, modal_ratios=stated))]
             ).result.band
             at = [int(np.argmin(np.abs(band.frequency_hz - hz))) for hz in AT_HZ]
             eta, error = band.loss_factor[at], band.loss_factor_standard_error[at]

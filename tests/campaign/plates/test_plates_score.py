@@ -80,7 +80,8 @@ def test_what_shows_is_what_no_fit_takes_up_of_the_sweep_without_noise(monkeypat
     case = draw_case("gain_error", 1, plate="P2")
     clean = case.silent.without_m_s
 
-    def identify(sweep, specimen, hammer, like):
+    def identify(files, hammer):
+        sweep = files[0].sweep
         off = np.abs(sweep.velocity_m_s - clean) / sweep.std_m_s
         assert np.all(sweep.base_m_s2 == case.sweep.commanded_m_s2)
         return SimpleNamespace(

@@ -18,6 +18,7 @@ from fitting.depth.profile import profile
 from fitting.depth.quantities import Quantities
 from fitting.depth.sweep_task import SweepTask
 from instrument.files.sweep_file import read_sweep
+from instrument.models.files import File
 from instrument.models.identification import identify
 
 AT = np.array([20.0, 100.0, 280.0])
@@ -28,7 +29,7 @@ def found(coarse, mesh_is_right):
     whole = read_sweep(DATA / "practice-002.csv").sweep(coarse.base_acceleration_m_s2)
     sweep = whole.take(np.arange(len(whole)) % 6 == 0)
     with threadpool_limits(1, "blas"):
-        return identify(sweep, replace(coarse, exact=False))
+        return identify([File(sweep, replace(coarse, exact=False))])
 
 
 @pytest.fixture(scope="module")
@@ -78,7 +79,7 @@ def test_a_posterior_of_one_seed_is_the_same_again(quantities, many):
 
 def test_where_the_law_is_all_that_is_not_known_the_posterior_is_of_the_law(coarse):
     whole = read_sweep(DATA / "practice-002.csv").sweep(coarse.base_acceleration_m_s2)
-    exact = identify(whole.take(np.arange(len(whole)) % 6 == 0), replace(coarse, exact=True))
+    exact = identify([File(whole.take(np.arange(len(whole)) % 6 == 0), replace(coarse, exact=True))])
     alone = Quantities.of(SweepTask.begun_with(exact.joint.begun), AT)
     drawn = sample(alone, ManyResiduals(alone.task, exact.joint.reduced), 2_000)
     # The short cut is all but exact there: what is evaluated in full weighs as it was drawn.

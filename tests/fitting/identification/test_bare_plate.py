@@ -33,6 +33,7 @@ from fitting.plate.plate_numbers import moved, plate_numbers
 from fitting.stated.tolerances import STATED
 from instrument.bench.sweeps import synthetic_sweep
 from instrument.cli.main import run
+from instrument.models.files import File
 from instrument.models.identification import identify
 from instrument.models.set_up import bare_of
 from instrument.paper_case import case_file
@@ -90,9 +91,9 @@ def joint(stiff, unsure, bare_hz):
     """Identified with a hammer test and without, and as if all that is stated were exact."""
     sweep, test = thin_sweep(stiff), (hammer(bare_hz, 0), np.array(unsure.modal_ratios))
     return {
-        "with": identify(sweep, unsure, hammer=test).result,
-        "without": identify(sweep, unsure).result,
-        "exact": identify(sweep, replace(unsure, exact=True), hammer=test).result,
+        "with": identify([File(sweep, unsure)], hammer=test).result,
+        "without": identify([File(sweep, unsure)]).result,
+        "exact": identify([File(sweep, replace(unsure, exact=True))], hammer=test).result,
     }
 
 

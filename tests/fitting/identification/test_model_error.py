@@ -16,6 +16,7 @@ from fitting.laws.fractional_zener import FractionalZener
 from fitting.plate.plate_numbers import moved
 from fitting.stated.tolerances import STATED
 from instrument.files.sweep_file import read_sweep
+from instrument.models.files import File
 from instrument.models.identification import identify
 from instrument.models.set_up import set_up
 
@@ -33,7 +34,7 @@ def practice():
 @pytest.fixture(scope="module")
 def found(practice, zn1):
     """The solid is of exactly the stated plate: model error alone."""
-    return identify(practice, zn1)
+    return identify([File(practice, zn1)])
 
 
 def only(zn1, **tolerances):
@@ -127,7 +128,7 @@ def test_sizes_of_the_models_error_are_the_specimens_own(zn1):
 
 @pytest.fixture(scope="module")
 def tolerant(practice, zn1):
-    return {k: identify(practice, only(zn1, substrate_young=k)).result for k in (1e-9, YOUNG)}
+    return {k: identify([File(practice, only(zn1, substrate_young=k))]).result for k in (1e-9, YOUNG)}
 
 
 def test_a_tolerance_widens_the_band_by_what_it_moves(practice, zn1, tolerant):
@@ -136,7 +137,7 @@ def test_a_tolerance_widens_the_band_by_what_it_moves(practice, zn1, tolerant):
     stiffer = moved(only(zn1, substrate_young=1e-9), ["substrate_young"], [step])
     G_fixed, G_stiffer, G = (
         r.fit.law.storage_and_loss(OMEGA)[0]
-        for r in (tolerant[1e-9], identify(practice, stiffer).result, tolerant[YOUNG])
+        for r in (tolerant[1e-9], identify([File(practice, stiffer)]).result, tolerant[YOUNG])
     )
     (young,) = tolerant[YOUNG].fit.adjusted
     expected = np.abs(np.log(G_stiffer / G_fixed)) / step * young.standard_error / young.found
@@ -154,7 +155,7 @@ def test_the_sweep_itself_says_something_of_a_stated_number(tolerant):
 
 
 def test_with_a_laboratorys_tolerances_the_core_is_still_covered(practice, zn1, found):
-    r = identify(practice, replace(zn1, exact=False)).result
+    r = identify([File(practice, replace(zn1, exact=False))]).result
     assert_covered(r)
     assert np.all(band_of(r)[0] > 3 * band_of(found.result)[0])
     assert all(abs(a.pull) < 2 for a in r.fit.adjusted)

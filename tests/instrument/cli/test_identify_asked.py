@@ -8,7 +8,7 @@ import click
 import pytest
 
 from instrument.cli.identify_asked import Asked
-from instrument.cli.identify_sweeps import identify_one
+from instrument.cli.identify_sweeps import identify_sweeps
 from instrument.cli.output import Output
 from instrument.interchange.given import Given
 
@@ -76,7 +76,9 @@ def test_only_profiles_look_deeper_at_several_files_or_a_beam(kinds, of):
 def test_what_the_papers_method_cannot_say_is_said_and_left_out(coarse, table5, tmp_path, capsys):
     out = Output(str(tmp_path / "found.json"))
     given = Given(coarse, table5, None)
-    identify_one(out, Path("table5.csv"), given, asked(method="paper", with_budget=True, depths=("profile",)))
+    identify_sweeps(
+        out, [Path("table5.csv")], [given], asked(method="paper", with_budget=True, depths=("profile",))
+    )
     said = capsys.readouterr().out
     assert "no budget: these data give no uncertainty" in said
     assert "no profile: these data give no uncertainty" in said

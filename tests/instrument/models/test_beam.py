@@ -11,7 +11,8 @@ from instrument.cli.main import run
 from instrument.errors import BadInput
 from instrument.files.structure_file import read_structure
 from instrument.models.files import File
-from instrument.models.together import diagnose_together, identify_together
+from instrument.models.identification import identify
+from instrument.models.together import diagnose_together
 
 
 @pytest.fixture
@@ -32,7 +33,7 @@ def sweep_of(beam, seed=0, factor=1.0, noise=2e-3):
 
 
 def test_a_sandwich_beam_gives_its_law(beam):
-    found = identify_together([File(sweep_of(beam), beam)])
+    found = identify([File(sweep_of(beam), beam)])
     f = found.result.band.frequency_hz
     G, eta = beam.core.law.storage_and_loss(2 * np.pi * f)
     off = (found.result.band.storage_modulus_pa - G) / found.result.band.storage_modulus_standard_error_pa

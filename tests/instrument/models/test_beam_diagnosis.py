@@ -14,7 +14,8 @@ from fitting.structures import Beam
 from fitting.structures.small import widened_system_of
 from fitting.sweep import Sweep
 from instrument.models.files import File, spots_of
-from instrument.models.together import diagnose_together, identify_together
+from instrument.models.identification import identify
+from instrument.models.together import diagnose_together
 
 TRUTH = LAWS["fractional-zener"](0.45e6, 7e6, 7e-5, 0.62)
 STATED = LAWS["fractional-zener"](0.3e6, 5e6, 1e-4, 0.7)
@@ -104,7 +105,7 @@ def test_two_spots_of_one_file_are_fitted_together_where_each_was_read():
     )
     files = spots_of(sweep, beam)
     assert [f.specimen.pickup_m for f in files] == [0.05, 0.15]
-    found = identify_together(files).result
+    found = identify(files).result
     assert max(off(found.fit.law)) < 0.05
     names = [one.name for one in found.fit.adjusted]
     assert {"pickup_x [pickup 0]", "pickup_x [pickup 1]", "force_x"} <= set(names)

@@ -11,7 +11,8 @@ from fitting.errors import OutsideModel
 from instrument.models import exchanged as exchange
 from instrument.models.exchanged import exchanged, leaves_much
 from instrument.models.files import File
-from instrument.models.together import diagnose_together, identify_together
+from instrument.models.identification import identify
+from instrument.models.together import diagnose_together
 
 MASSES_KG = (0.2533, 0.573, 1.196)
 
@@ -47,7 +48,7 @@ def test_a_mass_that_is_stated_wrongly_is_no_exchange():
 
 
 def test_identify_says_so_first():
-    said = identify_together(files((0, 2, 1))).result.warnings[0]
+    said = identify(files((0, 2, 1))).result.warnings[0]
     assert said.startswith("0.573 kg and 1.196 kg seem to have each other's specimens")
 
 

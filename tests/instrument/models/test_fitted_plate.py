@@ -14,6 +14,7 @@ from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult, PosteriorFound
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
+from instrument.models.files import File
 from instrument.models.fitted_plate import FittedPlate
 from instrument.models.identification import identify
 from instrument.models.specimen_models import Models
@@ -29,7 +30,7 @@ F = np.array([17.0, 19.3, 95.0, 101.0, 280.0])
 def identified():
     specimen = replace(read_specimen(case_file("zn1.toml")), exact=False)
     sweep = read_sweep(DATA / "practice-005.csv").sweep(9.81)
-    found = identify(sweep, specimen)
+    found = identify([File(sweep, specimen)])
     return specimen, sweep, found, identification_from(found)
 
 

@@ -7,6 +7,7 @@ import pytest
 
 from instrument.files.sweep_file import read_sweep
 from instrument.models.diagnosis import diagnose
+from instrument.models.files import File
 from instrument.models.identification import identify
 from tests.conftest import DATA
 from tests.rig_plate import plate_of_the_rig
@@ -24,8 +25,8 @@ def as_one(sweep):
 
 
 def test_a_stretch_about_each_resonance_is_predicted_from_the_others_as_a_segment_is(whole):
-    by_segments = identify(whole, plate_of_the_rig()).result
-    result = identify(as_one(whole), plate_of_the_rig()).result
+    by_segments = identify([File(whole, plate_of_the_rig())]).result
+    result = identify([File(as_one(whole), plate_of_the_rig())]).result
     held = result.validation.held_out
     assert [h.segment for h in held] == [1, 2, 3]
     for one, other in zip(held, by_segments.validation.held_out, strict=True):

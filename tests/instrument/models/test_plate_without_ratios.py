@@ -7,6 +7,7 @@ import pytest
 
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from instrument.files.sweep_file import read_sweep
+from instrument.models.files import File
 from instrument.models.identification import identify
 from instrument.models.remarks import remarks_on_damping
 from instrument.models.set_up import set_up
@@ -38,7 +39,7 @@ def sweep(unstated):
 
 def off(sweep, plate):
     """How far the loss factor is off at each frequency of the band, in standard errors; and the notes."""
-    found = identify(sweep, plate).result
+    found = identify([File(sweep, plate)]).result
     band = found.band
     true = plate.core.law.modulus(2 * np.pi * band.frequency_hz)
     return (band.loss_factor - true.imag / true.real) / band.loss_factor_standard_error, found.warnings

@@ -11,6 +11,7 @@ from fitting.errors import OutsideModel, TooFewPoints
 from instrument.cli.main import run
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
+from instrument.models.files import File
 from instrument.models.identification import identify
 from instrument.models.pointwise import pointwise_of
 from instrument.paper_case import case_file
@@ -23,7 +24,7 @@ def found(request):
     """A clean sweep of a solid plate: identified, and band by band."""
     specimen = replace(read_specimen(case_file("zn1.toml")), exact=request.param)
     sweep = read_sweep(DATA / "practice-002.csv").sweep(9.81)
-    identified = identify(sweep, specimen)
+    identified = identify([File(sweep, specimen)])
     return identified, pointwise_of(identified)
 
 
@@ -58,7 +59,7 @@ def test_what_tolerances_leave_open_is_common_to_all_bands(found):
 def test_amplitudes_are_refused(zn1):
     sweep = read_sweep(case_file("table5.csv")).sweep(9.81)
     with pytest.raises(TooFewPoints, match="9 amplitudes without phase, expected phasors"):
-        pointwise_of(identify(sweep, zn1))
+        pointwise_of(identify([File(sweep, zn1)]))
 
 
 def test_the_paper_s_method_has_none(found, zn1):

@@ -9,7 +9,7 @@ import pytest
 from instrument.files.structure_file import read_structure
 from instrument.files.sweep_file import read_sweep
 from instrument.models.files import File
-from instrument.models.together import identify_together
+from instrument.models.identification import identify
 
 REAL = Path(__file__).parents[3].parent / "shared/data/real/shear"
 NOMINAL_C = 21.0
@@ -19,7 +19,7 @@ NOMINAL_C = 21.0
 @pytest.mark.skipif(not REAL.exists(), reason="the real records are not here")
 def test_real_records_of_three_masses_follow_one_law():
     given = [_real(name, edges=True, every=5) for name in ("253g", "573g", "1196g")]
-    band = identify_together(given).result.band
+    band = identify(given).result.band
     k = int(np.flatnonzero(band.frequency_hz == 100.0)[0])
     for storage_pa, loss_factor in _on_another_machine():
         assert band.storage_modulus_pa[k] == pytest.approx(storage_pa, rel=0.12)
@@ -50,7 +50,7 @@ def _on_another_machine():
 @pytest.mark.long
 @pytest.mark.skipif(not REAL.exists(), reason="the real records are not here")
 def test_the_lightest_mass_s_disturbance_is_flagged():
-    found = identify_together([_real(name) for name in ("118g", "253g", "573g", "1196g")])
+    found = identify([_real(name) for name in ("118g", "253g", "573g", "1196g")])
     (one,) = [one for one in found.aside if one.file == 1 and one.glitch.low_hz < 300]
     assert one.glitch.low_hz < 230
     assert 310 < one.glitch.high_hz < 420

@@ -9,15 +9,15 @@ import pytest
 from beam_cases import BEAM
 from conftest import TABLE_4
 
-from fitting.data.noise import noise_of
 from fitting.errors import OutsideModel
 from fitting.laws.constant import ConstantModulus
 from fitting.sweep import Sweep
 from instrument.cli.main import run
 from instrument.files.structure_file import read_structure
 from instrument.models.diagnosis import diagnose
+from instrument.models.files import File
 from instrument.models.identification import identify
-from instrument.models.methods import DirectMethod, IdentificationProblem
+from instrument.models.methods import DirectMethod
 from instrument.models.specimen_models import Models
 from instrument.models.theory import check_each_theory, stiffer_than_stated, theory_remark
 from instrument.paper_case import case_file
@@ -56,7 +56,7 @@ def thick_and_soft(specimen):
 def test_identify_refuses_in_one_line(coarse, make):
     specimen = make(coarse)
     with pytest.raises(OutsideModel, match=r"plate theory at .* Hz: .* exact elasticity \(limit") as refused:
-        identify(sweep_of(specimen), specimen)
+        identify([File(sweep_of(specimen), specimen)])
     assert "\n" not in str(refused.value)
     assert "nor does the fit follow" not in str(refused.value)
 
@@ -66,7 +66,7 @@ def test_a_fit_that_is_lost_besides_says_so(coarse):
     sweep = sweep_of(specimen)
     lost = SimpleNamespace(law=specimen.core.law, velocity_m_s=2 * sweep.velocity_m_s)
     with pytest.raises(OutsideModel, match=r"plate theory at .* check units, level and pickup"):
-        DirectMethod(IdentificationProblem(sweep, specimen, noise_of(sweep)), quiet).theory(lost)
+        DirectMethod(File(sweep, specimen), specimen, None, quiet).theory(lost)
 
 
 def test_diagnose_refuses_the_law_it_ends_with(coarse):
@@ -77,7 +77,7 @@ def test_diagnose_refuses_the_law_it_ends_with(coarse):
 
 def test_a_usual_core_is_identified_and_its_error_stated(coarse):
     sweep = sweep_of(coarse.with_law(TABLE_4))
-    found = identify(sweep, coarse)
+    found = identify([File(sweep, coarse)])
     rows = identification_from(found).theory_error
     assert len(rows) == 10
     assert set(rows[0].as_json()) == {"frequency_hz", "frequency_error", "loss_factor_error"}

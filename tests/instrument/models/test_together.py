@@ -11,8 +11,9 @@ from fitting.planning.unseen import unseen
 from instrument.cli.output import Output
 from instrument.cli.print_identification import print_identification
 from instrument.models.files import File
+from instrument.models.identification import identify
 from instrument.models.other_processes import VARIABLE
-from instrument.models.together import diagnose_together, identify_together
+from instrument.models.together import diagnose_together
 
 
 def files(masses=MASSES_KG, *, points=80, **more):
@@ -25,7 +26,7 @@ def law_error(found, f=(60.0, 150.0, 400.0)):
 
 
 def test_one_pair_gives_its_law():
-    found = identify_together(files([0.573])).result
+    found = identify(files([0.573])).result
     assert law_error(found.law, (60, 150)).max() < 0.01
     # Area and thickness are known to 2 % each, and what free edges give way is left open by 7 %.
     error = found.band.storage_modulus_standard_error_pa / found.band.storage_modulus_pa
@@ -37,7 +38,7 @@ def test_one_pair_gives_its_law():
 
 def test_edges_that_are_counted_leave_the_modulus_as_well_known_as_area_and_thickness():
     given = [File(sweep(pair(0.573)), pair(0.573, edges=True))]
-    band = identify_together(given).result.band
+    band = identify(given).result.band
     error = band.storage_modulus_standard_error_pa / band.storage_modulus_pa
     assert 0.025 < np.median(error) < 0.05
 
@@ -45,7 +46,7 @@ def test_edges_that_are_counted_leave_the_modulus_as_well_known_as_area_and_thic
 def test_four_masses_give_one_law_and_each_its_own_gain():
     given = files()
     given[1] = File(sweep(pair(MASSES_KG[1]), seed=1, factor=1.006), pair(MASSES_KG[1]))
-    found = identify_together(given).result
+    found = identify(given).result
     assert law_error(found.law).max() < 0.015
     adjusted = {one.name: one for one in found.fit.adjusted}
     # How much is common to all of them, the core hides.
@@ -173,7 +174,7 @@ def test_an_angle_of_four_deviations_is_an_effect_or_the_tolerance_of_one(withou
 
 
 def test_a_degree_between_two_accelerometers_is_found_beside_the_law():
-    found = identify_together(turned(1.0)).result
+    found = identify(turned(1.0)).result
     (phase,) = [one for one in found.fit.adjusted if one.name == "phase"]
     assert phase.found == pytest.approx(1.0, abs=3 * phase.standard_error)
     assert phase.standard_error < 0.2 < phase.tolerance == pytest.approx(0.5)
@@ -183,7 +184,7 @@ def test_a_degree_between_two_accelerometers_is_found_beside_the_law():
 def test_one_mass_leaves_an_angle_to_the_band_of_the_loss_factor():
     """Half a degree, as two accelerometers may be apart: the loss factor is no better known than that."""
     at_resonance, below = (
-        identify_together([File(f.sweep.take(kept(f.sweep.frequency_hz)), f.specimen)]).result.band
+        identify([File(f.sweep.take(kept(f.sweep.frequency_hz)), f.specimen)]).result.band
         for f, kept in ((turned(0.5, [0.573])[0], k) for k in (lambda f: f > 200.0, lambda f: f < 170.0))
     )
     for band in (at_resonance, below):
@@ -250,7 +251,7 @@ def test_a_resonance_of_the_fixture_is_set_aside():
     near = np.abs(np.log(r)) < 0.3
     v = disturbed.velocity_m_s * np.where(near, wobble, 1)
     given[0] = File(type(disturbed)(**{**vars(disturbed), "velocity_m_s": v}), given[0].specimen)
-    found = identify_together(given)
+    found = identify(given)
     assert {one.file for one in found.aside} == {1}
     assert any(one.glitch.low_hz < 330 < one.glitch.high_hz for one in found.aside)
     # Its tails stay.
@@ -263,7 +264,7 @@ def test_where_a_fixture_resonates_the_rest_is_worth_less_too(mass_kg, at_hz):
     s = sweep(pair(mass_kg), seed=int(at_hz) // 100, points=400)
     r, side = s.frequency_hz / at_hz, np.sign(mass_kg - 0.2)
     v = s.velocity_m_s * 0.995 * np.exp(-0.014j * side) * (1 + 0.005 / (1 - r**2 + 0.04j * r))
-    found = identify_together([File(replace(s, velocity_m_s=v), pair(mass_kg))])
+    found = identify([File(replace(s, velocity_m_s=v), pair(mass_kg))])
     result = found.result
     assert found.aside
     assert result.noise.source == "misfit"
@@ -307,16 +308,16 @@ def test_one_file_is_not_spoken_of_as_several():
 
 
 def _misfit(masses):
-    return identify_together(files(masses, wander=0.02)).result.warnings
+    return identify(files(masses, wander=0.02)).result.warnings
 
 
 def test_where_no_law_fits_there_is_no_chi_square(capsys):
-    found = identify_together(files([0.2533, 0.573], wander=0.02))
+    found = identify(files([0.2533, 0.573], wander=0.02))
     result = found.result
     assert result.noise.source == "misfit"
     assert not result.chi2_means_something
     assert np.isnan([h.noise_percent for h in result.validation.held_out]).all()
-    print_identification(Output(None), found, pair(0.3))
+    print_identification(Output(None), found)
     said = capsys.readouterr().out
     assert "no chi-square: readings count for as much as the fit leaves of them" in said
     assert "% (noise" not in said
@@ -326,9 +327,9 @@ def test_where_no_law_fits_there_is_no_chi_square(capsys):
 @pytest.mark.long
 def test_another_process_changes_no_law(monkeypatch):
     given = files([0.2533, 0.573], wander=0.02)
-    alone = identify_together(given).result
+    alone = identify(given).result
     monkeypatch.setenv(VARIABLE, "2")
-    assert np.array_equal(identify_together(given).result.law.values, alone.law.values)
+    assert np.array_equal(identify(given).result.law.values, alone.law.values)
 
 
 @pytest.mark.long
@@ -339,7 +340,7 @@ def test_a_gain_and_a_phase_of_all_files_do_not_become_the_core_s():
         File(sweep(pair(m), seed=k, points=120, wander=0.01, factor=apart), pair(m))
         for k, m in enumerate(HEAVIER_KG)
     ]
-    found = identify_together(given).result
+    found = identify(given).result
     assert found.noise.source == "misfit"
     # Each file's own wandering is what is left: without what they have in common 8 and 10 %.
     assert law_error(found.law, (60.0, 100.0)).max() < 0.045

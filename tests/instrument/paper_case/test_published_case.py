@@ -49,9 +49,9 @@ def lines(ax):
 def test_both_methods_one_without_viscous_damping_and_a_diagnosis_are_of_table_5(monkeypatch, zn1, table5):
     asked = []
 
-    def identify(sweep, specimen, method, progress):
-        asked.append((method, specimen.modal_ratios))
-        np.testing.assert_array_equal(sweep.frequency_hz, table5.frequency_hz)
+    def identify(files, method, progress):
+        asked.append((method, files[0].specimen.modal_ratios))
+        np.testing.assert_array_equal(files[0].sweep.frequency_hz, table5.frequency_hz)
         return len(asked)
 
     monkeypatch.setattr(demo, "identify", identify)

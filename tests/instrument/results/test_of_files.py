@@ -8,7 +8,7 @@ from instrument.files.hammer_file import HammerModes
 from instrument.files.specimen_file import read_specimen
 from instrument.hammer_test.expected import expected_modes_hz
 from instrument.models.files import File
-from instrument.models.together import identify_together
+from instrument.models.identification import identify
 from instrument.paper_case import case_file
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
@@ -39,10 +39,10 @@ def test_a_hammer_test_that_took_part_is_told_of_several_files_too(coarse):
     measured_hz = expected_modes_hz(coarse, None, 300.0)
     hammer = HammerModes(measured_hz, np.full(len(measured_hz), 2e-3), None)
     files = [File(sweep(), coarse, name, k) for k, name in enumerate(("a.csv", "b.csv"), start=1)]
-    told = identification_from(identify_together(files, hammer=hammer)).hammer
+    told = identification_from(identify(files, hammer=hammer)).hammer
     assert [m.measured_hz for m in told.modes] == measured_hz.tolist()
     assert abs(told.substrate_young_over_stated - 1) < 0.02
-    assert identification_from(identify_together(files)).hammer is None
+    assert identification_from(identify(files)).hammer is None
 
 
 def test_a_result_of_one_plate_names_no_file():

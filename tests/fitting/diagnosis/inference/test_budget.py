@@ -9,6 +9,7 @@ from conftest import DATA
 from fitting.diagnosis.inference.budget import BEND, MODEL, NOISE, budget_of
 from fitting.identification.uncertainty import Uncertainty
 from instrument.files.sweep_file import read_sweep
+from instrument.models.files import File
 from instrument.models.identification import identify
 
 AT = np.array([20.0, 100.0, 280.0])
@@ -22,7 +23,7 @@ def sweep(coarse):
 
 @pytest.fixture(scope="module")
 def found(coarse, sweep):
-    return identify(sweep, replace(coarse, exact=False))
+    return identify([File(sweep, replace(coarse, exact=False))])
 
 
 def test_sources_add_up_to_the_first_order_error(found):
@@ -46,5 +47,5 @@ def test_every_tolerance_is_a_source(found):
 
 def test_a_number_that_is_exact_is_no_source(coarse, sweep):
     exact = replace(coarse, exact=False, tolerances={"core_thickness": 0.0})
-    budget = budget_of(identify(sweep, exact).joint.begun, AT)
+    budget = budget_of(identify([File(sweep, exact)]).joint.begun, AT)
     assert "core_thickness" not in budget.storage_relative
