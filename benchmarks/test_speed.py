@@ -59,7 +59,7 @@ def test_an_identification_set_up(benchmark, sweep, specimen):
 
 
 def test_a_clean_sweep_diagnosed(benchmark, sweep, specimen):
-    diagnose(sweep, specimen)
+    diagnose([File(sweep, specimen)])
     benchmark.pedantic(diagnose, (sweep, specimen), rounds=3)
 
 

@@ -12,12 +12,11 @@ from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.identification import IdentificationResult
 from instrument.files.hammer_file import HammerModes
 from instrument.interchange.given import at_its_spot
-from instrument.models.diagnosis import diagnose as diagnose_sweep
+from instrument.models.diagnosis import diagnose as diagnose_files
 from instrument.models.files import spots_of
 from instrument.models.identification import identify as identify_files
 from instrument.models.methods import Method
 from instrument.models.pointwise import pointwise_of
-from instrument.models.together import diagnose_together
 from instrument.planning.open_questions import with_open_questions
 from instrument.progress import bar
 from instrument.results.diagnosis_from import diagnosis_from
@@ -101,12 +100,12 @@ def diagnose(
     """
     given = _given(data, specimen, hammer)
     points, model, declined = given.points, given.plate.model, frozenset(without)
-    if points.pickup is not None:
+    several = points.pickup is not None
+    if several:
         _whole_sweeps_alone(given, resamples=resamples)
-        several = diagnose_together(spots_of(points, model), declined, bar, accept)
-        return Diagnosis(with_open_questions(diagnosis_from(several), several))
-    found = diagnose_sweep(points, model, given.modes, declined, bar, accept, resamples=resamples)
-    return Diagnosis(given.said(with_open_questions(diagnosis_from(found), found)))
+    found = diagnose_files(spots_of(points, model), given.modes, declined, bar, accept, resamples)
+    result = with_open_questions(diagnosis_from(found), found)
+    return Diagnosis(result if several else given.said(result))
 
 
 def _whole_sweeps_alone(

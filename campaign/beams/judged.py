@@ -2,9 +2,9 @@
 
 from campaign.beams.cases import BeamCase
 from campaign.plates.answers import Answer, Band, answer_from, band_from
+from instrument.models.diagnosis import diagnose
 from instrument.models.files import File
 from instrument.models.identification import identify
-from instrument.models.together import diagnose_together
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 
@@ -18,4 +18,4 @@ def identified(case: BeamCase) -> Band:
 def diagnosed(case: BeamCase) -> Answer:
     """With the whole catalogue."""
     files = [File(case.sweep, case.specimen)]
-    return answer_from(diagnosis_from(diagnose_together(files)))
+    return answer_from(diagnosis_from(diagnose(files)))

@@ -53,7 +53,9 @@ def judge(job: Job, taken_out: bool) -> dict[str, Any]:
 
 
 def _diagnosed(diagnose: Callable[..., Any], case: Case, without: frozenset[str]) -> Said:
-    found = diagnose(case.sweep, case.specimen, hammer=case.hammer, without=without)
+    from instrument.models.files import File
+
+    found = diagnose([File(case.sweep, case.specimen)], hammer=case.hammer, without=without)
     return said_of(case, found.result, found.seconds, found.setup_seconds)
 
 

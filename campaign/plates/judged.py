@@ -43,7 +43,7 @@ def left_out(there: Collection[str]) -> list[str]:
 
 
 def _diagnosed(case: PlateCase, without: Collection[str] = ()) -> Answer:
-    found = diagnose(case.sweep, case.specimen, hammer=case.hammer, without=without, like=_like(case))
+    found = diagnose([File(case.sweep, case.specimen, like=_like(case))], hammer=case.hammer, without=without)
     return answer_from(diagnosis_from(found))
 
 

@@ -30,7 +30,6 @@ from instrument.facts.follow_up import FollowUp
 from instrument.models.diagnosis import Diagnosed, diagnose
 from instrument.models.files import File
 from instrument.models.set_up import Hammer
-from instrument.models.together import diagnose_together
 
 Place = tuple[float, float]
 _PAUSE_S = 60.0
@@ -78,10 +77,7 @@ class RemeasuredPlate:
 
     def diagnosed(self) -> Diagnosed:
         """Everything together."""
-        if len(self.files) > 1:
-            return diagnose_together(self.files, hammer=self.hammer)
-        (one,) = self.files
-        return diagnose(one.sweep, self._stated, self.hammer, like=one.like)
+        return diagnose(self.files, self.hammer)
 
     def after(self, follow_up: FollowUp, rng: np.random.Generator) -> "RemeasuredPlate":
         """With one more measurement. Raises `ValueError` for one that it cannot make."""

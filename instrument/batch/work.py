@@ -26,11 +26,10 @@ from instrument.interchange.given import Given, read_given
 from instrument.interchange.questions import question_data
 from instrument.material.stated_part import stated_columns
 from instrument.models.diagnosis import diagnose
-from instrument.models.files import File, lone_plate
+from instrument.models.files import File
 from instrument.models.identification import identify
 from instrument.models.other_processes import VARIABLE as PROCESSES
 from instrument.models.sharing import serves
-from instrument.models.together import diagnose_together
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 from instrument.stream.jsonable import to_jsonable
@@ -171,13 +170,7 @@ def _files(given: Given, like: Specimen | None) -> list[File]:
 
 
 def _diagnosed(given: Given, like: Specimen | None) -> dict[str, Any]:
-    files = _files(given, like)
-    plate = lone_plate(files)
-    if plate is None:
-        found = diagnose_together(files, hammer=given.modes)
-    else:
-        found = diagnose(given.sweep, plate, given.modes, like=like)
-    return _of_diagnosis(diagnosis_from(found))
+    return _of_diagnosis(diagnosis_from(diagnose(_files(given, like), given.modes)))
 
 
 def _of_fit(result: IdentificationResult | ModalResult) -> dict[str, Any]:

@@ -29,6 +29,7 @@ from instrument.bench.sweeps import GRID_HZ, synthetic_sweep
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.diagnosis import Diagnosed, diagnose
+from instrument.models.files import File
 from instrument.models.specimen_models import Models
 from instrument.paper_case import TABLE_4, case_file
 from instrument.progress import Progress, quiet
@@ -103,7 +104,7 @@ def _diagnoses(specimen: Specimen, progress: Progress) -> list[tuple[Sweep, Diag
     """An elastic root diagnosed cold, then cached at one level and at three."""
     levels = [(1.0,), (1.0,), (0.25, 0.5, 1.0)]
     sweeps = [elastic_root_sweep(specimen.base_acceleration_m_s2, level) for level in levels]
-    return [(s, diagnose(s, specimen, progress=progress)) for s in sweeps]
+    return [(s, diagnose([File(s, specimen)], progress=progress)) for s in sweeps]
 
 
 def _diagnosis_rows(diagnosed: list[tuple[Sweep, Diagnosed]]) -> list[BenchLine]:

@@ -12,9 +12,8 @@ from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.cli.print_run import print_result
 from instrument.cli.reading import are_tables, files_of_data, read_each, reading_options
 from instrument.files.repeated import refuse_repeats
-from instrument.models.diagnosis import diagnose as diagnose_sweep
+from instrument.models.diagnosis import diagnose as diagnose_files
 from instrument.models.files import lone_plate
-from instrument.models.together import diagnose_together
 from instrument.planning.open_questions import with_open_questions
 from instrument.progress import bar
 from instrument.results.diagnosis_from import diagnosis_from
@@ -79,19 +78,16 @@ def diagnose(
     every = read_each(out, data, specimen, hammer, no_hammer=no_hammer, insist=insist, one_plate=True)
     declined, accepted = frozenset(without), _accepted(accept)
     files, given = files_of_data(every, data), every[0]
-    plate = lone_plate(files)
-    if plate is None:
-        if resamples is not None:
-            raise click.UsageError(
-                "--resamples with several files or spots, a beam or a shear pair: "
-                "expected one sweep of a plate at one spot"
-            )
-        found = diagnose_together(files, declined, bar, accepted, given.modes)
-    else:
-        found = diagnose_sweep(given.sweep, plate, given.modes, declined, bar, accepted, resamples=resamples)
+    alone = lone_plate(files) is not None
+    if resamples is not None and not alone:
+        raise click.UsageError(
+            "--resamples with several files or spots, a beam or a shear pair: "
+            "expected one sweep of a plate at one spot"
+        )
+    found = diagnose_files(files, given.modes, declined, bar, accepted, resamples)
     result = given.said(with_open_questions(diagnosis_from(found), found))
     print_diagnosis(out, result)
-    if plate is not None:
+    if alone:
         out.say()
         print_result(out, result_of(None, result, Conditions.of_sweep(given.sweep, given.temperature_c)))
     if figures is not None:

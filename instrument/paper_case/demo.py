@@ -36,5 +36,5 @@ def run_paper_case(progress: Progress = quiet) -> PaperRun:
         direct=identify([File(sweep, specimen)], "direct", progress),
         paper=identify([File(sweep, specimen)], "paper", progress),
         undamped=identify([File(sweep, replace(specimen, modal_ratios=()))], "direct", progress),
-        diagnosis=diagnose(sweep, specimen, progress=progress),
+        diagnosis=diagnose([File(sweep, specimen)], progress=progress),
     )

@@ -8,7 +8,6 @@ from pydantic import ValidationError
 from threadpoolctl import threadpool_limits
 
 from fitting.errors import FittingError
-from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult
@@ -16,7 +15,6 @@ from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.hammer_file import accepted_modes
 from instrument.interchange.files_of import files_of
 from instrument.models.diagnosis import diagnose
-from instrument.models.together import diagnose_together
 from instrument.planning.follow_up import Possible
 from instrument.planning.open_questions import with_open_questions
 from instrument.progress import Progress, quiet
@@ -92,12 +90,8 @@ def diagnose_points(asked: ToDiagnose, progress: Progress = quiet) -> DiagnosisF
 def _result(asked: ToDiagnose, progress: Progress) -> DiagnosisResult:
     points, damping, specimen, possible = asked.points, asked.damping, asked.specimen, asked.possible
     hammer = accepted_modes(damping.result) if damping is not None else None
-    sweep = sweep_of(points, asked.times_s)
-    files = files_of(sweep, points, specimen, asked.struck)
-    if len(files) > 1 or not isinstance(specimen, Specimen):
-        found = diagnose_together(files, progress=progress, hammer=hammer)
-    else:
-        found = diagnose(sweep, specimen, hammer, progress=progress)
+    files = files_of(sweep_of(points, asked.times_s), points, specimen, asked.struck)
+    found = diagnose(files, hammer, progress=progress)
     result = with_open_questions(diagnosis_from(found), found, possible).untimed
     said = [f"damped plate struck: {remark}" for one in asked.struck for remark in one.remarks]
     return result.but(warnings=(*result.warnings, *uncalibrated(points), *said))

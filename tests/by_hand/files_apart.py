@@ -23,9 +23,8 @@ from fitting.laws import LAWS
 from fitting.stated.layers import Core
 from fitting.structures.shear_pair import ShearPair, disc
 from fitting.sweep import Sweep
-from instrument.models.diagnosis import Diagnosed
+from instrument.models.diagnosis import Diagnosed, diagnose
 from instrument.models.files import File
-from instrument.models.together import diagnose_together
 
 LEVEL_M_S2, POINTS, NOISE = 9.81, 120, 2e-3
 MASSES_KG = (0.1, 0.2, 0.35, 0.6, 1.0, 1.4)
@@ -130,7 +129,7 @@ def main() -> None:
     verdicts, first, z = Counter[str](), Counter[str](), list[tuple[float, float]]()
     for seed in range(given.seed, given.seed + given.cases):
         files, material, warmer = drawn(seed, given.kelvin, given.masses)
-        found = diagnose_together(files)
+        found = diagnose(files)
         result = found.result
         names = "+".join(e.name for e in result.effects) or "-"
         verdicts[result.verdict] += 1

@@ -44,7 +44,6 @@ from instrument.files.sweep_file import read_sweep
 from instrument.models.diagnosis import diagnose
 from instrument.models.files_at_work import File
 from instrument.models.identification import identify
-from instrument.models.together import diagnose_together
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 from instrument.simulated_case import case_file
@@ -262,10 +261,7 @@ def identified(one: Given) -> tuple[Band, tuple[str, ...]]:
 
 def diagnosed(one: Given) -> Answer:
     """The verdict."""
-    if isinstance(one.specimen, Specimen):
-        return answer_from(diagnosis_from(diagnose(one.sweep, one.specimen, hammer=one.hammer)))
-    files = [File(one.sweep, one.specimen)]
-    return answer_from(diagnosis_from(diagnose_together(files)))
+    return answer_from(diagnosis_from(diagnose([File(one.sweep, one.specimen)], hammer=one.hammer)))
 
 
 def asked(one: Given, *, law_alone: bool) -> list[str]:

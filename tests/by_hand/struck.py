@@ -25,9 +25,9 @@ from campaign.plates.score import first_right, in_group, named
 from campaign.plates.struck_cases import StruckCase, draw_struck
 from campaign.plates.tables import summary
 from fitting.errors import FittingError
+from instrument.models.diagnosis import diagnose
 from instrument.models.files import spots_of
 from instrument.models.identification import identify
-from instrument.models.together import diagnose_together
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 
@@ -57,7 +57,7 @@ def said_of_law(case: StruckCase) -> tuple[Band, float]:
 def said_of_cause(case: StruckCase) -> tuple[Answer, Sequence[str]]:
     """What `diagnose` says of it, and its words."""
     files = spots_of(case.sweep, case.specimen)
-    found = diagnosis_from(diagnose_together(files))
+    found = diagnosis_from(diagnose(files))
     return answer_from(found), found.explanation
 
 

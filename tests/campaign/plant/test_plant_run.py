@@ -44,9 +44,11 @@ def diagnosis(monkeypatch):
     """A diagnosis that always gives the same answer, and what it was asked."""
     asked = []
 
-    def diagnose(sweep, specimen, hammer=None, without=frozenset()):
+    def diagnose(files, hammer=None, without=frozenset()):
         asked.append(without)
-        return SimpleNamespace(result=found_diagnosis(specimen.core.law), seconds=1.0, setup_seconds=0.5)
+        return SimpleNamespace(
+            result=found_diagnosis(files[0].specimen.core.law), seconds=1.0, setup_seconds=0.5
+        )
 
     monkeypatch.setattr(running, "import_module", lambda name: SimpleNamespace(diagnose=diagnose))
     monkeypatch.setattr(running, "visible_chi2", lambda case: 7.0)
@@ -65,7 +67,7 @@ def test_a_single_effect_is_diagnosed_again_without_it(diagnosis):
 
 
 def test_a_diagnosis_that_raises_is_an_outcome_without_an_answer(monkeypatch):
-    def diagnose(sweep, specimen, hammer, without):
+    def diagnose(files, hammer, without):
         raise np.linalg.LinAlgError("singular\nmatrix")
 
     monkeypatch.setattr(running, "import_module", lambda name: SimpleNamespace(diagnose=diagnose))

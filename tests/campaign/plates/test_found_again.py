@@ -13,7 +13,6 @@ from campaign.plates.cases import draw_case
 from campaign.plates.judged import diagnosed
 from instrument.models.diagnosis import diagnose
 from instrument.models.files import File
-from instrument.models.together import diagnose_together
 
 PASSED_BY = {
     "a spot and a length far beyond their tolerances did a clamp line's work": ("clamp_line", 1300001),
@@ -61,14 +60,14 @@ TWO_PASSED_BY = {
 @pytest.mark.parametrize("seed", TWO_PASSED_BY.values(), ids=TWO_PASSED_BY)
 def test_two_effects_that_were_passed_by_are_found(seed):
     case = draw(PAIR, seed)
-    found = diagnose(case.sweep, case.specimen, hammer=case.hammer).result
+    found = diagnose([File(case.sweep, case.specimen)], hammer=case.hammer).result
     assert {e.name for e in found.effects} == {*case.truth.names}
 
 
 @pytest.mark.long
 def test_softening_over_a_sharp_resonance_leaves_nothing_for_a_tether():
     case = draw("amplitude_softening", 110114)
-    found = diagnose(case.sweep, case.specimen, hammer=case.hammer).result
+    found = diagnose([File(case.sweep, case.specimen)], hammer=case.hammer).result
     assert (found.verdict, [e.name for e in found.effects]) == ("effect", ["amplitude_softening"])
     assert found.after.chi2_per_dof < 1.0
 
@@ -90,7 +89,7 @@ def test_a_treatment_that_ends_short_is_told_from_one_that_is_let_go(monkeypatch
     short = HiddenTreatmentNotGripped(begins_m=8e-3)
     monkeypatch.setattr(HiddenTreatmentNotGripped, "draw", classmethod(lambda cls, rng, at: short))
     case = draw_beam("treatment_not_gripped", 9932001, beam="bar")
-    found = diagnose_together([File(case.sweep, case.specimen)]).result
+    found = diagnose([File(case.sweep, case.specimen)]).result
     assert [e.name for e in found.effects] == ["treatment_not_gripped"]
     gap = found.effects[0].parameters["gap"]
     assert gap.value == pytest.approx(8e-3, abs=2 * gap.standard_error)

@@ -10,8 +10,8 @@ from fitting.dynamics.dynamic_stiffness import dynamic_stiffness
 from fitting.effects import CATALOGUE
 from fitting.planning.unseen import unseen
 from fitting.structures.small import widened_system_of
+from instrument.models.diagnosis import diagnose
 from instrument.models.files import File
-from instrument.models.together import diagnose_together
 
 
 def test_a_cable_at_the_mass_is_a_gain_and_a_stiffer_pad():
@@ -49,6 +49,6 @@ def test_softening_at_one_level_is_listed_as_what_may_be_there_unseen():
     specimen = pair(0.573, edges=True, tolerances={"mass": 1e-3, "core_thickness": 1e-3, "area": 1e-3})
     given = [File(sweep(specimen, softening=10.0, seed=1, points=80), specimen)]
     others = [name for name in CATALOGUE if name != "amplitude_softening"]
-    found = diagnose_together(given, without=others)
+    found = diagnose(given, without=others)
     assert found.result.verdict == "none"
     assert [one.name for one in unseen(found.result.rivals, found.effects)] == ["amplitude_softening"]

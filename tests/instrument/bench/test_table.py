@@ -47,8 +47,8 @@ def quick(monkeypatch, plate):
 
 
 def test_ratios_are_of_the_times_in_the_same_table(quick, monkeypatch, plate):
-    def diagnose(sweep, specimen, *, progress):
-        return SimpleNamespace(seconds=float(len(sweep)), setup_seconds=7.0)
+    def diagnose(files, *, progress):
+        return SimpleNamespace(seconds=float(len(files[0].sweep)), setup_seconds=7.0)
 
     monkeypatch.setattr(table, "diagnose", diagnose)
     monkeypatch.setattr(table, "elastic_root_sweep", lambda g, levels: Swept(levels))

@@ -33,11 +33,13 @@ def given(monkeypatch):
     """What the command hands on, in place of a diagnosis that takes its time."""
     seen = {}
 
-    def stub(sweep, specimen, hammer, without, progress, accept, **how):
-        seen.update(sweep=sweep, specimen=specimen, hammer=hammer, without=without, accept=accept, **how)
+    def stub(files, hammer, without, progress, accept, resamples):
+        (one,) = files
+        seen.update(sweep=one.sweep, specimen=one.specimen, hammer=hammer, without=without, accept=accept)
+        seen.update(resamples=resamples)
         return diagnosed(some_sweep())
 
-    monkeypatch.setattr(command, "diagnose_sweep", stub)
+    monkeypatch.setattr(command, "diagnose_files", stub)
     monkeypatch.setattr(command, "diagnosis_from", lambda found: diagnosis())
     return seen
 

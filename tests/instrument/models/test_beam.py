@@ -10,9 +10,9 @@ from fitting.sweep import Sweep, segments_by_gap
 from instrument.cli.main import run
 from instrument.errors import BadInput
 from instrument.files.structure_file import read_structure
+from instrument.models.diagnosis import diagnose
 from instrument.models.files import File
 from instrument.models.identification import identify
-from instrument.models.together import diagnose_together
 
 
 @pytest.fixture
@@ -44,7 +44,7 @@ def test_a_sandwich_beam_gives_its_law(beam):
 
 @among("gain_error", "added_mass", "phase_scale")
 def test_a_gain_is_named_on_a_beam(beam, without):
-    found = diagnose_together([File(sweep_of(beam, factor=1.05), beam)], without=without).result
+    found = diagnose([File(sweep_of(beam, factor=1.05), beam)], without=without).result
     assert found.verdict in ("effect", "ambiguous")
     assert found.effects[0].name == "gain_error"
     assert found.effects[0].parameters["factor"].value == pytest.approx(1.05, abs=0.01)

@@ -13,9 +13,9 @@ from fitting.stated.layers import Core, Face
 from fitting.structures import Beam
 from fitting.structures.small import widened_system_of
 from fitting.sweep import Sweep
+from instrument.models.diagnosis import diagnose
 from instrument.models.files import File, spots_of
 from instrument.models.identification import identify
-from instrument.models.together import diagnose_together
 
 TRUTH = LAWS["fractional-zener"](0.45e6, 7e6, 7e-5, 0.62)
 STATED = LAWS["fractional-zener"](0.3e6, 5e6, 1e-4, 0.7)
@@ -76,7 +76,7 @@ MASS = {"mass": 3e-3, "x": 0.16}, {"mass": 3e-4, "x": 1e-3}
 )
 def test_what_is_hidden_is_named_with_its_size_and_place(beam, name, hidden, found_within, without):
     files = [File(read(beam, name, list(hidden.values()), 1), beam)]
-    result = diagnose_together(files, without=without).result
+    result = diagnose(files, without=without).result
     assert result.effects[0].name == name
     for key, within in found_within.items():
         assert result.effects[0].parameters[key].value == pytest.approx(hidden[key], abs=within)
@@ -88,7 +88,7 @@ def test_what_is_hidden_is_named_with_its_size_and_place(beam, name, hidden, fou
 
 @pytest.mark.long
 def test_a_clean_free_beam_struck_at_a_point_has_nothing():
-    result = diagnose_together([File(read(FREE, None, (), 3), FREE)]).result
+    result = diagnose([File(read(FREE, None, (), 3), FREE)]).result
     assert result.verdict == "none"
     assert max(off(result.after.law)) < 0.08
 
@@ -119,7 +119,7 @@ def test_a_reading_lost_at_one_spot_of_a_file_is_said_with_the_spot():
     spoiled = files[1].sweep.velocity_m_s.copy()
     spoiled[60] *= 3
     files[1] = replace(files[1], sweep=replace(files[1].sweep, velocity_m_s=spoiled))
-    result = diagnose_together(files, accept=[]).result
+    result = diagnose(files, accept=[]).result
     (lost,) = [one for one in result.channels if one.name == "signal_dropout"]
     assert lost.parameters["pickup"].value == 1
     assert "at pickup 1 one reading leaves" in " ".join(result.explanation).lower()

@@ -13,9 +13,9 @@ from fitting.structures.beam import Beam
 from fitting.structures.small import system_of
 from fitting.structures.small_sum import rational_of
 from fitting.sweep import Sweep
+from instrument.models.diagnosis import diagnose
 from instrument.models.files import File
 from instrument.models.identification import identify
-from instrument.models.together import diagnose_together
 
 ALUMINIUM = Face(2e-3, 70e9, 0.3, 2700.0)
 TRUTH = LAWS["fractional-zener"](1.2e8, 9e8, 6e-5, 0.5)
@@ -38,7 +38,7 @@ def absolute(frequency_hz=FREQUENCY_HZ):
 
 def test_stated_numbers_that_a_lost_fit_had_moved_do_not_stay_where_the_cause_is_found():
     others = [name for name in CATALOGUE if name != "absolute_velocity"]
-    found = diagnose_together([File(absolute(), OBERST)], others).result
+    found = diagnose([File(absolute(), OBERST)], others).result
     assert found.verdict == "effect"
     assert [e.name for e in found.effects] == ["absolute_velocity"]
     w = 2 * np.pi * np.array([30.0, 100.0, 300.0, 1000.0])
@@ -47,7 +47,7 @@ def test_stated_numbers_that_a_lost_fit_had_moved_do_not_stay_where_the_cause_is
     assert all(abs(one.pull) < 1 for one in found.after.adjusted)
 
 
-@pytest.mark.parametrize("command", [identify, diagnose_together])
+@pytest.mark.parametrize("command", [identify, diagnose])
 def test_a_bare_beam_has_no_core_to_find(command):
     with pytest.raises(OutsideModel, match="no core"):
         command([File(absolute(), replace(OBERST, core=None))])

@@ -19,6 +19,7 @@ from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.diagnosis import diagnose
 from instrument.models.effect_names import effects_among, effects_on
+from instrument.models.files import File
 from instrument.models.other_processes import VARIABLE
 from instrument.paper_case import case_file
 from tests.beam_temperatures import beam
@@ -80,7 +81,7 @@ RIVALS = "spot_offset", "gain_error", "added_mass", "base_rocking", "channel_del
 @pytest.fixture(scope="module")
 def shifted_spot():
     """What is said of the file with a shifted spot, the specimen exact."""
-    return diagnose(every(3, practice("005")), plate_of_the_rig()).result
+    return diagnose([File(every(3, practice("005")), plate_of_the_rig())]).result
 
 
 def test_a_hidden_effect_is_named_and_the_law_put_right(shifted_spot):
@@ -100,7 +101,7 @@ def test_a_hidden_effect_is_named_and_the_law_put_right(shifted_spot):
 @among(*RIVALS)
 def test_numbers_that_may_be_otherwise_do_not_hide_it(without):
     effects, law = PRACTICE["005"]
-    found = diagnose(every(4, practice("005")), as_a_laboratory_states_it(), without=without).result
+    found = diagnose([File(every(4, practice("005")), as_a_laboratory_states_it())], without=without).result
     assert {e.name for e in found.effects} == effects
     band, true = found.after.band, FractionalZener(*law)
     off = np.abs(band.storage_modulus_pa - true.modulus(2 * np.pi * band.frequency_hz).real)
@@ -114,7 +115,7 @@ def test_numbers_that_may_be_otherwise_do_not_hide_it(without):
 def test_what_only_fits_is_refused_and_said_to_be_nearest():
     """A shifted spot is well imitated by a gain beside a mass: their chi-square per degree is 1.2."""
     without = all_but("gain_error", "added_mass")
-    found = diagnose(every(2, practice("005")), plate_of_the_rig(), without=without).result
+    found = diagnose([File(every(2, practice("005")), plate_of_the_rig())], without=without).result
     assert found.verdict == "unknown"
     assert min(c.chi2_per_dof for c in found.candidates if c.name != UNLISTED) < 1.25
     assert "gain_error with added_mass, would leave such data once in" in " ".join(found.explanation)
@@ -124,7 +125,7 @@ def test_where_all_that_lead_fail_every_place_is_tried():
     """The mass's own place promises least of seven by a linear step."""
     case = draw("added_mass", 96002)
     plate = replace(case.specimen, elements=MESH)
-    found = diagnose(case.sweep, plate, without=all_but("added_mass")).result
+    found = diagnose([File(case.sweep, plate)], without=all_but("added_mass")).result
     (mass,) = found.effects
     place = mass.parameters["x"].value, mass.parameters["y"].value
     truth = case.truth.effects["added_mass"]
@@ -134,7 +135,7 @@ def test_where_all_that_lead_fail_every_place_is_tried():
 def test_one_mass_is_not_taken_for_two():
     """From the law without it a single mass ends elsewhere; a search for two comes upon its place."""
     found = diagnose(
-        every(2, practice("007")), plate_of_the_rig(), without=all_but("added_mass", "added_masses")
+        [File(every(2, practice("007")), plate_of_the_rig())], without=all_but("added_mass", "added_masses")
     ).result
     (mass,) = found.effects
     assert (found.verdict, mass.name) == ("effect", "added_mass")
@@ -145,7 +146,7 @@ def test_one_mass_is_not_taken_for_two():
 def test_a_rival_that_promises_little_by_a_linear_step_is_followed_all_the_same():
     """Beside a tether that explains everything a drift promises nothing, and then explains more."""
     case = draw_case("temperature_drift", 700038)
-    found = diagnose(case.sweep, case.specimen, without=all_but("tether", "temperature_drift")).result
+    found = diagnose([File(case.sweep, case.specimen)], without=all_but("tether", "temperature_drift")).result
     assert [e.name for e in found.effects] == ["temperature_drift"]
 
 
@@ -153,10 +154,10 @@ def test_a_rival_that_promises_little_by_a_linear_step_is_followed_all_the_same(
 def test_other_processes_change_nothing(monkeypatch, processes):
     some = all_but("gain_error", "channel_delay")
     sweep = every(4, practice("005"))
-    alone = diagnose(sweep, plate_of_the_rig(), without=some).result
+    alone = diagnose([File(sweep, plate_of_the_rig())], without=some).result
     assert len(alone.candidates) > len(CATALOGUE) - len(some)
     monkeypatch.setenv(VARIABLE, str(processes))
-    shared = diagnose(sweep, plate_of_the_rig(), without=some).result
+    shared = diagnose([File(sweep, plate_of_the_rig())], without=some).result
     assert repr(shared.candidates) == repr(alone.candidates)
     assert shared.explanation == alone.explanation
     assert np.array_equal(shared.after.law.values, alone.after.law.values)
@@ -171,7 +172,7 @@ def test_other_processes_change_nothing(monkeypatch, processes):
     ],
 )
 def test_a_clean_sweep_is_said_to_be_clean(stated, sure, without):
-    found = diagnose(practice("002"), stated(), without=without).result
+    found = diagnose([File(practice("002"), stated())], without=without).result
     assert found.verdict == "none"
     assert found.effects == ()
     assert found.after.law == found.before.law
@@ -192,7 +193,7 @@ def test_hum_and_a_wrong_level_are_seen_in_the_channels(kind):
 def test_nine_amplitudes_cannot_name_one_effect():
     plate = read_specimen(case_file("zn1.toml"))
     sweep = read_sweep(case_file("table5.csv")).sweep(plate.base_acceleration_m_s2)
-    found = diagnose(sweep, plate).result
+    found = diagnose([File(sweep, plate)]).result
     assert found.verdict == "none"
     assert found.before.rms_percent == pytest.approx(5.19, abs=0.02)
     assert found.before.validation.leave_one_out_rms_percent == pytest.approx(8.82, abs=0.05)
@@ -215,7 +216,7 @@ def test_nine_amplitudes_do_not_make_a_misfit_likely_where_much_is_uncertain():
     plate = replace(read_specimen(case_file("zn1.toml")), exact=False, elements=(10, 10))
     sweep = read_sweep(case_file("table5.csv")).sweep(plate.base_acceleration_m_s2)
     without = all_but("absolute_velocity", "gain_error")
-    found = diagnose(sweep, plate, without=without, resamples=0).result
+    found = diagnose([File(sweep, plate)], without=without, resamples=0).result
     assert found.verdict == "none"
     assert next(c.probability for c in found.candidates if c.name == "absolute_velocity") < 0.01
 
@@ -225,7 +226,7 @@ def test_of_few_points_it_is_said_what_a_search_finds_by_chance():
     sweep = read_sweep(case_file("table5.csv")).sweep(plate.base_acceleration_m_s2)
     sweep = sweep.take(np.arange(len(sweep)) % 3 > 0)
     without = all_but("gain_error")
-    found = diagnose(sweep, plate, without=without, resamples=2).result
+    found = diagnose([File(sweep, plate)], without=without, resamples=2).result
     assert found.verdict == "none"
     # Of two sweeps without any effect, and the one that was measured.
     assert found.p_value in (2 / 3, 1.0)
@@ -235,18 +236,20 @@ def test_of_few_points_it_is_said_what_a_search_finds_by_chance():
 
 
 def test_effects_are_accepted_and_declined_by_hand():
-    told = diagnose(practice("005"), plate_of_the_rig(), accept=("gain_error", "channel_delay")).result
+    given = [File(practice("005"), plate_of_the_rig())]
+    told = diagnose(given, accept=("gain_error", "channel_delay")).result
     assert told.verdict == "effect"
     assert [e.name for e in told.effects] == ["gain_error", "channel_delay"]
     assert "By your word" in " ".join(told.explanation)
     assert told.after.chi2_per_dof < told.before.chi2_per_dof
-    declined = diagnose(practice("005"), plate_of_the_rig(), accept=()).result
+    declined = diagnose(given, accept=()).result
     assert (declined.verdict, declined.effects) == ("none", ())
     assert declined.before.chi2_per_dof == pytest.approx(told.before.chi2_per_dof)
 
 
 def test_another_law_and_an_effect_beside_it_are_accepted_by_hand():
-    told = diagnose(practice("005"), plate_of_the_rig(), accept=("spot_offset", "core_law")).result
+    given = [File(practice("005"), plate_of_the_rig())]
+    told = diagnose(given, accept=("spot_offset", "core_law")).result
     assert {e.name for e in told.effects} == {"core_law", "spot_offset"}
     assert told.after.chi2_per_dof < 1.1
 
@@ -254,13 +257,16 @@ def test_another_law_and_an_effect_beside_it_are_accepted_by_hand():
 def test_unknown_names_and_bare_plates_are_refused():
     sweep = practice("002").take(np.arange(20))
     with pytest.raises(BadInput, match="effect 'gremlins', expected one of"):
-        diagnose(sweep, plate_of_the_rig(), without={"gremlins"})
+        diagnose([File(sweep, plate_of_the_rig())], without={"gremlins"})
     with pytest.raises(BadInput, match="effect 'gremlins', expected one of"):
-        diagnose(sweep, plate_of_the_rig(), accept=["gremlins"])
-    with pytest.raises(BadInput, match="both accepted and left out"):
-        diagnose(sweep, plate_of_the_rig(), accept=["core_law"], without=["core_law"])
+        diagnose([File(sweep, plate_of_the_rig())], accept=["gremlins"])
+    for given in ([File(sweep, plate_of_the_rig())], 2 * [File(sweep, plate_of_the_rig())]):
+        with pytest.raises(BadInput, match="both accepted and left out"):
+            diagnose(given, accept=["core_law"], without=["core_law"])
+    with pytest.raises(BadInput, match="resamples: expected one sweep of a plate at one spot"):
+        diagnose(given, resamples=2)
     with pytest.raises(OutsideModel, match="no core to diagnose"):
-        diagnose(sweep, plate_of_the_rig().bare)
+        diagnose([File(sweep, plate_of_the_rig().bare)])
 
 
 @pytest.mark.long
@@ -269,7 +275,7 @@ def test_a_segment_in_another_range_is_named_with_its_frequencies():
     off = np.where(sweep.segment == 2, 1.12, 1.0)
     off_there = replace(sweep, velocity_m_s=sweep.velocity_m_s * off)
     rivals = all_but("segment_gain", "gain_error", "added_mass", "partial_debond", "fixture_resonance")
-    result = diagnose(off_there, as_a_laboratory_states_it(), without=rivals).result
+    result = diagnose([File(off_there, as_a_laboratory_states_it())], without=rivals).result
     (effect,) = result.effects
     assert (result.verdict, effect.name) == ("effect", "segment_gain")
     factor = effect.parameters["factor"]
@@ -285,8 +291,8 @@ def test_readings_that_were_lost_leave_law_and_verdict_as_they_are():
     v = sweep.velocity_m_s.copy()
     v[[10, 11, 12, 13, 90, 150]] *= 0.02
     among_few = all_but("signal_dropout", "gain_error", "fixture_resonance")
-    clean = diagnose(sweep, plate, without=among_few).result
-    spoilt = diagnose(replace(sweep, velocity_m_s=v), plate, without=among_few).result
+    clean = diagnose([File(sweep, plate)], without=among_few).result
+    spoilt = diagnose([File(replace(sweep, velocity_m_s=v), plate)], without=among_few).result
     assert (clean.verdict, spoilt.verdict) == ("none", "none")
     (lost,) = spoilt.effects or spoilt.channels
     assert lost.name == "signal_dropout"

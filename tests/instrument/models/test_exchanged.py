@@ -9,10 +9,10 @@ from shear_pair_cases import pair, sweep
 
 from fitting.errors import OutsideModel
 from instrument.models import exchanged as exchange
+from instrument.models.diagnosis import diagnose
 from instrument.models.exchanged import exchanged, leaves_much
 from instrument.models.files import File
 from instrument.models.identification import identify
-from instrument.models.together import diagnose_together
 
 MASSES_KG = (0.2533, 0.573, 1.196)
 
@@ -64,7 +64,7 @@ def test_a_fit_that_leaves_as_much_as_its_readings_is_asked_whatever_its_noise()
 
 def test_diagnose_names_no_temperature_in_its_place():
     with pytest.raises(OutsideModel, match=r"each other's specimens.*exchange them"):
-        diagnose_together(files((0, 2, 1)))
+        diagnose(files((0, 2, 1)))
 
 
 def test_of_many_lines_some_are_looked_at(monkeypatch):

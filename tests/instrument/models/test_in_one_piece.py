@@ -40,7 +40,7 @@ def test_a_stretch_about_each_resonance_is_predicted_from_the_others_as_a_segmen
 
 def test_the_error_before_and_after_is_on_data_held_out(whole):
     some = as_one(whole.take(np.arange(0, len(whole), 3)))
-    found = diagnose(some, plate_of_the_rig(), without=all_but("spot_offset", "added_mass")).result
+    found = diagnose([File(some, plate_of_the_rig())], without=all_but("spot_offset", "added_mass")).result
     assert [e.name for e in found.effects] == ["spot_offset"]
     before, after = (s.validation.held_out_rms_percent for s in (found.before, found.after))
     assert after < 0.2 * before

@@ -72,7 +72,7 @@ def test_a_fit_that_is_lost_besides_says_so(coarse):
 def test_diagnose_refuses_the_law_it_ends_with(coarse):
     specimen = soft(coarse)
     with pytest.raises(OutsideModel, match="plate theory"):
-        diagnose(sweep_of(specimen), specimen, accept=())
+        diagnose([File(sweep_of(specimen), specimen)], accept=())
 
 
 def test_a_usual_core_is_identified_and_its_error_stated(coarse):

@@ -10,10 +10,10 @@ from shear_pair_cases import HEAVIER_KG, LAW, MASSES_KG, pair, sweep
 from fitting.planning.unseen import unseen
 from instrument.cli.output import Output
 from instrument.cli.print_identification import print_identification
+from instrument.models.diagnosis import diagnose
 from instrument.models.files import File
 from instrument.models.identification import identify
 from instrument.models.other_processes import VARIABLE
-from instrument.models.together import diagnose_together
 
 
 def files(masses=MASSES_KG, *, points=80, **more):
@@ -58,7 +58,7 @@ def test_four_masses_give_one_law_and_each_its_own_gain():
 
 
 def test_one_mass_stated_wrongly_and_the_modulus_are_one():
-    found = diagnose_together(files([0.573], more_kg=0.05 * 0.573)).result
+    found = diagnose(files([0.573], more_kg=0.05 * 0.573)).result
     assert found.verdict == "ambiguous"
     assert found.effects[0].name == "added_mass"
     assert found.equivalent["added_mass"] == ("added_mass", "none")
@@ -70,7 +70,7 @@ def test_one_mass_stated_wrongly_and_the_modulus_are_one():
 @among("added_mass", "gain_error", "channel_delay")
 def test_four_masses_name_what_all_of_them_lack(without):
     more = 0.05 * MASSES_KG[0]
-    found = diagnose_together(files(more_kg=more), without=without).result
+    found = diagnose(files(more_kg=more), without=without).result
     assert found.verdict == "effect"
     (effect,) = found.effects
     assert effect.name == "added_mass"
@@ -82,7 +82,7 @@ def test_four_masses_name_what_all_of_them_lack(without):
 @pytest.mark.long
 def test_a_common_mass_is_named_where_channels_wander_too():
     more = 0.05 * 0.573
-    found = diagnose_together(files(more_kg=more, wander=1e-3, points=160)).result
+    found = diagnose(files(more_kg=more, wander=1e-3, points=160)).result
     assert found.verdict == "effect"
     (effect,) = found.effects
     assert effect.name == "added_mass"
@@ -92,7 +92,7 @@ def test_a_common_mass_is_named_where_channels_wander_too():
 
 def test_one_mass_with_wandering_channels_names_nothing():
     given = files([0.573], more_kg=0.05 * 0.573, wander=1e-3, points=160)
-    found = diagnose_together(given).result
+    found = diagnose(given).result
     assert found.verdict == "ambiguous"
 
 
@@ -101,7 +101,7 @@ def test_a_mass_of_one_file_is_that_file_s_or_its_core_was_warmer(without):
     # 5 per cent in mass is 0.8 K: readings cannot tell them, chi-squares differ by one.
     given = files()
     given[2] = File(sweep(pair(0.573), seed=2, points=80, more_kg=0.05 * 0.573), pair(0.573))
-    found = diagnose_together(given, without=without).result
+    found = diagnose(given, without=without).result
     assert found.verdict == "ambiguous"
     assert set(found.equivalent["added_mass"]) == {"added_mass", "temperature_difference"}
     mass = found.effects[0].parameters["mass"]
@@ -128,7 +128,7 @@ def test_files_whose_cores_were_apart_are_no_mass(warmer, without):
         own = pair(mass)
         warm = replace(own, core=replace(own.core, law=at(kelvin)))
         given.append(File(sweep(warm, seed=k, points=80), own))
-    found = diagnose_together(given, without=without).result
+    found = diagnose(given, without=without).result
     assert found.effects[0].name == "temperature_difference"
     assert "none" not in found.equivalent["temperature_difference"]
     (band,) = [found.after.band]
@@ -144,7 +144,7 @@ def test_a_tenth_of_a_kelvin_between_files_is_no_effect():
         own = pair(mass)
         warm = replace(own, core=replace(own.core, law=at(kelvin)))
         given.append(File(sweep(warm, seed=k, points=80), own))
-    assert diagnose_together(given).result.verdict == "none"
+    assert diagnose(given).result.verdict == "none"
 
 
 def turned(degrees, masses=HEAVIER_KG):
@@ -157,7 +157,7 @@ def turned(degrees, masses=HEAVIER_KG):
 @among("phase_offset", "phase_scale", "gain_error", "channel_delay")
 def test_an_angle_between_two_accelerometers_is_not_taken_for_the_core(without):
     # With time stamps a gain and a drift did as well: certain, and the modulus off by a quarter.
-    found = diagnose_together(turned(-3.0), without=without).result
+    found = diagnose(turned(-3.0), without=without).result
     (effect,) = found.effects
     # The prior of the angle alone speaks for it: the law takes up what it does to the readings.
     assert found.equivalent == {"phase_offset": ("phase_offset", "unlisted")}
@@ -168,7 +168,7 @@ def test_an_angle_between_two_accelerometers_is_not_taken_for_the_core(without):
 
 @among("phase_offset", "phase_scale", "gain_error", "channel_delay")
 def test_an_angle_of_four_deviations_is_an_effect_or_the_tolerance_of_one(without):
-    found = diagnose_together(turned(-2.0), without=without).result
+    found = diagnose(turned(-2.0), without=without).result
     assert found.equivalent == {"phase_offset": ("phase_offset", "none", "unlisted")}
     assert law_error(found.after.law).max() < 0.02
 
@@ -197,7 +197,7 @@ def test_one_mass_leaves_an_angle_to_the_band_of_the_loss_factor():
 @pytest.mark.parametrize("masses", [[0.573], HEAVIER_KG])
 def test_what_may_hide_in_a_pair_s_law_is_said(masses):
     among_these = all_but("channel_delay", "gain_error")
-    found = diagnose_together(files(masses, points=40), without=among_these)
+    found = diagnose(files(masses, points=40), without=among_these)
     hidden = {one.name: one for one in unseen(found.result.rivals, found.effects)}
     # One mass over another is all that is read: a law follows a delay, and three masses part them.
     assert ("channel_delay" in hidden) == (len(masses) == 1)
@@ -205,7 +205,7 @@ def test_what_may_hide_in_a_pair_s_law_is_said(masses):
 
 
 def test_four_masses_as_stated_leave_nothing():
-    assert diagnose_together(files(points=40)).result.verdict == "none"
+    assert diagnose(files(points=40)).result.verdict == "none"
 
 
 def softened(*levels):
@@ -215,14 +215,14 @@ def softened(*levels):
 
 def test_softening_is_not_told_from_one_level():
     rivals = all_but("amplitude_softening", "added_mass", "gain_error")
-    one = diagnose_together(softened(9.81), without=rivals).result
+    one = diagnose(softened(9.81), without=rivals).result
     assert "amplitude_softening" not in {e.name for e in one.effects}
 
 
 @pytest.mark.long
 @among("amplitude_softening", "added_mass", "gain_error")
 def test_softening_is_told_by_two_levels(without):
-    two = diagnose_together(softened(9.81, 2.5), without=without).result
+    two = diagnose(softened(9.81, 2.5), without=without).result
     assert two.verdict == "effect"
     assert two.effects[0].name == "amplitude_softening"
 
@@ -235,7 +235,7 @@ def test_what_softens_at_a_strain_does_so_under_every_mass():
         for k, (m, a) in enumerate((m, a) for m in (0.2, 0.5, 1.2) for a in (9.81, 2.5))
     ]
     rivals = all_but("amplitude_softening", "added_mass", "temperature_difference", "gain_error")
-    found = diagnose_together(given, without=rivals).result
+    found = diagnose(given, without=rivals).result
     (effect,) = found.effects
     assert effect.name == "amplitude_softening"
     assert effect.parameters["file"].value == 0
@@ -287,7 +287,7 @@ def test_a_sensor_on_wax_is_not_taken_for_the_core(without, on_base):
         rises = 1 / (1 - (file.sweep.frequency_hz / f_0) ** 2)
         factor = 1 / rises if on_base else rises
         given.append(replace(file, sweep=replace(file.sweep, velocity_m_s=factor * file.sweep.velocity_m_s)))
-    found = diagnose_together(given, without=without).result
+    found = diagnose(given, without=without).result
     # It shows by too little for its formula to be tested.
     assert found.equivalent == {"sensor_mounting": ("sensor_mounting", "unlisted")}
     (effect,) = found.effects

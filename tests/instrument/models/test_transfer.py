@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from shear_pair_cases import HEAVIER_KG, LAW, fixture_factor, pair, sweeps_of_masses
 
+from instrument.models.diagnosis import diagnose
 from instrument.models.files import File
 from instrument.models.files_at_work import FilesAtWork
-from instrument.models.together import diagnose_together
 from instrument.models.transfer import with_transfer
 from instrument.progress import quiet
 
@@ -28,7 +28,7 @@ def law_off(band):
 def test_only_what_all_files_have_in_common_is_listed_and_changes_the_law(alike):
     given = files(alike=alike)
     # Nothing searched: as where the catalogue has explained nothing.
-    before = diagnose_together(given, accept=[]).result
+    before = diagnose(given, accept=[]).result
     work = FilesAtWork(given, quiet, with_effects=True)
     work.used = np.split(before.used, np.cumsum([len(one.sweep) for one in given])[:-1])
     found = with_transfer(before, work)
@@ -50,7 +50,7 @@ def test_only_what_all_files_have_in_common_is_listed_and_changes_the_law(alike)
 
 def test_a_factor_that_leaves_more_than_the_law_alone_changes_nothing():
     given = files(alike=True)
-    before = diagnose_together(given, accept=[]).result
+    before = diagnose(given, accept=[]).result
     # As if the law alone had left less.
     better = replace(before, before=replace(before.before, chi2_per_dof=1e-3))
     work = FilesAtWork(given, quiet, with_effects=True)

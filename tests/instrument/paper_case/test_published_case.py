@@ -55,7 +55,7 @@ def test_both_methods_one_without_viscous_damping_and_a_diagnosis_are_of_table_5
         return len(asked)
 
     monkeypatch.setattr(demo, "identify", identify)
-    monkeypatch.setattr(demo, "diagnose", lambda sweep, specimen, progress: (len(sweep), specimen))
+    monkeypatch.setattr(demo, "diagnose", lambda files, progress: (len(files[0].sweep), files[0].specimen))
     made = run_paper_case()
     assert asked == [("direct", zn1.modal_ratios), ("paper", zn1.modal_ratios), ("direct", ())]
     assert (made.direct, made.paper, made.undamped) == (1, 2, 3)
