@@ -61,7 +61,7 @@ class AloneSweep:
         """As `members.Alone`, the model's error made for what it then predicts."""
         b = self.begun
         candidate = CandidateFit(b.problem, b.evidence, b.none, effect)
-        rough = min([*candidate.near[:1], *candidate.far[:1]], key=by_chi2)
+        rough = min([*candidate.fit_near()[:1], *candidate.fit_far()[:1]], key=by_chi2)
         found = candidate.finished(rough)
         problem, v = b.problem.around(found.law), found.velocity_m_s
         wrong = model_error(problem, self.reduced, found.law, v)

@@ -128,12 +128,12 @@ class CandidateFits(WideFits):
     def look_first(self, name: str) -> State:
         """What a first look at an effect promises."""
         for candidate in self.candidates[name]:
-            _ = candidate.starts
+            candidate.find_starts()
         return self.state(name)
 
     def promise(self, name: str) -> float:
         """Chi-square that an effect may gain by one linear step."""
-        return max((c.promise for c in self.candidates[name]), default=0.0)
+        return max((c.promise() for c in self.candidates[name]), default=0.0)
 
     def begin(self, asked: OfEffect) -> FirstLook:
         """An effect's rough fits near by, or its other laws in the place of the stated one."""
@@ -141,7 +141,7 @@ class CandidateFits(WideFits):
         if self.effects[name].laws(self.none.law, self.problem.points):
             return FirstLook(name, self.fit_other_laws(self.effects[name]), [])
         self.learn(name, state)
-        fits = [f for candidate in self.candidates[name] for f in candidate.near]
+        fits = [f for candidate in self.candidates[name] for f in candidate.fit_near()]
         return FirstLook(name, fits, self.state(name))
 
     def begin_beside_the_best(self, asked: BesideBest) -> FirstLook:
@@ -155,13 +155,15 @@ class CandidateFits(WideFits):
         astray = self.none.chi2_per_dof > STOPPING.wrong_law_chi2_per_dof
         share = STARTS.least_share_of_best_gain
         for candidate, from_there in zip(self.candidates[name], there, strict=True):
-            able = from_there.is_open or from_there.promise > share * (bare.chi2 - best.chi2)
-            near = [*candidate.briefly(), *(from_there.near if able else [])]
-            placed = has_place(candidate.effect) and candidate.promise > share * (self.none.chi2 - best.chi2)
+            able = from_there.is_open() or from_there.promise() > share * (bare.chi2 - best.chi2)
+            near = [*candidate.briefly(), *(from_there.fit_near() if able else [])]
+            placed = has_place(candidate.effect) and candidate.promise() > share * (
+                self.none.chi2 - best.chi2
+            )
             if astray and (placed or is_over_decades(candidate.effect)):
-                near += candidate.quick
+                near += candidate.fit_quickly()
             candidate.learn(CandidateState(near=sorted(near, key=by_chi2)))
-        return FirstLook(name, [f for c in self.candidates[name] for f in c.near], self.state(name))
+        return FirstLook(name, [f for c in self.candidates[name] for f in c.fit_near()], self.state(name))
 
     def _from_the_law_of(
         self, best: Refitted, effects: Sequence[Effect]
@@ -174,13 +176,13 @@ class CandidateFits(WideFits):
     def fit_another_form(self, asked: FormFit) -> list[Refitted]:
         """Rough fits of a form from the law of another one of its effect that explains everything."""
         _, (there,) = self._from_the_law_of(asked.fitted, [self.form(asked.form)])
-        return there.near
+        return there.fit_near()
 
     def fit_plain(self, asked: OfEffect) -> State:
         """Fits of the first variant from plain starts."""
         name, state = asked
         self.learn(name, state)
-        _ = self.candidates[name][0].plain
+        self.candidates[name][0].fit_plain()
         return self.state(name)
 
     def best_near(self, name: str) -> list[FormFit]:
@@ -189,7 +191,7 @@ class CandidateFits(WideFits):
         What two forms leave after some steps does not say which of them is the likelier in the end.
         """
         forms = enumerate(self.candidates[name])
-        each = [FormFit((name, k), min(c.near, key=by_chi2)) for k, c in forms if c.near]
+        each = [FormFit((name, k), min(c.fit_near(), key=by_chi2)) for k, c in forms if c.fit_near()]
         best = _best_first(each)
         return [
             one
@@ -199,7 +201,7 @@ class CandidateFits(WideFits):
 
     def on_the_way(self, name: str) -> list[FormFit]:
         """The best of an effect's rough fits that had not come to their end, or none."""
-        fits = [FormFit((name, k), f) for k, c in enumerate(self.candidates[name]) for f in c.near]
+        fits = [FormFit((name, k), f) for k, c in enumerate(self.candidates[name]) for f in c.fit_near()]
         return _best_first([one for one in fits if not one.fitted.converged])[:1]
 
     def goal(self, best: Refitted) -> float:
@@ -218,12 +220,12 @@ class CandidateFits(WideFits):
 
         With the chi-square that they must come below to be among the best few of its rough fits.
         """
-        rough = sorted(f.chi2 for c in self.candidates[name] for f in c.near)[: STARTS.finished]
+        rough = sorted(f.chi2 for c in self.candidates[name] for f in c.fit_near())[: STARTS.finished]
         rival = rough[-1] if len(rough) == STARTS.finished else np.inf
         found = []
         for k, c in enumerate(self.candidates[name]):
-            starts = [] if c.known.elsewhere is not None else [*c.further_starts]
-            found += [FormStart((name, k), s, rival) for s in [*starts, *(c.last_starts if every else [])]]
+            starts = [] if c.known.elsewhere is not None else [*c.further_starts()]
+            found += [FormStart((name, k), s, rival) for s in [*starts, *(c.last_starts() if every else [])]]
         return found
 
     def set_out(self, asked: FormStart) -> Refitted:
@@ -241,8 +243,8 @@ class CandidateFits(WideFits):
         (name, number), known = asked
         candidate = self.candidates[name][number]
         candidate.learn(known)
-        far = candidate.far
-        return CandidateState(plain=candidate.plain, far=far)
+        far = candidate.fit_far()
+        return CandidateState(plain=candidate.fit_plain(), far=far)
 
     def thorough(self, name: str, *, astray: bool) -> list[FormFit]:
         """The best of an effect's rough fits, but for those that have been followed to their end.
@@ -251,14 +253,16 @@ class CandidateFits(WideFits):
         """
         forms = [((name, k), c) for k, c in enumerate(self.candidates[name])]
         gone = self.best_near(name)
-        near = _best_first([FormFit(form, f) for form, c in forms for f in [*c.near, *c.elsewhere]])
+        near = _best_first(
+            [FormFit(form, f) for form, c in forms for f in [*c.fit_near(), *c.fit_elsewhere()]]
+        )
         near = [one for one in near[: STARTS.finished] if one not in gone]
         return [*near, *(self.from_stated(name) if astray else [])]
 
     def from_stated(self, name: str) -> list[FormFit]:
         """The best of an effect's fits in wide valleys, begun from what is stated."""
         forms = [((name, k), c) for k, c in enumerate(self.candidates[name])]
-        return _best_first([FormFit(form, f) for form, c in forms for f in c.far])[: STARTS.finished]
+        return _best_first([FormFit(form, f) for form, c in forms for f in c.fit_far()])[: STARTS.finished]
 
     def elsewhere(self, name: str) -> list[FormFit]:
         """Its rough fits from further starts, as far as they have been followed."""
@@ -279,7 +283,7 @@ class CandidateFits(WideFits):
         before, form, starts, goal = asked
         effect = self.form(form)
         candidate = CandidateFit(self.problem, self.evidence, before, effect, starts, goal, one=True)
-        return candidate.near[0] if candidate.near else None
+        return next(iter(candidate.fit_near()), None)
 
     def evaluate_alone(self, asked: OneOfPair) -> Refitted:
         """One effect of a pair as the pair has it, law and all, the other one taken away."""

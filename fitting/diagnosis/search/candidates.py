@@ -37,7 +37,7 @@ class CandidateState:
 
 
 class CandidateFit:
-    """Fits of the data with one more effect, as far as anyone asked for them."""
+    """Fits of the data with one more effect, as far as anyone asked for them: what was found is kept."""
 
     def __init__(
         self,
@@ -57,6 +57,7 @@ class CandidateFit:
         self.problem, self.evidence, self.before = problem, evidence, before
         self.effect, self._goal, self._one = effect, goal, one
         self._known = CandidateState(starts)
+        self._quick: list[Refitted] | None = None
 
     @property
     def known(self) -> CandidateState:
@@ -68,8 +69,7 @@ class CandidateFit:
         found = {field.name: getattr(known, field.name) for field in fields(known)}
         self._known = replace(self._known, **{k: v for k, v in found.items() if v is not None})
 
-    @property
-    def starts(self) -> Sequence[Start]:
+    def find_starts(self) -> Sequence[Start]:
         """As `look` gives them."""
         if self._known.starts is None:
             self._known.starts = look(self.problem, self.evidence, self.before, self.effect)
@@ -108,19 +108,18 @@ class CandidateFit:
         """The law so far, or the usual one nearest to it: at its limits it is no place to begin."""
         return within_search(self.before.law, self.problem.points.omega)
 
-    @property
-    def near(self) -> list[Refitted]:
+    def fit_near(self) -> list[Refitted]:
         """Rough fits from the law so far and the starts that promise most; best first."""
         if self._known.near is None:
-            starts = enumerate(self.starts[: self._first])
+            starts = enumerate(self.find_starts()[: self._first])
             promising = [
-                s for k, s in starts if not k or self._is_told_nothing(s) or s[0] > self._least_promise
+                s for k, s in starts if not k or self._is_told_nothing(s) or s[0] > self._least_promise()
             ]
             heard = {self._form(u) for _, u in promising}
             promising += [s for s in self._one_a_form() if self._form(s[1]) not in heard]
             near = self._from([*promising, *self._decades_off(promising)])
             if self.effect.from_afar:
-                near = sorted([*near, *self.quick], key=by_chi2)
+                near = sorted([*near, *self.fit_quickly()], key=by_chi2)
             self._known.near = near
         return self._known.near
 
@@ -144,7 +143,8 @@ class CandidateFit:
         is tried once.
         """
         best: dict[tuple[float, ...], Start] = {}
-        for start in self.starts[:1] if has_place(self.effect) else self.starts:
+        starts = self.find_starts()
+        for start in starts[:1] if has_place(self.effect) else starts:
             best.setdefault(self._form(start[1]), start)
         return list(best.values())
 
@@ -152,46 +152,40 @@ class CandidateFit:
         """Which of an effect's forms a start is of: its values that are not fitted."""
         return tuple(float(x) for x, q in zip(u, self.effect.parameters, strict=True) if q.fixed)
 
-    @property
     def promise(self) -> float:
         """Chi-square that the best start may gain."""
-        return self.starts[0][0] if self.starts else 0.0
+        return next((promise for promise, _ in self.find_starts()), 0.0)
 
-    @property
     def is_open(self) -> bool:
         """Whether a linear step cannot tell what an effect may gain; of many places the best one counts."""
-        starts = self.starts[:1] if has_place(self.effect) else self.starts
-        return any(promise == 0 for promise, _ in starts)
+        starts = self.find_starts()
+        return any(promise == 0 for promise, _ in (starts[:1] if has_place(self.effect) else starts))
 
     def briefly(self) -> list[Refitted]:
         """A few steps from the best start of each form: where the effect cannot be what is looked for."""
         return [self._rough(self._law, u, brief=True) for _, u in self._one_a_form()]
 
-    @property
-    def elsewhere(self) -> list[Refitted]:
-        """The same from some more starts of an effect whose place is to be found: valleys are many."""
+    def fit_elsewhere(self) -> list[Refitted]:
+        """Rough fits from some more starts of an effect whose place is to be found: valleys are many."""
         if self._known.elsewhere is None:
-            self._known.elsewhere = self._from(self.further_starts)
+            self._known.elsewhere = self._from(self.further_starts())
         return self._known.elsewhere
 
-    @property
     def further_starts(self) -> Sequence[Start]:
-        """The starts that the fits of `elsewhere` begin from."""
-        return self.starts[self._first : self._first + self._more]
+        """The starts that the fits of `fit_elsewhere` begin from."""
+        return self.find_starts()[self._first : self._first + self._more]
 
-    @property
     def last_starts(self) -> Sequence[Start]:
         """Those that are left."""
         followed = self._first + self._more
-        return self.starts[followed : followed + STARTS.last]
+        return self.find_starts()[followed : followed + STARTS.last]
 
     def _is_told_nothing(self, start: Start) -> bool:
         return start[0] == 0 and not has_place(self.effect)
 
-    @property
     def _least_promise(self) -> float:
         """Chi-square that a further start must promise to be followed."""
-        return max(STARTS.least_promise, STARTS.least_share_of_best_promise * self.starts[0][0])
+        return max(STARTS.least_promise, STARTS.least_share_of_best_promise * self.find_starts()[0][0])
 
     @property
     def _first(self) -> int:
@@ -231,45 +225,44 @@ class CandidateFit:
             return begun
         return refit(self._response, self.evidence, begun.law, begun.u, tolerance=ROUGH, rival=rival)
 
-    @property
-    def plain(self) -> list[Refitted]:
+    def fit_plain(self) -> list[Refitted]:
         """Rough fits in wide valleys from the first start, from the law so far and the stated one."""
         if self._known.plain is None:
             self._known.plain = self._wide(self._first_start)
         return self._known.plain
 
-    @cached_property
-    def quick(self) -> list[Refitted]:
+    def fit_quickly(self) -> list[Refitted]:
         """One rough fit, begun in a wide valley from the better of the first and the most promising start.
 
         Of an effect with a place, from the best of the most promising ones.
         """
+        if self._quick is not None:
+            return self._quick
         if has_place(self.effect):
-            wide = min(self._wide_places(self._promising_places or [self._first_start]), key=by_chi2)
+            wide = min(self._wide_places(self._promising_places() or [self._first_start]), key=by_chi2)
         else:
-            starts = [self._first_start, *self._promising_elsewhere]
+            starts = [self._first_start, *self._promising_elsewhere()]
             wide = min((self._in_wide_valley(self._law, u) for u in starts), key=by_chi2)
         u = with_stated(self.problem, wide)
-        return [refit(self._response, self.evidence, wide.law, u, tolerance=ROUGH)]
+        self._quick = [refit(self._response, self.evidence, wide.law, u, tolerance=ROUGH)]
+        return self._quick
 
-    @property
-    def far(self) -> list[Refitted]:
-        """Those of `plain`, and from the starts that promise most.
+    def fit_far(self) -> list[Refitted]:
+        """Those of `fit_plain`, and from the starts that promise most.
 
         A linear step from a wrong law may lead astray: of places it says only which few to try.
         """
         if self._known.far is None:
             if has_place(self.effect):
-                places = [u for u in self._promising_places if not np.array_equal(u, self._first_start)]
+                places = [u for u in self._promising_places() if not np.array_equal(u, self._first_start)]
                 begun = self._wide_places(places)
             else:
-                begun = [f for u in self._promising_elsewhere for f in self._wide(u)]
-            self._known.far = sorted([*self.plain, *begun], key=by_chi2)
+                begun = [f for u in self._promising_elsewhere() for f in self._wide(u)]
+            self._known.far = sorted([*self.fit_plain(), *begun], key=by_chi2)
         return self._known.far
 
-    @property
     def _promising_places(self) -> list[Array]:
-        return [u for _, u in self.starts[: STARTS.followed_with_place]]
+        return [u for _, u in self.find_starts()[: STARTS.followed_with_place]]
 
     def _wide_places(self, starts: Sequence[Array]) -> list[Refitted]:
         """In wide valleys, what has come furthest from some starts after a few steps; (parameters,) each."""
@@ -281,10 +274,9 @@ class CandidateFit:
     def _first_start(self) -> Array:
         return self.effect.starts(self.problem.plate, self.problem.points)[0]
 
-    @property
     def _promising_elsewhere(self) -> list[Array]:
         """The start that promises most, where it is not the first one: of that, a step may change nothing."""
-        return [u for _, u in self.starts[:1] if not np.array_equal(u, self._first_start)]
+        return [u for _, u in self.find_starts()[:1] if not np.array_equal(u, self._first_start)]
 
     def _wide(self, u: Array) -> list[Refitted]:
         return sorted((self._in_wide_valley(law, u) for law in self._laws), key=by_chi2)

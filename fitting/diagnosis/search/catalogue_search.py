@@ -324,7 +324,7 @@ class Search:
         """Effects by how well they do from plain starts, in wide valleys."""
         names = [e.name for e in self.beside_the_law if e.parameters]
         self.fit_plainly(names)
-        return sorted(names, key=lambda name: min(f.chi2 for f in self.work.candidates[name][0].plain))
+        return sorted(names, key=lambda name: min(f.chi2 for f in self.work.candidates[name][0].fit_plain()))
 
     def fitted_by_hand(self, effects: Sequence[Effect]) -> ScoredFit:
         """These effects together, none of them weighed."""
@@ -337,6 +337,6 @@ class Search:
                 continue
             forms = effect.forms(self.problem.points, self.problem.plate)
             candidates = [CandidateFit(self.problem, self.evidence, fitted, form) for form in forms]
-            fits = [c.finished(f) for c in candidates for f in [*c.near[:1], *c.far[:1]]]
+            fits = [c.finished(f) for c in candidates for f in [*c.fit_near()[:1], *c.fit_far()[:1]]]
             fitted = min(fits, key=by_chi2)
         return self.judged(fitted)

@@ -188,7 +188,7 @@ class Pairs:
         single = {e.name: e.extends if e.twice and e.extends else e.name for e in search.effects}
         first = sorted({single[name] for name in order if name in single} & single.keys())
         others = [self._others([name]) for name in first]
-        before = [work.candidates[name][0].plain[0] for name in first]
+        before = [work.candidates[name][0].fit_plain()[0] for name in first]
         asked = [Beside(fitted, forms) for fitted, forms in zip(before, others, strict=True)]
         starts = self._looks(work.look_wide, asked)
         beside = [(fitted, form) for fitted, forms in asked for form in forms]

@@ -30,7 +30,7 @@ def followed(monkeypatch, effect, *starts):
     """The unknowns that rough fits begin at."""
     monkeypatch.setattr(CandidateFit, "followed", lambda _, start: SimpleNamespace(chi2=start[0], u=start[1]))
     known = [(promise, np.array(u)) for promise, u in starts]
-    return [f.u.tolist() for f in CandidateFit(None, None, None, effect, known).near]
+    return [f.u.tolist() for f in CandidateFit(None, None, None, effect, known).fit_near()]
 
 
 def test_every_form_of_an_effect_is_followed_whatever_a_linear_step_promises(monkeypatch):
@@ -89,7 +89,7 @@ def test_of_springs_that_a_linear_step_makes_decades_stiffer_the_soft_ones_are_h
     monkeypatch.setattr(
         CandidateFit, "followed", lambda _, start: SimpleNamespace(chi2=-start[0], u=start[1])
     )
-    found = CandidateFit(problem, None, None, Springs(), starts).near
+    found = CandidateFit(problem, None, None, Springs(), starts).fit_near()
     assert [f.u.tolist() for f in found] == expected
 
 
@@ -101,7 +101,7 @@ def test_the_first_start_is_not_followed_again_where_it_is_the_most_promising_on
     one.problem = SimpleNamespace(plate=None, points=None)
     monkeypatch.setattr(TwoForms, "starts", lambda *_: [np.array([0.1, 0.0])])
     monkeypatch.setattr(CandidateFit, "_wide", lambda _, u: [SimpleNamespace(chi2=u[0])])
-    assert [f.chi2 for f in one.far] == begun
+    assert [f.chi2 for f in one.fit_far()] == begun
 
 
 def test_of_places_those_are_followed_in_wide_valleys_that_come_furthest_in_a_few_steps(monkeypatch):
@@ -114,7 +114,7 @@ def test_of_places_those_are_followed_in_wide_valleys_that_come_furthest_in_a_fe
         assert brief
         return SimpleNamespace(chi2=abs(u[1] - 0.2), effects=(), law=law, u=u, stated=0)
 
-    monkeypatch.setattr(CandidateFit, "plain", [])
+    monkeypatch.setattr(CandidateFit, "fit_plain", lambda _: [])
     monkeypatch.setattr(CandidateFit, "_first_start", promised[0][1])
     monkeypatch.setattr(CandidateFit, "_laws", (USUAL,))
     monkeypatch.setattr(
@@ -123,5 +123,5 @@ def test_of_places_those_are_followed_in_wide_valleys_that_come_furthest_in_a_fe
     monkeypatch.setattr(
         candidates, "in_wide_valley", lambda *args: followed.append(args[-1][1]) or SimpleNamespace(chi2=0.0)
     )
-    assert len(one.far) == 2
+    assert len(one.fit_far()) == 2
     assert sorted(followed) == [0.1, 0.3]

@@ -292,7 +292,9 @@ class Wanting(World):
 
     def __init__(self, names, **chi2):
         super().__init__(names, **chi2)
-        self.candidates = {e.name: [SimpleNamespace(effect=e, plain=[self.fit(e)])] for e in self.effects}
+        self.candidates = {
+            e.name: [SimpleNamespace(effect=e, fit_plain=lambda e=e: [self.fit(e)])] for e in self.effects
+        }
         self.followed, self.went_on = [], []
 
     def judged(self, fitted):
