@@ -134,7 +134,7 @@ class Driven(Generic[Point]):
 
 
 @dataclass(frozen=True)
-class Specimen(Driven[tuple[float, float]]):
+class PlateSpecimen(Driven[tuple[float, float]]):
     """A rectangular plate, bare (`core` and `constraining` None) or with a constrained core.
 
     x runs from the clamped edge, y from a long edge.
@@ -293,19 +293,19 @@ class Specimen(Driven[tuple[float, float]]):
         return n_x, n_y
 
     @property
-    def as_it_stands(self) -> "Specimen":
+    def as_it_stands(self) -> "PlateSpecimen":
         """The plate on its edges, masses and all, whatever drives it and wherever it is read."""
         stated = {name: size for name, size in self.tolerances.items() if name not in OF_DRIVE_AND_READING}
         at_rest = replace(self, force_m=None, pickup_m=None, further_pickups_m=(), tolerances=stated)
         return replace(at_rest, reads="relative", base_acceleration_m_s2=PUBLISHED_G_M_S2)
 
     @property
-    def bare(self) -> "Specimen":
+    def bare(self) -> "PlateSpecimen":
         """The plate before its damping treatment."""
         without = replace(self, constraining=None, core=None, patches=(), both_sides=False, masses=())
         return replace(without, faces_shear=False)
 
-    def with_law(self, law: CoreLaw) -> "Specimen":
+    def with_law(self, law: CoreLaw) -> "PlateSpecimen":
         """The plate with another core law. Raises `ValueError` for a bare one."""
         if self.core is None:
             raise ValueError("a bare plate has no core to give a law to")

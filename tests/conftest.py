@@ -21,7 +21,7 @@ from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.plate.plate import Plate
 from fitting.reduced.domain import domain_of
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
@@ -82,17 +82,17 @@ def cold(monkeypatch):
 
 
 @pytest.fixture(scope="session")
-def zn1() -> Specimen:
+def zn1() -> PlateSpecimen:
     return read_specimen(case_file("zn1.toml"))
 
 
 @pytest.fixture(scope="session")
-def zn1_table4(zn1) -> Specimen:
+def zn1_table4(zn1) -> PlateSpecimen:
     return zn1.with_law(TABLE_4)
 
 
 @pytest.fixture(scope="session")
-def coarse(zn1) -> Specimen:
+def coarse(zn1) -> PlateSpecimen:
     """The paper's plate on its own 10 x 10 mesh: quick."""
     return replace(zn1, elements=(10, 10))
 
@@ -131,11 +131,11 @@ def zn1_models(zn1, table5) -> Models:
 
 
 @pytest.fixture(scope="session")
-def johnson_kienholz() -> Specimen:
+def johnson_kienholz() -> PlateSpecimen:
     """Simply supported sandwich plate, Johnson and Kienholz 1982."""
     face = Face(thickness_m=0.762e-3, young_pa=68.9e9, poisson=0.3, density_kg_m3=2740.0)
     core = Core(0.254e-3, 0.49, 999.0, ConstantModulus(0.896e6, 0.5))
-    return Specimen(0.348, 0.3048, "simply-supported", face, face, core)
+    return PlateSpecimen(0.348, 0.3048, "simply-supported", face, face, core)
 
 
 @pytest.fixture

@@ -20,7 +20,7 @@ from fitting.laws.bent_law import LOSS, REACH, STORAGE
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.plate.plate import Plate
 from fitting.plate.plate_numbers import moved, plate_numbers, tolerance
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face
 from fitting.sweep import Sweep
 
@@ -36,7 +36,7 @@ def _face(thickness_mm, young_gpa, density):
 
 def _plate(sides_mm, boundary, substrate, core_mm, constraining, pickup, elements):
     a, b = (1e-3 * side for side in sides_mm)
-    return Specimen(
+    return PlateSpecimen(
         a,
         b,
         boundary,
@@ -78,7 +78,7 @@ class Drawn:
     """What a fit is given, and what it is not."""
 
     sweep: Sweep
-    stated: Specimen
+    stated: PlateSpecimen
     parameters: dict[str, float]
     """Of the law before it is bent."""
     frequency_hz: np.ndarray

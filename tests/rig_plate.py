@@ -6,13 +6,13 @@ apart as well.
 
 from dataclasses import replace
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.files.specimen_file import read_specimen
 from instrument.simulated_case import case_file
 
 MESH = (20, 12)
 
 
-def plate_of_the_rig() -> Specimen:
+def plate_of_the_rig() -> PlateSpecimen:
     """Its numbers exact; `replace(..., exact=False)`: each within its typical tolerance."""
     return replace(read_specimen(case_file("specimen.toml")), tolerances={}, elements=MESH)

@@ -1,6 +1,6 @@
 """A simply supported sandwich of aluminium, struck at a point and read at another; exact."""
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face
 
 ALUMINIUM = (70e9, 0.33, 2700.0)
@@ -8,7 +8,7 @@ ALUMINIUM = (70e9, 0.33, 2700.0)
 
 def supported(law, elements):
     """With a core of this law. `elements` along each side."""
-    return Specimen(
+    return PlateSpecimen(
         0.3,
         0.22,
         "simply-supported",

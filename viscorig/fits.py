@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import NamedTuple, TypeVar
 
 from fitting.identification.pointwise import phase_is_kept
-from fitting.specimen import Specimen as Model
+from fitting.specimen import PlateSpecimen as Model
 from fitting.sweep import Sweep as Points
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import ValidationError
 
 from fitting.errors import OutsideModel
-from fitting.specimen import Specimen as Model
+from fitting.specimen import PlateSpecimen as Model
 from instrument.errors import BadInput
 from instrument.files.law_table import with_rows
 from instrument.files.specimen_file import (

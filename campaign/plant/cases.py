@@ -33,7 +33,7 @@ from drivers.simulated.plant.effects import (
     ViscousDamping,
 )
 from fitting.arrays import Array, Complex
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.sweep import Sweep
 from instrument.files.specimen_file import read_specimen
 from instrument.simulated_case import case_file
@@ -82,7 +82,7 @@ class Case:
     kind: str
     seed: int
     sweep: Sweep
-    specimen: Specimen
+    specimen: PlateSpecimen
     """The published plate as a user describes it."""
     hammer: tuple[Array, Array] | None
     """Natural frequencies in Hz and ratios of the bare plate, for `fit_bare_plate`."""
@@ -90,7 +90,7 @@ class Case:
 
 
 @cache
-def nominal_specimen() -> Specimen:
+def nominal_specimen() -> PlateSpecimen:
     """The published plate with the published law as the start."""
     return read_specimen(case_file("specimen.toml"))
 

@@ -33,7 +33,7 @@ from campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
 from campaign.schedule import Schedule, draw_levels
 from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.sweep import Sweep
 
 NONE, PAIR = "none", "pair"
@@ -111,7 +111,7 @@ class PlateCase:
     seed: int
     exact: bool
     sweep: Sweep
-    specimen: Specimen
+    specimen: PlateSpecimen
     specimen_toml: str
     hammer_test: HammerTest | None
     truth: PlateTruth

@@ -11,7 +11,7 @@ from campaign.plates.cases import PlateCase
 from campaign.plates.geometry import plate_named
 from campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
 from fitting.effects import CATALOGUE
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.models.diagnosis import diagnose
 from instrument.models.files import File
 from instrument.models.identification import identify
@@ -47,12 +47,12 @@ def _diagnosed(case: PlateCase, without: Collection[str] = ()) -> Answer:
     return answer_from(diagnosis_from(found))
 
 
-def _like(case: PlateCase) -> Specimen | None:
+def _like(case: PlateCase) -> PlateSpecimen | None:
     return None if case.exact else models_of(case.truth.plate.name)
 
 
 @lru_cache
-def models_of(plate: str) -> Specimen:
+def models_of(plate: str) -> PlateSpecimen:
     """One statement of a plate, as far off the truth as any other: its models serve all of them."""
     rng = np.random.default_rng([_SEED, *plate.encode()])
     stated = specimen_from(toml(draw_stated(rng, plate_named(plate)), CAREFUL, _MIDDLE_HZ))

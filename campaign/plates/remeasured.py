@@ -22,7 +22,7 @@ from campaign.plates.stated import CAREFUL, STRUCK
 from campaign.plates.struck import LEFT_BEHIND, lines_about, mobility, struck_plate
 from campaign.schedule import Schedule
 from fitting.arrays import Array
-from fitting.specimen import PlacedMass, Specimen
+from fitting.specimen import PlacedMass, PlateSpecimen
 from fitting.stated.tolerances import STATED
 from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
@@ -55,7 +55,7 @@ _IN_THE_LASER = 0.5
 
 
 @lru_cache
-def _models(plate: str, spot_mm: tuple[float, float]) -> Specimen:
+def _models(plate: str, spot_mm: tuple[float, float]) -> PlateSpecimen:
     return replace(models_of(plate), pickup_m=(1e-3 * spot_mm[0], 1e-3 * spot_mm[1]))
 
 
@@ -97,9 +97,9 @@ class RemeasuredPlate:
         raise ValueError(f"{follow_up.kind} cannot be measured here")
 
     @property
-    def _stated(self) -> Specimen:
+    def _stated(self) -> PlateSpecimen:
         stated = self.files[0].specimen
-        assert isinstance(stated, Specimen)
+        assert isinstance(stated, PlateSpecimen)
         return stated
 
     def _built(self, truth: PlateTruth) -> ReducedSolid:
@@ -205,7 +205,12 @@ class RemeasuredPlate:
         return self._and_file(sweep, stated, like, struck=True)
 
     def _and_file(
-        self, sweep: Sweep, specimen: Specimen, like: Specimen | None = None, *, struck: bool = False
+        self,
+        sweep: Sweep,
+        specimen: PlateSpecimen,
+        like: PlateSpecimen | None = None,
+        *,
+        struck: bool = False,
     ) -> "RemeasuredPlate":
         files = [replace(f, number=f.number or 1) for f in self.files]
         number = max(f.number for f in files) + 1
@@ -226,21 +231,23 @@ def _by_spot(files: tuple[File, ...]) -> tuple[File, ...]:
 
 
 def _shaken_at(specimen: AnySpecimen) -> Place | None:
-    return specimen.pickup_m if isinstance(specimen, Specimen) and specimen.drive == "base" else None
+    return specimen.pickup_m if isinstance(specimen, PlateSpecimen) and specimen.drive == "base" else None
 
 
 def _staying(hidden: Sequence[Hidden], *, free: bool) -> list[Hidden]:
     return [h for h in hidden if not (free and h.place in LEFT_BEHIND)]
 
 
-def _stated_struck(stated: Specimen, force_m: Place, spot_m: Place | None, *, free: bool) -> Specimen:
+def _stated_struck(
+    stated: PlateSpecimen, force_m: Place, spot_m: Place | None, *, free: bool
+) -> PlateSpecimen:
     tolerances = {**stated.tolerances, "gain": STRUCK.gain}
     struck = replace(stated, force_m=force_m, pickup_m=spot_m or stated.pickup_m, tolerances=tolerances)
     return replace(struck, boundary="free", modal_ratios=()) if free else struck
 
 
 @lru_cache
-def _struck_models(plate: str, force_mm: Place, spot_mm: Place, *, free: bool) -> Specimen:
+def _struck_models(plate: str, force_mm: Place, spot_mm: Place, *, free: bool) -> PlateSpecimen:
     force, spot = ((1e-3 * x, 1e-3 * y) for x, y in (force_mm, spot_mm))
     like = replace(models_of(plate), force_m=force, pickup_m=spot)
     return replace(like, boundary="free") if free else like
@@ -266,12 +273,12 @@ def _aimed(
     return replace(truth, plate=replace(truth.plate, spot_m=(x, y)), effects=effects)
 
 
-def _near(true: TruePlate, specimen: Specimen, spot: tuple[float, float]) -> Specimen:
+def _near(true: TruePlate, specimen: PlateSpecimen, spot: tuple[float, float]) -> PlateSpecimen:
     """Models of that spot that serve every statement of the plate: the same share of its length and width."""
     return _models(true.name, _on_the_true(true, specimen, spot))
 
 
-def _on_the_true(true: TruePlate, specimen: Specimen, spot: Place) -> Place:
+def _on_the_true(true: TruePlate, specimen: PlateSpecimen, spot: Place) -> Place:
     """In mm, to a tenth."""
     shares = spot[0] / specimen.length_m, spot[1] / specimen.width_m
     return round(1e3 * shares[0] * true.length_m, 1), round(1e3 * shares[1] * true.width_m, 1)

@@ -8,7 +8,7 @@ import numpy as np
 
 from campaign.plates.geometry import DampingLayer, Metal, TruePlate
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.files.specimen_file import SpecimenDocument, specimen_of
 from instrument.impact.mobility import GAIN
 
@@ -149,6 +149,6 @@ def digits(value: float) -> str:
     return f"{value:.7g}"
 
 
-def specimen_from(text: str) -> Specimen:
+def specimen_from(text: str) -> PlateSpecimen:
     """What `viscorig` makes of the file."""
     return specimen_of(SpecimenDocument.model_validate(tomllib.loads(text)))

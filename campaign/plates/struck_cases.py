@@ -45,7 +45,7 @@ from campaign.plates.struck_readings import (
 )
 from fitting.arrays import Array, Complex
 from fitting.discrepancy.theory_error import theory_error
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.sweep import Sweep
 
 _FREE = 0.75
@@ -107,7 +107,7 @@ class StruckCase:
 
     seed: int
     sweep: Sweep
-    specimen: Specimen
+    specimen: PlateSpecimen
     specimen_toml: str
     truth: StruckTruth
     kind: str = NONE
@@ -178,7 +178,7 @@ def _held_by_theory(true: TruePlate, law: TrueLaw, frequency_hz: float) -> bool:
     return bool(theory_error(at, [frequency_hz], G).excess[0] < _THEORY)
 
 
-def _specimen_of(true: TruePlate) -> Specimen:
+def _specimen_of(true: TruePlate) -> PlateSpecimen:
     return specimen_from(_toml(true, (0.0, 0.0), (true.spot_m,), free=False, middle_hz=100.0))
 
 

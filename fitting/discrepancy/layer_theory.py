@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from fitting.arrays import Array, Complex
 from fitting.discrepancy.exact_layers import lowest
 from fitting.plate.face_shear import slip_of
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face, as_isotropic
 
 _STEPS = 30
@@ -25,13 +25,13 @@ _W, _B, _C, _S = np.eye(4)
 """Deflection, stretch of the two faces, slip that the faces take: the unknowns of a wave."""
 
 
-def layerwise_lambda(specimen: Specimen, k: ArrayLike, G: ArrayLike) -> Complex:
+def layerwise_lambda(specimen: PlateSpecimen, k: ArrayLike, G: ArrayLike) -> Complex:
     """omega^2 in (rad/s)^2 of the plate at wavenumbers `k` in 1/m and core moduli `G` in Pa. Shape (n,)."""
     value, _ = _lambda_and_slope(specimen, np.atleast_1d(np.asarray(k, dtype=float)), np.asarray(G))
     return value
 
 
-def wavenumber(specimen: Specimen, omega: ArrayLike, G: ArrayLike = 0.0) -> Array:
+def wavenumber(specimen: PlateSpecimen, omega: ArrayLike, G: ArrayLike = 0.0) -> Array:
     """Wave in 1/m that resonates at `omega` in rad/s: k where sqrt(Re lambda(k, G)) = omega. Shape (n,)."""
     omega = np.atleast_1d(np.asarray(omega, dtype=float))
     s = specimen
@@ -48,7 +48,7 @@ def wavenumber(specimen: Specimen, omega: ArrayLike, G: ArrayLike = 0.0) -> Arra
     return np.exp(log_k)
 
 
-def _lambda_and_slope(specimen: Specimen, k: Array, G: NDArray[np.generic]) -> tuple[Complex, Array]:
+def _lambda_and_slope(specimen: PlateSpecimen, k: Array, G: NDArray[np.generic]) -> tuple[Complex, Array]:
     """lambda, and d ln Re lambda / d ln k at fixed G. Shape (n,) each."""
     K_0, K_shear, M_0, M_1 = _matrices(specimen, np.broadcast_to(G, k.shape).astype(complex))
     k_2 = (k**2)[:, None, None]
@@ -74,7 +74,7 @@ def _plane(face: Face) -> complex:
     return face.young_pa * (1 + 1j * face.loss_factor) / (1 - face.poisson**2)
 
 
-def _matrices(specimen: Specimen, G: Complex) -> tuple[Complex, Complex, Array, Array]:
+def _matrices(specimen: PlateSpecimen, G: Complex) -> tuple[Complex, Complex, Array, Array]:
     """K = K_0 + K_shear/k^2 and M = M_0 + k^2 M_1 over the unknowns.
 
     Shapes (n, 4, 4), then (4, 4); 3 where faces do not shear.
@@ -112,7 +112,7 @@ def _matrices(specimen: Specimen, G: Complex) -> tuple[Complex, Complex, Array, 
 
 
 def _core_stiffness(
-    specimen: Specimen, v: Core, G: Complex, N_8: Array, U_b: Array
+    specimen: PlateSpecimen, v: Core, G: Complex, N_8: Array, U_b: Array
 ) -> tuple[Complex, Complex]:
     """The core's stretch and bending, a part of K_0, and its shear, one of K_shear. Shape (n, 4, 4) each."""
     H_v, sides = v.thickness_m, 2 if specimen.both_sides else 1

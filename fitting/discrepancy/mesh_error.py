@@ -24,7 +24,7 @@ from fitting.arrays import Array, Complex
 from fitting.plate.element import CORNERS, G_X, U_B, U_C, V_B, V_C
 from fitting.plate.element_matrices import element_matrices
 from fitting.plate.mesh import Mesh, mesh_of
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 
 _WAYS = np.radians([0.0, 45.0, 90.0])
 """From x."""
@@ -64,7 +64,7 @@ class MeshError:
     """The same of the loss factor."""
 
 
-def mesh_error(specimen: Specimen, wavenumber: Array, G: Complex) -> MeshError:
+def mesh_error(specimen: PlateSpecimen, wavenumber: Array, G: Complex) -> MeshError:
     """Of waves in 1/m, the core's moduli given, on a plate treated all over. Shape (waves,) both."""
     k, G = np.asarray(wavenumber, dtype=float), np.asarray(G, dtype=complex)
     found = []
@@ -81,7 +81,7 @@ def mesh_error(specimen: Specimen, wavenumber: Array, G: Complex) -> MeshError:
     return MeshError(*mean, *by_way)
 
 
-def beside_edges(specimen: Specimen, G: Complex, *, taken_off: bool = False) -> tuple[Array, Array]:
+def beside_edges(specimen: PlateSpecimen, G: Complex, *, taken_off: bool = False) -> tuple[Array, Array]:
     """Relative sizes, of frequencies and of loss factors, at core moduli; none of a bare plate.
 
     `taken_off`: of what is left where a mesh of half as many elements each way has said how much to take off.
@@ -97,7 +97,7 @@ def beside_edges(specimen: Specimen, G: Complex, *, taken_off: bool = False) -> 
     return np.asarray(frequency * share * left), np.asarray(loss * share * left)
 
 
-def fine_enough(specimen: Specimen, modulus_pa: float) -> tuple[int, int] | None:
+def fine_enough(specimen: PlateSpecimen, modulus_pa: float) -> tuple[int, int] | None:
     """Elements along x and y where so stiff a core asks for smaller ones than by default; else None.
 
     Of steel and aluminium about adhesives, laws from tables of six modes were 4 to 20 % off with the default
@@ -110,7 +110,7 @@ def fine_enough(specimen: Specimen, modulus_pa: float) -> tuple[int, int] | None
     return (round(finer * n_x), round(finer * n_y)) if finer > 1 else None
 
 
-def _over_sliding(specimen: Specimen, modulus_pa: Array) -> Array:
+def _over_sliding(specimen: PlateSpecimen, modulus_pa: Array) -> Array:
     """r: an element's longer side over the length within which faces slide. Shape of the modulus."""
     b, v, c = specimen.substrate, specimen.core, specimen.constraining
     assert v is not None
@@ -134,7 +134,7 @@ class _Node:
 
 
 @lru_cache(maxsize=32)
-def _node(specimen: Specimen, finer: int) -> _Node:
+def _node(specimen: PlateSpecimen, finer: int) -> _Node:
     n_x, n_y = specimen.mesh
     mesh = mesh_of(specimen)
     mesh = Mesh(mesh.length_m, mesh.width_m, finer * n_x, finer * n_y, mesh.dofs)

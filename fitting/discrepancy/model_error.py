@@ -12,7 +12,7 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.discrepancy.mesh_error import MeshError, beside_edges, mesh_error
 from fitting.discrepancy.theory_error import EDGE_FREQUENCY, EDGE_LOSS, theory_error
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 
 FREQUENCY = 3.5e-4
 """Of a resonance, relative: the scatter between plates."""
@@ -58,7 +58,7 @@ class ModelError:
 
 
 def model_error_at(
-    specimen: Specimen, frequency_hz: Array, G: Complex, *, of_mesh: bool = True
+    specimen: PlateSpecimen, frequency_hz: Array, G: Complex, *, of_mesh: bool = True
 ) -> ModelError:
     """Around some frequencies, the core's modulus there given. Shape (points,) each.
 

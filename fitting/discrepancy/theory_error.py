@@ -23,7 +23,7 @@ from fitting.discrepancy.exact_layers import ElasticLayer, exact_lambda
 from fitting.discrepancy.layer_theory import layerwise_lambda, wavenumber
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Face, Glue, as_isotropic
 
 FREQUENCY_LIMIT = 5e-3
@@ -113,7 +113,7 @@ class TheoryError:
         return bool(np.all(self.excess <= 1))
 
 
-def theory_error(specimen: Specimen, frequency_hz: ArrayLike, G: ArrayLike = 0.0) -> TheoryError:
+def theory_error(specimen: PlateSpecimen, frequency_hz: ArrayLike, G: ArrayLike = 0.0) -> TheoryError:
     """The error at frequencies in Hz where the core has the complex moduli `G` in Pa.
 
     `G` is one number or one for each frequency; a bare plate takes none.
@@ -135,7 +135,7 @@ def theory_error(specimen: Specimen, frequency_hz: ArrayLike, G: ArrayLike = 0.0
     )
 
 
-def thickness_error(specimen: Specimen, wavenumber: Array, G: Complex) -> tuple[Array, Array]:
+def thickness_error(specimen: PlateSpecimen, wavenumber: Array, G: Complex) -> tuple[Array, Array]:
     """What comes of layers that stretch across their thickness alone, all else exact: relative errors.
 
     Of the frequency and of the loss factor of waves (1/m), core moduli given. Shape (waves,) each.
@@ -143,14 +143,14 @@ def thickness_error(specimen: Specimen, wavenumber: Array, G: Complex) -> tuple[
     return _errors(*_held_and_exact(specimen, wavenumber, G))
 
 
-def _held_and_exact(specimen: Specimen, wavenumber: Array, G: Complex) -> tuple[Complex, Complex]:
+def _held_and_exact(specimen: PlateSpecimen, wavenumber: Array, G: Complex) -> tuple[Complex, Complex]:
     """Of waves whose layers do not stretch across their thickness, and of exact ones."""
     layers = stack(specimen, G)
     held = tuple(replace(x, stretches=False) for x in layers)
     return exact_lambda(held, wavenumber, _QUICK_ORDER), exact_lambda(layers, wavenumber, _QUICK_ORDER)
 
 
-def check_beam_theory(layers: Specimen, law: CoreLaw, frequency_hz: ArrayLike) -> TheoryError:
+def check_beam_theory(layers: PlateSpecimen, law: CoreLaw, frequency_hz: ArrayLike) -> TheoryError:
     """The error over a band of a sandwich beam: how well it is known what a core does that stretches across.
 
     `layers` is a plate of the same ones. Raises `OutsideModel` where it is beyond a plate's limits at the
@@ -178,7 +178,7 @@ def _faces_together() -> Assumption:
     return FACES_TOGETHER
 
 
-def check_theory(specimen: Specimen, law: CoreLaw | None, frequency_hz: ArrayLike) -> TheoryError:
+def check_theory(specimen: PlateSpecimen, law: CoreLaw | None, frequency_hz: ArrayLike) -> TheoryError:
     """The error over a band, where the layer-wise plate may be used; `law` None for a bare plate.
 
     Raises `OutsideModel` where a resonance or its loss factor would be further off than its limit.
@@ -190,7 +190,7 @@ def check_theory(specimen: Specimen, law: CoreLaw | None, frequency_hz: ArrayLik
     return error
 
 
-def stack(specimen: Specimen, G: ArrayLike = 0.0) -> tuple[ElasticLayer, ...]:
+def stack(specimen: PlateSpecimen, G: ArrayLike = 0.0) -> tuple[ElasticLayer, ...]:
     """The specimen's layers from the substrate upwards, the core with modulus `G` in Pa."""
     b, c, v = specimen.substrate, specimen.constraining, specimen.core
     if v is None or c is None:
@@ -202,7 +202,7 @@ def stack(specimen: Specimen, G: ArrayLike = 0.0) -> tuple[ElasticLayer, ...]:
     return (*below, _elastic(b), *above)
 
 
-def held_stack(specimen: Specimen, G: ArrayLike = 0.0) -> tuple[ElasticLayer, ...]:
+def held_stack(specimen: PlateSpecimen, G: ArrayLike = 0.0) -> tuple[ElasticLayer, ...]:
     """The same layers with all assumptions held but that of a linear core."""
     stiff = set() if specimen.faces_shear else _faces(specimen)
     return tuple(
@@ -211,7 +211,7 @@ def held_stack(specimen: Specimen, G: ArrayLike = 0.0) -> tuple[ElasticLayer, ..
     )
 
 
-def _faces(specimen: Specimen) -> set[int]:
+def _faces(specimen: PlateSpecimen) -> set[int]:
     """Places of the faces in the stack."""
     if specimen.core is None:
         return {0}
@@ -219,7 +219,7 @@ def _faces(specimen: Specimen) -> set[int]:
     return {0, step, 2 * step} if specimen.both_sides else {0, step}
 
 
-def _cores(specimen: Specimen) -> set[int]:
+def _cores(specimen: PlateSpecimen) -> set[int]:
     """Places of the core, on one side or both."""
     if specimen.core is None:
         return set()
@@ -253,7 +253,7 @@ def _excess(frequency_error: Array, loss_error: Array) -> Array:
     return np.maximum(np.abs(frequency_error) / FREQUENCY_LIMIT, np.abs(loss_error) / LOSS_LIMIT)
 
 
-def _worst_assumption(specimen: Specimen, k: Array, G: Complex) -> Assumption:
+def _worst_assumption(specimen: PlateSpecimen, k: Array, G: Complex) -> Assumption:
     """The assumption that alone, held in an otherwise exact theory, makes the largest error."""
     layers = stack(specimen, G)
     exact = exact_lambda(layers, k, _QUICK_ORDER)

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 
 RATIO = 1e-3
 """Of critical: aluminium and steel plates in clamps have 0.03 to 0.4 % (the published one 0.04 to 0.29)."""
@@ -18,7 +18,7 @@ MODES = 8
 """As many as a file states."""
 
 
-def with_unstated_damping(specimen: Specimen, stated: Specimen | None = None) -> Specimen:
+def with_unstated_damping(specimen: PlateSpecimen, stated: PlateSpecimen | None = None) -> PlateSpecimen:
     """The specimen with such a ratio, and so wide a tolerance, for each mode of which nothing is known.
 
     `stated` is the file's where a hammer test has given ratios since: what the test did not read is not known

@@ -8,7 +8,7 @@ from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.given import Points
 from fitting.effects.number_off import changed_by_numbers
 from fitting.plate.plate_numbers import moved as restated
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.widened.change import Change
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from fitting.widened.full_plate import FullPlate, Snapshot
@@ -29,7 +29,7 @@ class Pulled(Span):
         return forces(full, at, [with_stress(full.specimen, self.along, s) for s in _STRESSES_PA])
 
 
-def with_stress(specimen: Specimen, along: str, more_pa: float) -> Specimen:
+def with_stress(specimen: PlateSpecimen, along: str, more_pa: float) -> PlateSpecimen:
     """The plate pulled by so much more, where clamps on opposite edges may pull it."""
     return restated(specimen, [f"axial_{along}"], [more_pa]) if along in specimen.pulled_along else specimen
 

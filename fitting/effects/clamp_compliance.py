@@ -14,7 +14,7 @@ from fitting.arrays import Array
 from fitting.effects.base import CLAMP, PLATE_AND_BEAM, Effect, EffectParameter
 from fitting.effects.given import Points
 from fitting.plate.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.widened.change import Change
 from fitting.widened.clamp_span import ClampSpan, on_a_rim
 from fitting.widened.enriched_plate import EnrichedReducedPlate
@@ -61,7 +61,7 @@ def rim_springs(full: FullPlate, axis: Literal["across", "z"]) -> sp.csc_array:
     return sp.csc_array(sum(found))
 
 
-def face_springs(specimen: Specimen, axis: str, *, gripped: bool) -> Array:
+def face_springs(specimen: PlateSpecimen, axis: str, *, gripped: bool) -> Array:
     """Unit springs per area along an axis on a node's motions, through all layers. Shape (DOFS, DOFS).
 
     `gripped`: whether core and constraining layers reach the clamp.

@@ -9,7 +9,7 @@ from fitting.arrays import Array, Complex
 from fitting.effects.base import CLAMP, ROOT, Effect, EffectParameter
 from fitting.effects.given import Points
 from fitting.effects.number_off import changed_by_numbers
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.widened.change import Change
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from fitting.widened.full_plate import FullPlate, Snapshot
@@ -48,7 +48,7 @@ class Length(Span):
         return np.hstack([answers[:, :few], UNIT_RESPONSE * rows])
 
 
-def with_length(specimen: Specimen, length_m: float) -> Specimen:
+def with_length(specimen: PlateSpecimen, length_m: float) -> PlateSpecimen:
     """The plate so long, of as many elements; patches are stretched with it."""
     longer = length_m / specimen.length_m
     patches = tuple(

@@ -6,7 +6,7 @@ from dataclasses import replace
 from fitting.arrays import Array, Complex
 from fitting.effects.base import CONSTRAINED, Effect, EffectParameter
 from fitting.effects.number_off import NumberOffEffect
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.widened.change import Change
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from fitting.widened.full_plate import FullPlate, Snapshot
@@ -27,7 +27,7 @@ class ConstrainingLayer(Span):
         return forces(full, at, [with_layer(full.specimen, scale) for scale in _SCALES])
 
 
-def with_layer(specimen: Specimen, scale: float) -> Specimen:
+def with_layer(specimen: PlateSpecimen, scale: float) -> PlateSpecimen:
     """The plate with so many times its constraining layer's thickness."""
     layer = specimen.constraining
     assert layer is not None

@@ -6,7 +6,7 @@ from dataclasses import replace
 from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.number_off import NumberOffEffect
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.widened.change import Change
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from fitting.widened.full_plate import FullPlate, Snapshot
@@ -26,7 +26,7 @@ class Thickness(Span):
         return forces(full, at, [with_core(full.specimen, scale) for scale in _SCALES])
 
 
-def with_core(specimen: Specimen, scale: float) -> Specimen:
+def with_core(specimen: PlateSpecimen, scale: float) -> PlateSpecimen:
     """The plate with so many times its core's thickness."""
     assert specimen.core is not None
     return replace(specimen, core=replace(specimen.core, thickness_m=scale * specimen.core.thickness_m))

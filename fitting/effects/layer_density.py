@@ -14,7 +14,7 @@ from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.given import BarePlateModes, Points
 from fitting.effects.number_off import NumberOffEffect
 from fitting.plate.parts import coefficients
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.widened.change import Change
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from fitting.widened.other_plates import changed_to
@@ -23,7 +23,7 @@ SUBSTRATE, CONSTRAINING = 0.0, 1.0
 """Whose density it is."""
 
 
-def with_density(specimen: Specimen, scale: float, layer: float) -> Specimen:
+def with_density(specimen: PlateSpecimen, scale: float, layer: float) -> PlateSpecimen:
     """The plate with so many times the density of one of its faces."""
     name = "constraining" if layer == CONSTRAINING else "substrate"
     face = getattr(specimen, name)

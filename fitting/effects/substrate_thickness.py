@@ -10,13 +10,13 @@ from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.given import BarePlateModes
 from fitting.effects.number_off import NumberOffEffect
 from fitting.effects.substrate_stiffness import Substrate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.widened.change import Change
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from fitting.widened.other_plates import changed_to
 
 
-def with_substrate(specimen: Specimen, scale: float) -> Specimen:
+def with_substrate(specimen: PlateSpecimen, scale: float) -> PlateSpecimen:
     """The plate with so many times its substrate's thickness."""
     face = specimen.substrate
     return replace(specimen, substrate=replace(face, thickness_m=scale * face.thickness_m))

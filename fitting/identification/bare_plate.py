@@ -22,7 +22,7 @@ from fitting.plate.part_names import names_of
 from fitting.plate.parts import coefficients
 from fitting.plate.plate import Plate
 from fitting.plate.plate_numbers import moved, tolerance
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 
 FREQUENCY_SCATTER = 5e-4
 """Standard deviation of ln f: remounting and reading 0.03 %, the plate model 0.04 %."""
@@ -93,7 +93,7 @@ class MatchedModes:
 
 
 def match_modes(
-    specimen: Specimen, measured_hz: Array, measured_ratios: Array, sensor: CarriedSensor | None = None
+    specimen: PlateSpecimen, measured_hz: Array, measured_ratios: Array, sensor: CarriedSensor | None = None
 ) -> MatchedModes:
     """A hammer test of `specimen.bare` beside its model; what was measured of shape (modes,) each.
 
@@ -137,7 +137,7 @@ def match_modes(
 
 
 def fit_bare_plate(
-    specimen: Specimen, measured_hz: Array, measured_ratios: Array, sensor: CarriedSensor | None = None
+    specimen: PlateSpecimen, measured_hz: Array, measured_ratios: Array, sensor: CarriedSensor | None = None
 ) -> BarePlateFit:
     """Stiffness and ratios, by `match_modes` from a hammer test, shape (modes,).
 
@@ -164,7 +164,7 @@ def fit_bare_plate(
     )
 
 
-def with_bare_plate(specimen: Specimen, fit: BarePlateFit) -> Specimen:
+def with_bare_plate(specimen: PlateSpecimen, fit: BarePlateFit) -> PlateSpecimen:
     """The specimen with the hammer test's stiffness, what is left of its tolerance, and its ratios."""
     substrate = replace(specimen.substrate, young_pa=specimen.substrate.young_pa * fit.young_scale)
     tolerances = {**specimen.tolerances, "substrate_young": fit.standard_error}
@@ -200,7 +200,7 @@ def _solve(shift: Array, softness: Array, scatter: Array, tolerance: float) -> t
     return float(np.exp(found[0])), float(np.sqrt(covariance[0, 0])), float(found[1])
 
 
-def _by_line(bare: Specimen, of_K: Array, of_M: Array) -> Array:
+def _by_line(bare: PlateSpecimen, of_K: Array, of_M: Array) -> Array:
     """-d ln f / d length, by Rayleigh's quotient. Shape (modes,)."""
     logs = []
     for step in (_LENGTH_STEP_M, -_LENGTH_STEP_M):
@@ -209,7 +209,7 @@ def _by_line(bare: Specimen, of_K: Array, of_M: Array) -> Array:
     return np.asarray(-(logs[0] - logs[1]) / (2 * _LENGTH_STEP_M))
 
 
-def _ratios(specimen: Specimen, index: NDArray[np.intp], ratio: Array) -> tuple[float, ...]:
+def _ratios(specimen: PlateSpecimen, index: NDArray[np.intp], ratio: Array) -> tuple[float, ...]:
     length = max(len(specimen.modal_ratios), int(index.max()) + 1)
     ratios = np.zeros(length)
     ratios[: len(specimen.modal_ratios)] = specimen.modal_ratios

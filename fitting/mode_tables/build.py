@@ -19,7 +19,7 @@ from fitting.plate.element import THETA_X, THETA_Y, W
 from fitting.plate.layers_array import layers_of
 from fitting.plate.part_matrices import load_part, on_motions, projected_parts
 from fitting.plate.plate import Plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.tolerances import PLATE
 from fitting.structures import AnySpecimen
 from fitting.structures.small import nuisances_of as small_nuisances_of
@@ -44,13 +44,13 @@ their base or a force at five places, read at the tip or between, have 0.1 to 2.
 modes 2 and 3, a tenth and less in the first. A judgement; what lies further off is no reading."""
 _READ, _STRUCK = (0.77, 0.31), (0.93, 0.12)
 """Of length and width: a plate has to be struck and read somewhere, though no mode depends on it."""
-Widen = Callable[[Specimen, Array], EnrichedReducedPlate]
+Widen = Callable[[PlateSpecimen, Array], EnrichedReducedPlate]
 """A plate and its own motions, shape (n, k), to the plate with all that effects need."""
 
 
 def member_of(table: ModalTable, specimen: AnySpecimen, widen: Widen | None = None) -> Member:
     """A table with its specimen; `widen` where effects are to be tried on a plate."""
-    if isinstance(specimen, Specimen):
+    if isinstance(specimen, PlateSpecimen):
         return _of_plate(table, with_unstated_damping(specimen), widen)
     parts = specimen.parts()
     stated = small_nuisances_of(specimen, parts, has_phase=False)
@@ -69,7 +69,7 @@ def with_own_error(member: Member, law: CoreLaw) -> Member:
         neighbours = _neighbours(member.table)
         member = replace(member, own_error=neighbours)
     G = law.modulus(2 * np.pi * f)
-    found = model_error_at(s, f, G, of_mesh=False) if isinstance(s, Specimen) else s.theory_error(f, G)
+    found = model_error_at(s, f, G, of_mesh=False) if isinstance(s, PlateSpecimen) else s.theory_error(f, G)
     if found is None:
         return member
     mesh_off = member.off_by_mesh(law)
@@ -96,7 +96,7 @@ def _all(*errors: tuple[Array, Array]) -> tuple[Array, Array]:
     return np.asarray(f), np.asarray(eta)
 
 
-def tapped(specimen: Specimen) -> Specimen:
+def tapped(specimen: PlateSpecimen) -> PlateSpecimen:
     """The plate struck and read off its axes: all its motions are carried, and no base is asked for."""
     x, y = _READ
     a, b = _STRUCK
@@ -104,7 +104,7 @@ def tapped(specimen: Specimen) -> Specimen:
     return replace(specimen, pickup_m=(x * L, y * B), force_m=(a * L, b * B))
 
 
-def _of_plate(table: ModalTable, specimen: Specimen, widen: Widen | None) -> Member:
+def _of_plate(table: ModalTable, specimen: PlateSpecimen, widen: Widen | None) -> Member:
     specimen = tapped(specimen)
     plate = Plate(specimen)
     V = own_motions(plate, int(table.mode.max()) + SPARE)
@@ -114,7 +114,7 @@ def _of_plate(table: ModalTable, specimen: Specimen, widen: Widen | None) -> Mem
     return Member(table, specimen, wide, replace(stated, each=each), halved=_halved(table, specimen))
 
 
-def _halved(table: ModalTable, specimen: Specimen) -> Member | None:
+def _halved(table: ModalTable, specimen: PlateSpecimen) -> Member | None:
     """The same on half as many elements each way; None where that leaves too few to tell anything."""
     n_x, n_y = (n // 2 for n in specimen.mesh)
     if min(n_x, n_y) < _FEWEST:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
 from fitting.mode_tables.build import tapped
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen
 
 
@@ -14,6 +14,6 @@ def standing(specimens: Sequence[AnySpecimen]) -> list[Effect]:
 
     Whatever drives a plate elsewhere, its table has no base.
     """
-    struck = [tapped(s) if isinstance(s, Specimen) else s for s in specimens]
+    struck = [tapped(s) if isinstance(s, PlateSpecimen) else s for s in specimens]
     forms = (e.form_on(struck) for e in CATALOGUE.values())
     return [f for f in forms if f is not None and all(f.needs <= s.offers for s in struck)]

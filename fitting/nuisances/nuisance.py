@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.plate.plate_numbers import plate_numbers, tolerance
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.tolerances import NUMBERS, OF_CHANNELS, Unit
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 
@@ -38,7 +38,7 @@ def channels_felt(*, has_phase: bool) -> tuple[str, ...]:
     return OF_CHANNELS if has_phase else OF_CHANNELS[:1]
 
 
-def felt(specimen: Specimen, plate: EnrichedReducedPlate, *, has_phase: bool) -> tuple[Nuisance, ...]:
+def felt(specimen: PlateSpecimen, plate: EnrichedReducedPlate, *, has_phase: bool) -> tuple[Nuisance, ...]:
     """All stated numbers of a specimen that a sweep of it can feel: delay and phase only with phasors."""
     found = [Nuisance(n, kind, tolerance(specimen, kind)) for n, kind in plate_numbers(specimen)]
     found += [Nuisance(f"pickup_{axis}", "pickup", tolerance(specimen, "pickup")) for axis in "xy"]

@@ -21,7 +21,7 @@ from fitting.nuisances.placed import Masses, Placed, PlacedPoints
 from fitting.nuisances.stated_coefficients import PlateCoefficients, StatedCoefficients
 from fitting.nuisances.sums import SideBySide, between
 from fitting.plate.parts import loaded
-from fitting.specimen import PlacedMass, Specimen
+from fitting.specimen import PlacedMass, PlateSpecimen
 from fitting.widened.change import Change
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 
@@ -32,7 +32,11 @@ Place = tuple[float, float]
 
 
 def nuisances_of(
-    specimen: Specimen, plate: EnrichedReducedPlate, *, has_phase: bool, reference: Specimen | None = None
+    specimen: PlateSpecimen,
+    plate: EnrichedReducedPlate,
+    *,
+    has_phase: bool,
+    reference: PlateSpecimen | None = None,
 ) -> "Nuisances":
     """All stated numbers of a specimen that its sweep can feel.
 
@@ -48,9 +52,9 @@ class Nuisances:
     `z` has shape (count,) throughout, in standard deviations.
     """
 
-    specimen: Specimen
+    specimen: PlateSpecimen
     each: tuple[Nuisance, ...] = ()
-    like: Specimen | None = None
+    like: PlateSpecimen | None = None
     """Specimen whose mesh, parts and row the reduced plate uses; None: this one."""
     narrow: NarrowResonances = field(default_factory=NarrowResonances, kw_only=True)
     """Narrow resonances fitted as unknowns; their numbers are the last of `each`."""
@@ -69,7 +73,7 @@ class Nuisances:
         return self.specimen.masses
 
     @property
-    def reference(self) -> Specimen:
+    def reference(self) -> PlateSpecimen:
         """Specimen that the reduced plate was built for."""
         return self.like or self.specimen
 
@@ -100,7 +104,7 @@ class Nuisances:
         """Of the bare plate's stiffness and mass, its length as stated. Shapes of `STIFFNESS` and `MASS`."""
         return self._bare.coefficients(z)
 
-    def moved_specimen(self, z: Array) -> Specimen:
+    def moved_specimen(self, z: Array) -> PlateSpecimen:
         """The specimen, the numbers of its plate moved by `z` standard deviations. Shape (nuisances,)."""
         return self._plate_coefficients.moved_specimen(z)
 
@@ -207,7 +211,7 @@ class Nuisances:
     def _spots(self) -> Mapping[Spot, Place]:
         return self._spots_of(self.specimen)
 
-    def _spots_of(self, specimen: Specimen) -> Mapping[Spot, Place]:
+    def _spots_of(self, specimen: PlateSpecimen) -> Mapping[Spot, Place]:
         """Where one like it is read, and where a force drives it."""
         stated: dict[Spot, Place | None] = {"pickup": specimen.pickup_m, "force": specimen.force_m}
         return {spot: place for spot, place in stated.items() if place is not None}

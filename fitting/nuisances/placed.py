@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.specimen import PlacedMass, Specimen
+from fitting.specimen import PlacedMass, PlateSpecimen
 from fitting.widened.change import Change
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 
@@ -24,8 +24,8 @@ class PlacedPoints:
     `z` has shape (numbers,), in standard deviations.
     """
 
-    specimen: Specimen
-    reference: Specimen
+    specimen: PlateSpecimen
+    reference: PlateSpecimen
     """The specimen as it was meshed."""
     places: Mapping[str, int]
     """Of stated numbers, by name."""

@@ -17,7 +17,7 @@ from fitting.plate.part_counts import PartCounts
 from fitting.plate.part_names import names_of
 from fitting.plate.parts import coefficients
 from fitting.plate.plate_numbers import moved
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.tolerances import PLATE
 
 STEP = 1e-2
@@ -87,8 +87,8 @@ class StatedCoefficients(ABC):
 class PlateCoefficients(StatedCoefficients):
     """Coefficients of a plate on the mesh and the parts of another one like it."""
 
-    specimen: Specimen
-    reference: Specimen
+    specimen: PlateSpecimen
+    reference: PlateSpecimen
     load_sign: ClassVar[float] = -1.0
 
     @property
@@ -110,7 +110,7 @@ class PlateCoefficients(StatedCoefficients):
         """Coefficients of the reference. Shape (parts + loads,)."""
         return np.asarray(coefficients(self.reference, self.reference).all)
 
-    def moved_specimen(self, z: Array) -> Specimen:
+    def moved_specimen(self, z: Array) -> PlateSpecimen:
         """The specimen, the numbers of its plate moved by `z` standard deviations. Shape (count,)."""
         names = [self.each[k].name for k in self.moving]
         return moved(self.specimen, names, (self.sigma * z)[self.moving].tolist())

@@ -10,7 +10,7 @@ from fitting.nuisances.nuisances import Nuisances
 from fitting.plate.mesh import Mesh
 from fitting.plate.plate_numbers import tolerance
 from fitting.reduced.reduced_plate import ReducedPlate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 
 
@@ -61,11 +61,11 @@ def struck(
     return at_rest, replace(reduced, load=row, load_part=np.zeros_like(reduced.load_part)), moved
 
 
-def _placed(nuisances: Nuisances, spot_m: Place) -> tuple[Specimen, Specimen, Place]:
+def _placed(nuisances: Nuisances, spot_m: Place) -> tuple[PlateSpecimen, PlateSpecimen, Place]:
     """What is stated, what the model is of, and a spot of the one on the other."""
     stated, like = nuisances.specimen, nuisances.reference
-    assert isinstance(stated, Specimen)
-    assert isinstance(like, Specimen)
+    assert isinstance(stated, PlateSpecimen)
+    assert isinstance(like, PlateSpecimen)
     there = (spot_m[0] * like.length_m / stated.length_m, spot_m[1] * like.width_m / stated.width_m)
     return stated, like, there
 

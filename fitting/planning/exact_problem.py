@@ -12,7 +12,7 @@ from fitting.diagnosis.problem.nodes import Nodes
 from fitting.nuisances.nuisances import nuisances_of
 from fitting.reduced.rational import rational_sweep
 from fitting.reduced.reduced_plate import ReducedPlate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.sweep import Sweep
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 
@@ -21,7 +21,7 @@ def exact_problem(
     frequency_hz: Array,
     region: Integers,
     level_m_s2: float,
-    specimen: Specimen,
+    specimen: PlateSpecimen,
     plate: EnrichedReducedPlate,
     reduced: ReducedPlate,
     time_s: Array | None = None,

@@ -12,7 +12,7 @@ from fitting.laws import CoreLaw
 from fitting.plate.plate import Plate
 from fitting.reduced.domain import Domain
 from fitting.reduced.reduced_plate import ReducedPlate, reduce_plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from fitting.widened.enriching import enriched, reach_over
 from fitting.widened.full_plate import FullPlate
@@ -28,7 +28,7 @@ _GRID = 9
 """Frequencies at which the law is asked how far it reaches."""
 
 
-def free_specimen(stated: Specimen, length_m: float | None = None) -> Specimen:
+def free_specimen(stated: PlateSpecimen, length_m: float | None = None) -> PlateSpecimen:
     """The plate without its clamp, struck and read near two corners; what damps it but the core is left out.
 
     `length_m` is of all that hangs; None: as long as it stands out of its clamp.
@@ -49,7 +49,7 @@ def free_specimen(stated: Specimen, length_m: float | None = None) -> Specimen:
 
 
 def free_plate(
-    specimen: Specimen, law: CoreLaw, frequency_hz: Array, spans: Sequence[Span]
+    specimen: PlateSpecimen, law: CoreLaw, frequency_hz: Array, spans: Sequence[Span]
 ) -> tuple[EnrichedReducedPlate, ReducedPlate]:
     """Of a specimen that hangs free, for some effects' spans and moduli about a law's.
 

@@ -27,7 +27,7 @@ from fitting.planning.learnt import LearntRival, learnt, scales
 from fitting.planning.rivalry import Forecast
 from fitting.planning.sensitivity import ReadingNoise
 from fitting.planning.struck_forecast import struck_forecast
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +85,7 @@ class RivalForecasts:
     def read_m(self) -> tuple[tuple[float, float], ...]:
         """Spots that were read, as stated."""
         stated = [m.nuisances.specimen for m in self.members if m.points.drive == "base"]
-        return tuple(s.pickup_m for s in stated if isinstance(s, Specimen) and s.pickup_m is not None)
+        return tuple(s.pickup_m for s in stated if isinstance(s, PlateSpecimen) and s.pickup_m is not None)
 
     @property
     def struck_already(self) -> bool:

@@ -9,7 +9,7 @@ from fitting.plate import element
 from fitting.plate.element import U_B, U_C, V_B, V_C
 from fitting.plate.face_shear import slip_of
 from fitting.plate.mesh import Cell, Mesh
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class ElementMatrices:
         return self.K_substrate + self.K_constraining + np.asarray(self.K_slip).real + self.K_pulled
 
 
-def element_matrices(specimen: Specimen, mesh: Mesh, cell: Cell | None = None) -> ElementMatrices:
+def element_matrices(specimen: PlateSpecimen, mesh: Mesh, cell: Cell | None = None) -> ElementMatrices:
     """The element of a specimen, of one of its cells; the treatment's parts are zero for a bare plate."""
     s, shape = specimen, mesh.shape
     M = element.face_mass(shape, s.substrate, U_B, V_B)

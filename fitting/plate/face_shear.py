@@ -28,7 +28,7 @@ Source: Timoshenko's shear angle, of each face: e.g. Reddy, Mechanics of Laminat
 from dataclasses import dataclass, replace
 
 from fitting.plate.edge_twist import EDGE_WIDTH
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Face, as_isotropic
 
 KAPPA = 5 / 6
@@ -53,7 +53,7 @@ class Slip:
     """Of the sections that turn, rho h^3/12 r^2 of each: next to nothing, but no slip moves without mass."""
 
 
-def slip_of(specimen: Specimen) -> Slip | None:
+def slip_of(specimen: PlateSpecimen) -> Slip | None:
     """The slip of glue, of sheared faces or of both; None where nothing but the core slips."""
     core, c = specimen.core, specimen.constraining
     if core is None or c is None or not specimen.slips:
@@ -86,7 +86,7 @@ def edge_twist_left(face: Face, side_m: float) -> float:
     return max(0.0, 1 - relieved_m / (EDGE_WIDTH * face.thickness_m))
 
 
-def with_face_shear(specimen: Specimen, modulus_pa: float) -> Specimen:
+def with_face_shear(specimen: PlateSpecimen, modulus_pa: float) -> PlateSpecimen:
     """With the shear of its faces counted where it matters about a core so stiff, else without.
 
     Not beside patches: at the end of one the substrate's sections stand square again, and a slip that ends
@@ -96,7 +96,7 @@ def with_face_shear(specimen: Specimen, modulus_pa: float) -> Specimen:
     return replace(specimen, faces_shear=matters and not specimen.patches)
 
 
-def share_of_faces(specimen: Specimen, modulus_pa: float) -> float:
+def share_of_faces(specimen: PlateSpecimen, modulus_pa: float) -> float:
     """What share the faces take, by their own shear, of their slip on each other about a core so stiff.
 
     Zero of a bare plate; glue is not counted.
@@ -108,7 +108,7 @@ def share_of_faces(specimen: Specimen, modulus_pa: float) -> float:
     return float(abs(faces) / (abs(faces) + core))
 
 
-def _compliance_of_faces(specimen: Specimen) -> complex:
+def _compliance_of_faces(specimen: PlateSpecimen) -> complex:
     """S in m/Pa, without glue."""
     c, sides = specimen.constraining, 2 if specimen.both_sides else 1
     assert c is not None

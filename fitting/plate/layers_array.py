@@ -7,7 +7,7 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.laws.constant import ConstantModulus
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face, Glue, Orthotropy
 from fitting.stated.patches import Patch
 
@@ -17,7 +17,7 @@ _GLUE = ("thickness_m", "shear_pa", "density_kg_m3", "loss_factor")
 _PATCH = ("from_x_m", "to_x_m", "from_y_m", "to_y_m")
 _SUBSTRATE, _CONSTRAINING, _CORE, _GLUES, _WHOLE, _PATCHES = 0, 1, 2, 3, 5, 6
 """Rows of `layers_of`: each layer's, the first of glue, that of the plate as a whole, the first patch's."""
-_OF_WHOLE: dict[str, Callable[[Specimen], float]] = {
+_OF_WHOLE: dict[str, Callable[[PlateSpecimen], float]] = {
     "both_sides": lambda s: s.both_sides,
     "pulled_x": lambda s: "x" in s.pulled_along,
     "pulled_y": lambda s: "y" in s.pulled_along,
@@ -28,7 +28,7 @@ _OF_WHOLE: dict[str, Callable[[Specimen], float]] = {
 """The numbers of row `_WHOLE` in their order, each with where it is read; a model's cached file has it so."""
 
 
-def layers_of(specimen: Specimen) -> Array:
+def layers_of(specimen: PlateSpecimen) -> Array:
     """What `coefficients` asks of substrate, constraining layer and core, in the order of `_LAYER`.
 
     Zero where a layer is missing or has no such number. Shape (3, 5). What few plates have besides is behind:
@@ -54,7 +54,7 @@ def layers_of(specimen: Specimen) -> Array:
     return found
 
 
-def specimen_of(size: Array, layers: Array) -> Specimen:
+def specimen_of(size: Array, layers: Array) -> PlateSpecimen:
     """As far as `coefficients` asks: `size` gives length and width in m and elements along each.
 
     Shapes (4,) and (3, 5) or more, see `layers_of`.
@@ -73,7 +73,7 @@ def specimen_of(size: Array, layers: Array) -> Specimen:
         whole["axial_x_pa"] if whole["pulled_x"] else None,
         whole["axial_y_pa"] if whole["pulled_y"] else None,
     )
-    plain = Specimen(length, width, "free", substrate, elements=(int(n_x), int(n_y)), axial_pa=axial)
+    plain = PlateSpecimen(length, width, "free", substrate, elements=(int(n_x), int(n_y)), axial_pa=axial)
     if not core_numbers["thickness_m"]:
         return plain
     core = Core(

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Indices
 from fitting.plate.element import CORNERS, DOFS, WITH_SLIP, Rectangles, Shape
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.patches import Patch, shifts_of
 
 _SLIVER = 0.02
@@ -74,7 +74,7 @@ class Mesh:
         return np.stack([x.ravel(), y.ravel()], axis=1)
 
 
-def mesh_of(specimen: Specimen) -> Mesh:
+def mesh_of(specimen: PlateSpecimen) -> Mesh:
     """Of a plate as stated."""
     dofs = WITH_SLIP if specimen.slips else DOFS
     return Mesh(specimen.length_m, specimen.width_m, *specimen.mesh, dofs)
@@ -107,13 +107,13 @@ SHIFT_M = 1e-4
 """How far patches are moved either way for what a shift does to first order."""
 
 
-def is_turned(specimen: Specimen) -> bool:
+def is_turned(specimen: PlateSpecimen) -> bool:
     """Whether a face's own axes are not the plate's."""
     faces = (f for f in (specimen.substrate, specimen.constraining) if f is not None)
     return any(f.rolled is not None and not f.rolled.aligned for f in faces)
 
 
-def cells_of(specimen: Specimen, mesh: Mesh) -> tuple[Cell, ...]:
+def cells_of(specimen: PlateSpecimen, mesh: Mesh) -> tuple[Cell, ...]:
     """The mesh's elements by how they are treated. `mesh` may be stretched: patches are the specimen's."""
     if not specimen.patches:
         return (Cell(slice(None)),)
@@ -158,7 +158,7 @@ def _part(patch: Patch, element: tuple[float, float, float, float], least: float
     return ((x_0, x_1, y_0, y_1),)
 
 
-def treated_nodes(specimen: Specimen, mesh: Mesh) -> NDArray[np.bool_]:
+def treated_nodes(specimen: PlateSpecimen, mesh: Mesh) -> NDArray[np.bool_]:
     """Which nodes are of a treated element. Shape (nodes,)."""
     found = np.zeros(mesh.nodes, dtype=bool)
     node = mesh.element_dofs()[:, :: mesh.dofs] // mesh.dofs

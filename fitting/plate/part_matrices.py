@@ -41,7 +41,7 @@ from fitting.plate.part_names import (
 from fitting.plate.parts import coefficients
 from fitting.plate.plate import Plate
 from fitting.plate.plate_numbers import moved
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.patches import shifts_of
 from fitting.stated.tolerances import STATED, kind_of
 
@@ -50,7 +50,7 @@ _STRETCH_C = tuple(name for name in STIFFNESS if name.startswith("stretch c"))
 _STRETCH_C_TURNED = tuple(name for name in OFF_AXIS if name.startswith("stretch c"))
 
 
-def element_parts(reference: Specimen, cell: Cell | None = None) -> tuple[Array, Array, Array]:
+def element_parts(reference: PlateSpecimen, cell: Cell | None = None) -> tuple[Array, Array, Array]:
     """Parts of K_0, K_1 and M of one element of the reference's mesh. Shape (parts, 4 dofs, 4 dofs) each."""
     shape, names = mesh_of(reference).shape, names_of(reference)
     over = cell.over if cell is not None else None
@@ -131,7 +131,7 @@ def _treated(shape: Shape, names: Names, rectangle: Rectangle) -> tuple[Array, A
 
 
 def _shifted(
-    reference: Specimen, shape: Shape, names: Names, both: tuple[Rectangles, Rectangles]
+    reference: PlateSpecimen, shape: Shape, names: Names, both: tuple[Rectangles, Rectangles]
 ) -> tuple[Array, Array, Array]:
     """What moving a patch by a metre changes of K_0, K_1 and M, to first order.
 
@@ -149,7 +149,7 @@ def _shifted(
     return dK_0, dK_1, dM
 
 
-def load_part(reference: Specimen) -> Array:
+def load_part(reference: PlateSpecimen) -> Array:
     """The first part of M on w = 1 at all nodes, held ones too. Shape (nodes * dofs,).
 
     Where not all of the plate is treated, of all parts that carry the load. Shape (loads, nodes * dofs).
@@ -167,7 +167,7 @@ def load_part(reference: Specimen) -> Array:
     return found if reference.patches else found[0]
 
 
-def moving_part(reference: Specimen) -> Array:
+def moving_part(reference: PlateSpecimen) -> Array:
     """`load_part` where the base drives the plate; a force at a point does not go with any part.
 
     Shape as `load_part`.
@@ -222,7 +222,7 @@ def _projected(P: Array, full: Array, dofs: Indices, weight: Array) -> Array:
     return found
 
 
-def stated_steps(reference: Specimen, names: Sequence[str]) -> tuple[Complex, Array, Array]:
+def stated_steps(reference: PlateSpecimen, names: Sequence[str]) -> tuple[Complex, Array, Array]:
     """What a typical tolerance of some stated numbers changes of an element's K_0, K_1 and M, to first order.
 
     Shape (names, 4 dofs, 4 dofs) each; of several cells (names, cells, 4 dofs, 4 dofs).
@@ -239,7 +239,7 @@ def stated_steps(reference: Specimen, names: Sequence[str]) -> tuple[Complex, Ar
     return K_0, K_1, M
 
 
-def _of_cells(reference: Specimen) -> list[Array]:
+def _of_cells(reference: PlateSpecimen) -> list[Array]:
     """Of K_0, K_1 and M: `element_parts`, of several cells side by side behind the first axis."""
     cells = cells_of(reference, mesh_of(reference))
     if len(cells) == 1:

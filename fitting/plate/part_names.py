@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from fitting.plate.mesh import is_turned
 from fitting.plate.part_counts import PartCounts
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.patches import shifts_of
 
 MEMBRANE = ("11", "22", "12", "66 yy", "66 xx", "66 xy")
@@ -53,7 +53,7 @@ class Names:
         return PartCounts(len(self.K_0), len(self.K_1), len(self.M))
 
 
-def names_of(specimen: Specimen) -> Names:
+def names_of(specimen: PlateSpecimen) -> Names:
     """Names of all parts in order: the common ones, then those for turned axes, patches, slip, pull, shifts.
 
     No shape.

@@ -18,7 +18,7 @@ from fitting.plate.element import DOFS, GLUE_TURNS, THETA_X, THETA_Y, face_plane
 from fitting.plate.face_shear import slip_of
 from fitting.plate.mesh import is_turned
 from fitting.plate.part_names import CORE, MASS, MEMBRANE, SHEARED, TURNED
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Face
 from fitting.stated.patches import shifts_of
 
@@ -48,7 +48,7 @@ def loaded(load: float | Array, part: Array) -> Array:
     return np.asarray(load * part if part.ndim == 1 else np.asarray(load) @ part)
 
 
-def coefficients(specimen: Specimen, reference: Specimen) -> Coefficients:
+def coefficients(specimen: PlateSpecimen, reference: PlateSpecimen) -> Coefficients:
     """Of a specimen on the mesh of another: the same number of elements, stretched, and what it counts."""
     specimen = replace(specimen, faces_shear=reference.faces_shear)
     sides = _Sides.of(specimen, reference)
@@ -79,7 +79,7 @@ class _Sides:
     ry: float
 
     @classmethod
-    def of(cls, specimen: Specimen, reference: Specimen) -> "_Sides":
+    def of(cls, specimen: PlateSpecimen, reference: PlateSpecimen) -> "_Sides":
         return cls(reference.length_m / specimen.length_m, reference.width_m / specimen.width_m)
 
     @property
@@ -108,7 +108,7 @@ class _MassPerArea:
     glue: float
 
     @classmethod
-    def of(cls, specimen: Specimen) -> "_MassPerArea":
+    def of(cls, specimen: PlateSpecimen) -> "_MassPerArea":
         b, c, v = specimen.substrate, specimen.constraining, specimen.core
         return cls(
             b=b.density_kg_m3 * b.thickness_m,
@@ -126,11 +126,11 @@ class _MassPerArea:
         return self.c + self.core + self.glue
 
 
-def _treated_sides(specimen: Specimen) -> float:
+def _treated_sides(specimen: PlateSpecimen) -> float:
     return 2.0 if specimen.both_sides else 1.0
 
 
-def _of_faces(specimen: Specimen, reference: Specimen, sides: _Sides) -> list[Complex]:
+def _of_faces(specimen: PlateSpecimen, reference: PlateSpecimen, sides: _Sides) -> list[Complex]:
     """`STIFFNESS`, `OFF_AXIS` of turned faces, `PATCHED` and `PATCHED_OFF_AXIS` where there are patches."""
     b, c, twice = specimen.substrate, specimen.constraining, _treated_sides(specimen)
     rx, ry = sides.rx, sides.ry
@@ -147,7 +147,9 @@ def _of_faces(specimen: Specimen, reference: Specimen, sides: _Sides) -> list[Co
     return found
 
 
-def _of_glue_and_pull(specimen: Specimen, reference: Specimen, sides: _Sides) -> list[Complex | Array]:
+def _of_glue_and_pull(
+    specimen: PlateSpecimen, reference: PlateSpecimen, sides: _Sides
+) -> list[Complex | Array]:
     """`GLUE` where it or the faces slip, then `SHEARED`, `PULLED` along clamps on opposite edges."""
     found: list[Complex | Array] = []
     if (slip := slip_of(specimen)) is not None:
@@ -160,7 +162,7 @@ def _of_glue_and_pull(specimen: Specimen, reference: Specimen, sides: _Sides) ->
     return found
 
 
-def _of_core(specimen: Specimen, reference: Specimen, sides: _Sides) -> Array:
+def _of_core(specimen: PlateSpecimen, reference: PlateSpecimen, sides: _Sides) -> Array:
     """`CORE`: with d between the faces' middles, gamma = (u_c - u_b + d w' - slip)/H."""
     v, core_0 = specimen.core, reference.core
     assert v is not None
@@ -173,7 +175,7 @@ def _of_core(specimen: Specimen, reference: Specimen, sides: _Sides) -> Array:
     return _treated_sides(specimen) * K_1
 
 
-def _of_inertia(specimen: Specimen, reference: Specimen, sides: _Sides) -> Array:
+def _of_inertia(specimen: PlateSpecimen, reference: PlateSpecimen, sides: _Sides) -> Array:
     """`MASS`, `W_TREATED` where there are patches, `GLUE` where it slips.
 
     The core's middle moves as the mean of its two sides, (u_c + u_b + e w')/2.
@@ -207,7 +209,7 @@ def substrate_coefficients(face: Face) -> Complex:
     return np.concatenate([_stretch(face, 1.0, 1.0), _stretch(None, 1.0, 1.0), _bend(face)])
 
 
-def stretched(specimen: Specimen, reference: Specimen) -> Array:
+def stretched(specimen: PlateSpecimen, reference: PlateSpecimen) -> Array:
     """Factors on a node's motions in the reference's shapes, on a stretched plate. Shape (DOFS,)."""
     found = np.ones(DOFS)
     found[THETA_X] = reference.width_m / specimen.width_m

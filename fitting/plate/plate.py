@@ -18,7 +18,7 @@ from fitting.plate.element import G_X, G_Y, THETA_X, THETA_Y, U_B, U_C, V_B, V_C
 from fitting.plate.element_matrices import element_matrices
 from fitting.plate.face_shear import edge_twist_left
 from fitting.plate.mesh import cells_of, mesh_of, treated_nodes
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 
 _STILL = 1e-9
 """A reading row below this reads nothing but rounding."""
@@ -43,7 +43,7 @@ class Plate:
         Which of all nodes' degrees of freedom are free.
     """
 
-    def __init__(self, specimen: Specimen) -> None:
+    def __init__(self, specimen: PlateSpecimen) -> None:
         self.specimen = specimen
         self.mesh = mesh_of(specimen)
         self.cells = cells_of(specimen, self.mesh)

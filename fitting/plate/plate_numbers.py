@@ -6,7 +6,7 @@ from math import exp
 from typing import Any
 
 from fitting.plate.mesh import is_turned
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Face, Orthotropy
 from fitting.stated.patches import OF_PATCHES, shift_of, shifts_of
 from fitting.stated.tolerances import OF_OWN_AXES, PLATE, STATED, StatedNumber, number_of
@@ -15,12 +15,12 @@ _LARGEST_POISSON = 0.4999
 """A moved number stays below one half, where a solid no longer gives in volume."""
 
 
-def plate_numbers(specimen: Specimen) -> list[tuple[str, str]]:
+def plate_numbers(specimen: PlateSpecimen) -> list[tuple[str, str]]:
     """Those of `PLATE` that a specimen has: name, and kind. Every patch has its own."""
     return [(name, kind) for kind in PLATE for name in _names(specimen, STATED[kind])]
 
 
-def _names(specimen: Specimen, number: StatedNumber) -> list[str]:
+def _names(specimen: PlateSpecimen, number: StatedNumber) -> list[str]:
     if number.name == "axial":
         return [f"axial_{along}" for along in specimen.pulled_along]
     if number.name in OF_PATCHES:
@@ -28,7 +28,7 @@ def _names(specimen: Specimen, number: StatedNumber) -> list[str]:
     return [number.name] if _has(specimen, number) else []
 
 
-def _has(specimen: Specimen, number: StatedNumber) -> bool:
+def _has(specimen: PlateSpecimen, number: StatedNumber) -> bool:
     if number.layer == "glue":
         return specimen.has_glue
     if number.layer in ("constraining", "core") and specimen.core is None:
@@ -40,14 +40,14 @@ def _has(specimen: Specimen, number: StatedNumber) -> bool:
     return True
 
 
-def tolerance(specimen: Specimen, name: str) -> float:
+def tolerance(specimen: PlateSpecimen, name: str) -> float:
     """Standard deviation of a stated number: named, else typical; zero for `exact`."""
     if specimen.exact:
         return 0.0
     return float(specimen.tolerances.get(name, STATED[name].typical))
 
 
-def moved(specimen: Specimen, names: Sequence[str], by: Sequence[float]) -> Specimen:
+def moved(specimen: PlateSpecimen, names: Sequence[str], by: Sequence[float]) -> PlateSpecimen:
     """The specimen with some of `PLATE` moved: by a share in the logarithm, metres or radians.
 
     What it does not have is left out. The pickup stays where it is stated, so many metres from the clamp.
@@ -64,13 +64,13 @@ def moved(specimen: Specimen, names: Sequence[str], by: Sequence[float]) -> Spec
 class _Moves:
     """What becomes of a specimen, one number after the other."""
 
-    specimen: Specimen
+    specimen: PlateSpecimen
     plate: dict[str, Any] = field(default_factory=dict)
     """Its own fields."""
     layers: dict[str, dict[str, Any]] = field(default_factory=dict)
     """Those of its layers."""
 
-    def made(self) -> Specimen:
+    def made(self) -> PlateSpecimen:
         """The specimen with all of them."""
         layers = {name: replace(getattr(self.specimen, name), **own) for name, own in self.layers.items()}
         return replace(self.specimen, **layers, **self.plate) if layers or self.plate else self.specimen

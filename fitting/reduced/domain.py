@@ -7,7 +7,7 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 
 FREQUENCIES_HZ = (5.0, 600.0)
 """Of a laboratory plate's first resonances; what is measured outside stretches it."""
@@ -70,7 +70,7 @@ class Domain:
         )
 
 
-def domain_of(specimen: Specimen, frequency_hz: Array) -> Domain:
+def domain_of(specimen: PlateSpecimen, frequency_hz: Array) -> Domain:
     """The default domain, stretched over `frequency_hz` and the specimen's law where they lie outside.
 
     `frequency_hz` of shape (n,). Raises `OutsideModel` where the mesh is too coarse for the highest.
@@ -93,7 +93,7 @@ def domain_of(specimen: Specimen, frequency_hz: Array) -> Domain:
     return Domain(omega, MODULI_PA, LOSS_FACTOR).widened(specimen.core.law, frequency_hz)
 
 
-def hz_a_mode(specimen: Specimen) -> float:
+def hz_a_mode(specimen: PlateSpecimen) -> float:
     """Between two resonances in the mean, were the substrate alone to carry all: plates have fewer.
 
     A wave of bending takes 4 pi / area of the square of its number (Cremer, Heckl, Petersson,
@@ -107,7 +107,7 @@ def hz_a_mode(specimen: Specimen) -> float:
     return float(2 / (s.length_m * s.width_m) * np.sqrt(stiffness / sum(layers)))
 
 
-def highest_frequency_hz(specimen: Specimen) -> float:
+def highest_frequency_hz(specimen: PlateSpecimen) -> float:
     """Where a bending wave of the bare substrate is only a few elements long."""
     n_x, n_y = specimen.mesh
     side = max(specimen.length_m / n_x, specimen.width_m / n_y)

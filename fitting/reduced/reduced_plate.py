@@ -25,7 +25,7 @@ from fitting.plate.plate import Plate
 from fitting.progress import Report, unheard
 from fitting.reduced.domain import Domain
 from fitting.reduced.resonance_parts import Answers
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 
 Point = tuple[float, complex]
 
@@ -43,7 +43,7 @@ _SPREAD, _STIRRED = 8, 6
 """Points over the domain that a basis begins with, and those of them where stated numbers are followed."""
 
 
-def _followed(specimen: Specimen) -> tuple[str, ...]:
+def _followed(specimen: PlateSpecimen) -> tuple[str, ...]:
     """Stated numbers whose tolerances move it as moduli and frequencies do not."""
     return (*_FACES, *(f"axial_{a}" for a in specimen.pulled_along))
 

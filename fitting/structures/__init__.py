@@ -1,10 +1,10 @@
 """Structures other than the plate: small matrices of the same equation (decision 25)."""
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures.beam import Beam
 from fitting.structures.shear_pair import ShearPair
 
-AnySpecimen = Specimen | ShearPair | Beam
+AnySpecimen = PlateSpecimen | ShearPair | Beam
 """What a specimen file may describe."""
 
 __all__ = ["AnySpecimen", "Beam", "ShearPair"]

@@ -11,7 +11,7 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.discrepancy.model_error import ModelError
 from fitting.discrepancy.theory_error import theory_error, thickness_error
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 
 HELD_WIDTH = 0.33
 """Of nu^2 times the width: what a held width does to the first modes, as a shorter span. Solids have 0.26 to
@@ -38,7 +38,7 @@ def shortened_m(width_m: float, poisson: float) -> float:
     return HELD_WIDTH * poisson**2 * width_m
 
 
-def sandwich_error(layers: Specimen, nu_b_m: float, frequency_hz: Array, G: Complex) -> ModelError:
+def sandwich_error(layers: PlateSpecimen, nu_b_m: float, frequency_hz: Array, G: Complex) -> ModelError:
     """Around some frequencies, the core's modulus there given; `layers` a plate of the same ones.
 
     `nu_b_m` is the width times Poisson's ratio of the faces. Shape (points,) each.

@@ -7,7 +7,7 @@ from typing import ClassVar, Literal, Self
 import numpy as np
 
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.specimen import Driven, Kind, PlacedMass, Reading, Specimen
+from fitting.specimen import Driven, Kind, PlacedMass, PlateSpecimen, Reading
 from fitting.stated.layers import Core, Face
 from fitting.structures.beam_error import shortened_m
 
@@ -138,10 +138,10 @@ class StatedBeam(Driven[float]):
         return float(stiff @ [f.poisson for f in faces] / stiff.sum())
 
     @property
-    def as_plate(self) -> Specimen | None:
+    def as_plate(self) -> PlateSpecimen | None:
         """A plate of the same layers: what a wave in them sees. None where no core shears between faces."""
         if self.core is None or self.constraining is None:
             return None
         sides = (self.length_m, self.width_m)
         both = self.both_sides
-        return Specimen(*sides, "free", self.substrate, self.constraining, self.core, both_sides=both)
+        return PlateSpecimen(*sides, "free", self.substrate, self.constraining, self.core, both_sides=both)

@@ -17,7 +17,7 @@ from fitting.plate.layers_array import specimen_of
 from fitting.plate.mesh import Mesh
 from fitting.plate.parts import Coefficients, coefficients
 from fitting.reduced.reduced_plate import ReducedPlate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.widened.combined_columns import AllCombined, OwnCombined, own_and_beside
 from fitting.widened.plate_rows import RowReader
 from fitting.widened.span import Span
@@ -239,7 +239,7 @@ class EnrichedReducedPlate:
         )
 
     @cached_property
-    def specimen(self) -> Specimen:
+    def specimen(self) -> PlateSpecimen:
         """As stated, as far as `parts` go."""
         return specimen_of(self.size, self.layers)
 

@@ -16,7 +16,7 @@ from fitting.numerics.linear import times
 from fitting.plate.assembly import Assembly
 from fitting.plate.element import THETA_Y, U_C, W
 from fitting.plate.plate import Plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 
 _COMPARED_PA, _COMPARED_HZ = 1e6, 50
 """Modulus of the core and frequency at which motions are compared in size. A choice."""
@@ -65,7 +65,7 @@ class FullPlate:
         return self.once("elements", lambda: Assembly(self.loose))
 
     @property
-    def specimen(self) -> Specimen:
+    def specimen(self) -> PlateSpecimen:
         """The plate as its file states it."""
         return self.held.specimen
 
@@ -198,7 +198,7 @@ def _nothing(forces: Array | Complex) -> Complex:
     return np.zeros(forces.shape, complex)
 
 
-def _loose(specimen: Specimen) -> Specimen:
+def _loose(specimen: PlateSpecimen) -> PlateSpecimen:
     edges = ("free" if edge == "clamped" else edge for edge in specimen.edges)
     return replace(specimen, boundary="-".join(edges), elements=specimen.mesh)
 

@@ -10,13 +10,13 @@ from fitting.plate.element_matrices import element_matrices
 from fitting.plate.mesh import Mesh
 from fitting.plate.part_names import names_of
 from fitting.plate.parts import coefficients, loaded, stretched
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.widened.change import Change
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from fitting.widened.full_plate import FullPlate, Snapshot
 
 
-def differences(full: FullPlate, other: Specimen) -> tuple[Array, Array, Array]:
+def differences(full: FullPlate, other: PlateSpecimen) -> tuple[Array, Array, Array]:
     """What an element's K_0, K_1 and M of another plate differ by.
 
     Shape (4 dofs, 4 dofs) each, or (cells, 4 dofs, 4 dofs). Its trial functions are the stated plate's,
@@ -43,7 +43,7 @@ def differences(full: FullPlate, other: Specimen) -> tuple[Array, Array, Array]:
     return full.once(f"difference to {other}", make)
 
 
-def forces(full: FullPlate, at: Snapshot, others: Iterable[Specimen]) -> Complex:
+def forces(full: FullPlate, at: Snapshot, others: Iterable[PlateSpecimen]) -> Complex:
     """Whose responses are, to first order, how their motions differ. Shape (n, 2 plates)."""
     found = []
     for other in others:
@@ -52,7 +52,7 @@ def forces(full: FullPlate, at: Snapshot, others: Iterable[Specimen]) -> Complex
     return np.hstack(found)
 
 
-def changed_to(plate: EnrichedReducedPlate, other: Specimen) -> Change:
+def changed_to(plate: EnrichedReducedPlate, other: PlateSpecimen) -> Change:
     """What another plate on the same mesh changes; `other` is `plate.specimen` with something else."""
     c, stated = coefficients(other, plate.specimen), plate.coefficients
     at = names_of(plate.specimen).counts

@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 
 from fitting.errors import FittingError
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.batch.task import BatchTask
 from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen
@@ -36,7 +36,7 @@ def with_families(tasks: Sequence[BatchTask]) -> list[BatchTask]:
     return [replace(task, like=like(task.specimen)) if task.specimen else task for task in tasks]
 
 
-def _read(path: str) -> Specimen | None:
+def _read(path: str) -> PlateSpecimen | None:
     try:
         return read_specimen(Path(path))
     except (BadInput, FittingError):

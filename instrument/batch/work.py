@@ -10,7 +10,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fitting.errors import FittingError
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.batch.keys import program
 from instrument.batch.of_modes import diagnosed_modes, identified_modes
 from instrument.batch.task import BatchTask
@@ -110,7 +110,7 @@ def _worked(task: BatchTask) -> Outcome:
         if data.suffix.lower() == ".csv" and is_modal_table(data):
             return _of_modes(task, data, specimen)
     given = read_given(data, specimen, hammer)
-    if hammer is not None and not isinstance(given.specimen, Specimen):
+    if hammer is not None and not isinstance(given.specimen, PlateSpecimen):
         raise BadInput(f"{hammer}: a hammer test with a {given.specimen.kind}, expected a plate")
     like = _lender(task, given)
     if not task.insist:
@@ -151,8 +151,8 @@ def _columns(rows: list[dict[str, float]]) -> dict[str, list[float]]:
     return {key: [row[key] for row in rows] for key in rows[0]} if rows else {}
 
 
-def _lender(task: BatchTask, given: Given) -> Specimen | None:
-    if task.like is None or not isinstance(given.specimen, Specimen):
+def _lender(task: BatchTask, given: Given) -> PlateSpecimen | None:
+    if task.like is None or not isinstance(given.specimen, PlateSpecimen):
         return None
     lender = read_specimen(Path(task.like))
     if given.sweep.pickup is not None or given.with_masses:
@@ -160,16 +160,16 @@ def _lender(task: BatchTask, given: Given) -> Specimen | None:
     return lender if serves(lender, given.plate, given.sweep) else None
 
 
-def _identified(given: Given, like: Specimen | None) -> dict[str, Any]:
+def _identified(given: Given, like: PlateSpecimen | None) -> dict[str, Any]:
     return _of_fit(identification_from(identify(_files(given, like), hammer=given.modes)))
 
 
-def _files(given: Given, like: Specimen | None) -> list[File]:
+def _files(given: Given, like: PlateSpecimen | None) -> list[File]:
     """As files under one law; `like` is the plate whose model one plate borrows, as `serves` allows."""
     return [replace(one, like=like) for one in given.files()]
 
 
-def _diagnosed(given: Given, like: Specimen | None) -> dict[str, Any]:
+def _diagnosed(given: Given, like: PlateSpecimen | None) -> dict[str, Any]:
     return _of_diagnosis(diagnosis_from(diagnose(_files(given, like), given.modes)))
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.sweep import Sweep
 from instrument.models.specimen_models import Models
 from instrument.paper_case import TABLE_4
@@ -11,7 +11,7 @@ GRID_HZ = np.concatenate([np.linspace(14, 26, 121), np.linspace(80, 125, 116), n
 """353 frequencies in three resonance regions."""
 
 
-def synthetic_sweep(specimen: Specimen, seed: int = 0, noise: float = 0.005) -> Sweep:
+def synthetic_sweep(specimen: PlateSpecimen, seed: int = 0, noise: float = 0.005) -> Sweep:
     """353 phasors of Table 4's law on the reduced model, with relative noise of the given size."""
     models = Models.of(specimen, GRID_HZ)
     v = models.predict(TABLE_4, GRID_HZ)

@@ -22,7 +22,7 @@ from fitting.dynamics.real_modes import real_modes
 from fitting.identification.direct import fit_direct
 from fitting.identification.model import SweepModel
 from fitting.identification.residuals import Residuals
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.sweep import Sweep
 from instrument.bench.elastic_root import elastic_root_sweep
 from instrument.bench.sweeps import GRID_HZ, synthetic_sweep
@@ -100,7 +100,7 @@ def run_bench(progress: Progress = quiet) -> list[BenchLine]:
     ]
 
 
-def _diagnoses(specimen: Specimen, progress: Progress) -> list[tuple[Sweep, Diagnosed]]:
+def _diagnoses(specimen: PlateSpecimen, progress: Progress) -> list[tuple[Sweep, Diagnosed]]:
     """An elastic root diagnosed cold, then cached at one level and at three."""
     levels = [(1.0,), (1.0,), (0.25, 0.5, 1.0)]
     sweeps = [elastic_root_sweep(specimen.base_acceleration_m_s2, level) for level in levels]
@@ -117,13 +117,13 @@ def _diagnosis_rows(diagnosed: list[tuple[Sweep, Diagnosed]]) -> list[BenchLine]
     return rows
 
 
-def _set_up(specimen: Specimen, progress: Progress) -> Models:
+def _set_up(specimen: PlateSpecimen, progress: Progress) -> Models:
     models = Models.of(specimen, GRID_HZ, progress)
     models.rational(2 * np.pi * GRID_HZ)
     return models
 
 
-def _paper_sweep_seconds(specimen: Specimen, progress: Progress) -> float:
+def _paper_sweep_seconds(specimen: PlateSpecimen, progress: Progress) -> float:
     plate = Models.of(specimen, GRID_HZ).plate
     chosen = GRID_HZ[np.linspace(0, len(GRID_HZ) - 1, TIMED_EIGENPROBLEMS).astype(int)]
     seconds = []
@@ -155,7 +155,7 @@ def _against_direct(models: Models, progress: Progress) -> tuple[float, float, i
     return median(seconds), error, len(models.reduced.M)
 
 
-def _fit_seconds(sweep: Sweep, specimen: Specimen, models: Models) -> float:
+def _fit_seconds(sweep: Sweep, specimen: PlateSpecimen, models: Models) -> float:
     model = SweepModel.of(sweep, models.rational(np.unique(sweep.omega)), specimen.reads)
     residuals = Residuals.of(sweep, noise_of(sweep), model)
     start = specimen.core.law if specimen.core is not None else TABLE_4

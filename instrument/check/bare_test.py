@@ -9,7 +9,7 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.dynamics.real_modes import real_modes
 from fitting.plate.plate import Plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import Beam
 from fitting.structures.small_modes import small_modes
 from instrument.files.experiment_file import Hammer
@@ -47,7 +47,7 @@ class BareShapes:
 
     @classmethod
     @lru_cache(maxsize=4)
-    def of(cls, specimen: Specimen | Beam) -> "BareShapes":
+    def of(cls, specimen: PlateSpecimen | Beam) -> "BareShapes":
         """On a coarse mesh."""
         if isinstance(specimen, Beam):
             bare = replace(specimen, core=None, constraining=None, both_sides=False)
@@ -71,7 +71,7 @@ class BareShapes:
 def bare_test_objections(experiment: Experiment, hammer: Hammer) -> Iterator[str]:
     """What leaves nothing to be found; the places lie on the specimen."""
     specimen = experiment.the_specimen()
-    assert isinstance(specimen, Specimen | Beam)
+    assert isinstance(specimen, PlateSpecimen | Beam)
     found = BareShapes.of(specimen)
     for what, x, y in _places(hammer):
         if _held(specimen, 1e-3 * x) or np.max(found.moves(1e-3 * x, 1e-3 * y)) < _STILL:
@@ -97,7 +97,7 @@ def bare_test_objections(experiment: Experiment, hammer: Hammer) -> Iterator[str
 def bare_test_remarks(experiment: Experiment, hammer: Hammer) -> Iterator[str]:
     """What a test will not find."""
     specimen = experiment.the_specimen()
-    assert isinstance(specimen, Specimen | Beam)
+    assert isinstance(specimen, PlateSpecimen | Beam)
     found = BareShapes.of(specimen)
     f = found.frequency_hz
     inside = (f >= hammer.band_hz[0]) & (f <= hammer.band_hz[1])
@@ -109,7 +109,9 @@ def bare_test_remarks(experiment: Experiment, hammer: Hammer) -> Iterator[str]:
                 f"of the bare plate ({_listed(lost)} Hz): they will not be found"
             )
     if hammer.record_s != "auto":
-        auto = record_length_s(specimen) if isinstance(specimen, Specimen) else bare_beam_record_s(specimen)
+        auto = (
+            record_length_s(specimen) if isinstance(specimen, PlateSpecimen) else bare_beam_record_s(specimen)
+        )
         left = _END ** (hammer.record_s / auto)
         if left > _LEFT:
             yield (
@@ -119,9 +121,9 @@ def bare_test_remarks(experiment: Experiment, hammer: Hammer) -> Iterator[str]:
             )
 
 
-def _held(specimen: Specimen | Beam, x_m: float) -> bool:
+def _held(specimen: PlateSpecimen | Beam, x_m: float) -> bool:
     """Whether a beam is clamped there; a plate's shapes tell it."""
-    if isinstance(specimen, Specimen):
+    if isinstance(specimen, PlateSpecimen):
         return False
     ends = {"clamped-free": (0.0,), "clamped-clamped": (0.0, specimen.length_m)}
     return any(np.isclose(x_m, end) for end in ends.get(specimen.boundary, ()))

@@ -9,7 +9,7 @@ import numpy as np
 
 from fitting.errors import FittingError
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen
 from instrument.check.bare_test import bare_test_remarks
 from instrument.check.coarse_steps import coarse_remarks
@@ -110,7 +110,7 @@ def dry_run(path: Path) -> DryRun:
     if len(band) and specimen.core is not None:
         outside = specimen.core.law.outside(band)
         warnings += [outside] if outside else []
-        plate = specimen if isinstance(specimen, Specimen) else None
+        plate = specimen if isinstance(specimen, PlateSpecimen) else None
         remark = theory_remark(plate, specimen.core.law, band) if plate is not None else ""
         warnings += [f"with the law to start from, {remark}"] if remark else []
     table = experiment.document.hammer

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from drivers.simulated.climate import HIGHEST_C, LOWEST_C
 from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.check.bare_test import bare_test_objections
 from instrument.check.forecast import Forecast, distinct, planned_segment, sections_of
 from instrument.errors import BadInput
@@ -58,7 +58,7 @@ def _simulated_plate(experiment: Experiment) -> Iterator[str]:
                 f"{experiment.specimen_path}: a {specimen.kind}, but on the simulated rig stands a "
                 f"{stands.kind} ({simulation.specimen}): expected one kind"
             )
-        elif isinstance(stands, Specimen) and isinstance(specimen, Specimen):
+        elif isinstance(stands, PlateSpecimen) and isinstance(specimen, PlateSpecimen):
             try:
                 check_like(specimen, stands)
             except OutsideModel as error:
@@ -68,7 +68,7 @@ def _simulated_plate(experiment: Experiment) -> Iterator[str]:
                     f"({simulation.specimen}): {said}; expected that one"
                 )
         return
-    if not isinstance(specimen, Specimen):
+    if not isinstance(specimen, PlateSpecimen):
         yield (
             f"{experiment.specimen_path}: a {specimen.kind}, but the simulated rig has the published plate: "
             f'expected [simulation] specimen = "{experiment.specimen_path.name}" in '
@@ -159,7 +159,7 @@ def _sweep(experiment: Experiment, forecast: Forecast) -> Iterator[str]:
     table, path = experiment.document.sweep, experiment.path
     if table is None:
         return
-    if table.plan == "adaptive" and not isinstance(experiment.the_specimen(), Specimen):
+    if table.plan == "adaptive" and not isinstance(experiment.the_specimen(), PlateSpecimen):
         kind = experiment.the_specimen().kind
         yield f'{path}: sweep.plan = "adaptive": the specimen is a {kind}, expected a plate, or segments'
         return

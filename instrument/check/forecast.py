@@ -15,7 +15,7 @@ from fitting.dynamics.half_plate import HalfPlate
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.identification.model import velocity
 from fitting.plate.plate import Plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen, Beam, ShearPair
 from fitting.structures.small_modes import small_modes, small_velocity
 from instrument.errors import BadInput
@@ -58,7 +58,7 @@ class Forecast:
     @lru_cache(maxsize=8)
     def of(cls, specimen: AnySpecimen) -> "Forecast":
         """Modes of the specimen with the law it starts from."""
-        if not isinstance(specimen, Specimen):
+        if not isinstance(specimen, PlateSpecimen):
             return cls._of_small(specimen)
         coarse = replace(specimen, elements=specimen.elements or _COARSE)
         modes = specimen_modes(coarse, _MODES)
@@ -86,7 +86,7 @@ class Forecast:
         few = np.unique(frequency_hz)
         if len(few) > _MOST_SOLVED:
             few = np.linspace(few[0], few[-1], _MOST_SOLVED)
-        if not isinstance(self.specimen, Specimen):
+        if not isinstance(self.specimen, PlateSpecimen):
             seen = np.abs(small_velocity(self.specimen, few)) / self.specimen.drive_amplitude * level_m_s2
             return np.interp(frequency_hz, few, seen)
         omega = 2 * np.pi * few
@@ -110,7 +110,7 @@ class Forecast:
 
     @cached_property
     def _half(self) -> HalfPlate:
-        assert isinstance(self.specimen, Specimen)
+        assert isinstance(self.specimen, PlateSpecimen)
         return HalfPlate(Plate(self.specimen), "carried")
 
     @cached_property

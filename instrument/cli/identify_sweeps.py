@@ -6,7 +6,7 @@ from pathlib import Path
 
 from fitting.errors import OutsideModel
 from fitting.identification.pointwise import phase_is_kept
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.cli.identify_asked import Asked
 from instrument.cli.output import Output
 from instrument.cli.print_beside import print_beside
@@ -107,7 +107,7 @@ def _in_depth(out: Output, found: Identified, method: Depth, samples: int) -> li
     return in_depth_facts(looked)
 
 
-def _table(dma: Path | None, specimen: Specimen) -> DmaTable | None:
+def _table(dma: Path | None, specimen: PlateSpecimen) -> DmaTable | None:
     """Read before the work, not after it."""
     if dma is None:
         return None

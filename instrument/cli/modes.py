@@ -6,7 +6,7 @@ from pathlib import Path
 import click
 
 from fitting.dynamics.complex_modes import ModalValue
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import Beam
 from fitting.structures.small_modes import along, small_modes
 from instrument.cli.naming import naming_files
@@ -38,7 +38,7 @@ def modes(specimen: Path, count: int, insist: bool, json_path: str | None) -> No
     found: Sequence[ModalValue]
     stretched: list[bool] = []
     twist = ""
-    if isinstance(read, Specimen):
+    if isinstance(read, PlateSpecimen):
         found = specimen_modes(read, count, bar)
         twist = edge_twist_remark(read, count)
     else:

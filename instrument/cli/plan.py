@@ -6,7 +6,7 @@ import click
 
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.planning.sensitivity import ReadingNoise
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.cli.naming import naming_files
 from instrument.cli.options import (
     Level,
@@ -133,7 +133,7 @@ def plan(
     """
     out = Output(json_path)
     read = read_structure(specimen)
-    if not isinstance(read, Specimen):
+    if not isinstance(read, PlateSpecimen):
         raise BadInput(
             f"{specimen}: a {read.kind}, expected a plate: other specimens are not planned for yet"
         )

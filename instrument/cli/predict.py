@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
-from fitting.specimen import Specimen, StatedSpecimen
+from fitting.specimen import PlateSpecimen, StatedSpecimen
 from fitting.stated.layers import Core
 from fitting.structures import Beam, ShearPair
 from fitting.structures.small_modes import small_velocity
@@ -67,7 +67,7 @@ def predict(
     out = Output(json_path)
     read = read_structure(specimen)
     question_specimen(specimen, insist=insist)
-    if not isinstance(read, Specimen):
+    if not isinstance(read, PlateSpecimen):
         of_plates = {"--real-modes": real_modes, "--hammer": hammer is not None}
         asked = ", ".join(option for option, given in of_plates.items() if given)
         if asked:

@@ -4,7 +4,7 @@ import numpy as np
 
 from fitting.identification.bare_plate import BarePlateFit
 from fitting.identification.result import Identification
-from fitting.specimen import Specimen, StatedSpecimen
+from fitting.specimen import PlateSpecimen, StatedSpecimen
 from fitting.sweep import Sweep
 from instrument.cli.output import Output
 from instrument.models.identification import Identified
@@ -37,11 +37,11 @@ def print_identification(out: Output, found: Identified) -> None:
         f"{len(sweep)} points, {r.fit.iterations} iterations; set-up {found.setup_seconds:.2f} s, "
         f"fit {found.seconds * 1e3:.0f} ms, validation {found.validation_seconds * 1e3:.0f} ms"
     )
-    if found.bare is not None and isinstance(stated, Specimen):
+    if found.bare is not None and isinstance(stated, PlateSpecimen):
         _print_bare_plate(out, found.bare, stated)
 
 
-def _print_bare_plate(out: Output, bare: BarePlateFit, specimen: Specimen) -> None:
+def _print_bare_plate(out: Output, bare: BarePlateFit, specimen: PlateSpecimen) -> None:
     """What the hammer test gives by itself; `specimen` as stated."""
     young, error = specimen.substrate.young_pa * bare.young_scale / 1e9, 100 * bare.standard_error
     worst = 100 * np.max(np.abs(bare.measured_hz / bare.fitted_hz - 1))

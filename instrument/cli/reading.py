@@ -8,7 +8,7 @@ import click
 
 from fitting.laws.constant import ConstantModulus
 from fitting.mode_tables.table import ModalTable
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen
 from instrument.cli.options import force_option
 from instrument.cli.output import Output
@@ -98,7 +98,7 @@ def read_each(
     cut = "" if at_temperatures else looks_cut(data, [one.sweep for one in given], paired)
     for remark in dict.fromkeys(said for said in (*(one.remark for one in given), cut) if said):
         out.say(f"{remark}\n")
-    if hammer is not None and not isinstance(given[0].specimen, Specimen):
+    if hammer is not None and not isinstance(given[0].specimen, PlateSpecimen):
         raise click.UsageError(f"--hammer with a {given[0].specimen.kind}: expected a plate")
     if hammer is not None and len({_bare(one) for one in given}) > 1:
         raise click.UsageError("--hammer with plates of unlike substrates: expected one bare plate")
@@ -113,7 +113,7 @@ def read_each(
 
 
 def _bare(given: Given) -> object:
-    return given.specimen.substrate if isinstance(given.specimen, Specimen) else None
+    return given.specimen.substrate if isinstance(given.specimen, PlateSpecimen) else None
 
 
 def are_tables(data: Sequence[Path], specimens: Sequence[Path]) -> bool:

@@ -1,4 +1,4 @@
-"""SPECIMEN.toml: its keys, units and limits, and the `Specimen` it describes."""
+"""SPECIMEN.toml: its keys, units and limits, and the `PlateSpecimen` it describes."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -10,7 +10,7 @@ from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import LAWS, CoreLaw
 from fitting.laws.table import Tabulated
-from fitting.specimen import Drive, Kind, PlacedMass, Reading, Specimen
+from fitting.specimen import Drive, Kind, PlacedMass, PlateSpecimen, Reading
 from fitting.stated.edges import named
 from fitting.stated.layers import Core
 from fitting.stated.tolerances import IN_FILES, OF_FEW, OF_TEMPERATURE, STATED
@@ -232,7 +232,7 @@ def with_further_pickups(given: Any) -> Any:
     return {**given, "pickup": pickups[0], "further_pickups": pickups[1:] or None}
 
 
-def read_specimen(path: Path) -> Specimen:
+def read_specimen(path: Path) -> PlateSpecimen:
     """Read and check a specimen. Raises `BadInput` with one line."""
     try:
         return specimen_of(read_specimen_document(path))
@@ -245,7 +245,7 @@ def read_specimen_document(path: Path) -> SpecimenDocument:
     return with_rows(read_document(path, SpecimenDocument), path)
 
 
-def specimen_of(d: SpecimenDocument) -> Specimen:
+def specimen_of(d: SpecimenDocument) -> PlateSpecimen:
     """The specimen a document describes. Raises `OutsideModel`."""
     core = None
     if d.core is not None:
@@ -256,7 +256,7 @@ def specimen_of(d: SpecimenDocument) -> Specimen:
             law_of(d.core.law),
             tuple(g.glue() for g in d.glue or ()),
         )
-    plate = Specimen(
+    plate = PlateSpecimen(
         length_m=d.plate.length_mm * 1e-3,
         width_m=d.plate.width_mm * 1e-3,
         boundary=d.plate.boundary,

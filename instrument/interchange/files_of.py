@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
 from instrument.impact.mobility import DELAY_S, GAIN
@@ -21,7 +21,7 @@ def files_of(
 
     What was `struck` follows what was driven in the same mounting; hung free it comes last.
     """
-    if not isinstance(specimen, Specimen):
+    if not isinstance(specimen, PlateSpecimen):
         return [File(sweep, specimen)]
     plate = with_spots(specimen, points)
     groups = by_mounting(points, plate)
@@ -42,7 +42,7 @@ def files_of(
     return [*found, *(_struck_file(one, specimen, last + k) for k, one in enumerate(free, start=1))]
 
 
-def _struck_file(struck: StruckFound, specimen: Specimen, number: int) -> File:
+def _struck_file(struck: StruckFound, specimen: PlateSpecimen, number: int) -> File:
     """A spectrum as a sweep: every line the velocity for 1 N."""
     lines = len(struck.frequency_hz)
     sweep = Sweep(

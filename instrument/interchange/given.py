@@ -6,7 +6,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen, Beam
 from fitting.sweep import Sweep
 from instrument.errors import BadInput
@@ -61,9 +61,9 @@ class Given:
     """For people, of levels far from the base that was read: only where the data are not asked about."""
 
     @property
-    def plate(self) -> Specimen:
+    def plate(self) -> PlateSpecimen:
         """The specimen where only a plate will do. Raises `BadInput`."""
-        if not isinstance(self.specimen, Specimen):
+        if not isinstance(self.specimen, PlateSpecimen):
             raise BadInput(f"the specimen is a {self.specimen.kind}, expected a plate")
         return self.specimen
 
@@ -153,7 +153,7 @@ def _of_sweep(data: Path, specimen: Path | None) -> Given:
 def at_its_spot(data: Path | str, read: AnySpecimen, sweep: Sweep) -> tuple[AnySpecimen, Sweep]:
     """The specimen read where the data were; several spots stay several. Raises `BadInput`."""
     which = sweep.pickup
-    known = len(read.pickups_m) if isinstance(read, Specimen | Beam) else 1
+    known = len(read.pickups_m) if isinstance(read, PlateSpecimen | Beam) else 1
     if which is None:
         if known > 1:
             raise BadInput(f"{data}: column pickup missing, expected it: the specimen has {known} pickups")
@@ -164,7 +164,7 @@ def at_its_spot(data: Path | str, read: AnySpecimen, sweep: Sweep) -> tuple[AnyS
         raise BadInput(f"{data}: column pickup: {wrong[0]}, expected {expected}: {_spots_words(known)}")
     if len(np.unique(which)) > 1:
         return read, sweep
-    spot = read.at_pickup(int(which[0])) if isinstance(read, Specimen | Beam) and known else read
+    spot = read.at_pickup(int(which[0])) if isinstance(read, PlateSpecimen | Beam) and known else read
     return spot, replace(sweep, pickup=None)
 
 
@@ -182,7 +182,7 @@ def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given
     modes = session_modes(contents) if own_hammer else None
     sweep = session_sweep(contents)
     files = files_of(sweep, contents.measured, read, contents.struck)
-    read = with_spots(read, contents.measured) if isinstance(read, Specimen) else read
+    read = with_spots(read, contents.measured) if isinstance(read, PlateSpecimen) else read
     name = contents.configuration.name
     hammer = f", its hammer test with {len(modes.frequency_hz)} modes" if modes is not None else ""
     said = f"session {name}: {len(sweep)} points, velocity {reads}{hammer}"

@@ -2,7 +2,7 @@
 
 from pydantic import ValidationError
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.sweep import Sweep
 from instrument.errors import BadInput
 from instrument.files.hammer_file import HammerModes, accepted_modes
@@ -35,7 +35,7 @@ def session_modes(contents: Contents) -> HammerModes | None:
 
     Raises `BadInput` where they are beyond what can be used.
     """
-    if contents.damping is None or not isinstance(contents.specimen, Specimen):
+    if contents.damping is None or not isinstance(contents.specimen, PlateSpecimen):
         return None
     try:
         return accepted_modes(contents.damping.result)

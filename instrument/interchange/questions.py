@@ -11,7 +11,7 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.mode_tables.fit import ModalFit
 from fitting.mode_tables.table import ModalTable
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen, ShearPair
 from instrument.errors import BadInput
 from instrument.files.plausible import INSIST
@@ -42,7 +42,9 @@ _LOSSY = 2.0
 """More than a mode of any structure has."""
 
 
-def question_data(given: Given, path: Path, progress: Progress = quiet, like: Specimen | None = None) -> None:
+def question_data(
+    given: Given, path: Path, progress: Progress = quiet, like: PlateSpecimen | None = None
+) -> None:
     """Ask about the sweep of a specimen, or of one like it, as its first spot sees it.
 
     Raises `BadInput`, and `FittingError` where it cannot be modelled over these frequencies.
@@ -51,14 +53,14 @@ def question_data(given: Given, path: Path, progress: Progress = quiet, like: Sp
     if not given.session:
         doubt = _otherwise_read(given) or kelvin_doubt(given.temperature_c)
         doubt = doubt or _drifted(given.temperature_range_c) or _times(given.sweep.time_s)
-        _ask(doubt or _many(len(given.sweep), isinstance(plate, Specimen)), [path])
+        _ask(doubt or _many(len(given.sweep), isinstance(plate, PlateSpecimen)), [path])
     if (
         given.session
         or plate.core is None
         or not (isinstance(plate, ShearPair) or plate.pickup_m is not None)
     ):
         return
-    if isinstance(plate, Specimen) and plate.masses:
+    if isinstance(plate, PlateSpecimen) and plate.masses:
         return
     _ask(data_doubt(given.sweep, like or plate, progress), [path])
 

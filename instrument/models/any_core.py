@@ -18,7 +18,7 @@ from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
 from fitting.identification.model import velocity
 from fitting.reduced.rational import RationalSweep, rational_sweep
-from fitting.specimen import Reading, Specimen
+from fitting.specimen import PlateSpecimen, Reading
 from fitting.structures import AnySpecimen, ShearPair
 from fitting.structures.small import check_driven, system_of
 from fitting.structures.small_sum import rational_of
@@ -151,7 +151,7 @@ def any_core(specimen: AnySpecimen, frequency_hz: Array, progress: Progress) -> 
     losses = np.log(np.clip(at.imag / at.real, 1e-3, _MOST_LOSS))
     eta_slope = np.clip((losses[1] - losses[0]) / np.log(1.1), -1, 1)
     stated = np.array([np.log10(at[0].real), slope, losses[0], eta_slope])
-    if isinstance(specimen, Specimen):
+    if isinstance(specimen, PlateSpecimen):
         sums = rational_sweep(Models.of(specimen, frequency_hz, progress).reduced, omega)
     else:
         parts = specimen.parts()

@@ -2,7 +2,7 @@
 
 from fitting.digits import two_digits
 from fitting.plate.plate_numbers import tolerance
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen, Beam
 
 _PULLED = 12.30 / 4.730**4
@@ -16,7 +16,7 @@ def remarks_on_clamps(specimen: AnySpecimen) -> tuple[str, ...]:
     """What clamps do that nobody states."""
     if isinstance(specimen, Beam):
         return (*_on_held_width(specimen), *_on_pulled_beam(specimen), *_on_ends_of_treatment(specimen))
-    return _on_pulled_plate(specimen) if isinstance(specimen, Specimen) else ()
+    return _on_pulled_plate(specimen) if isinstance(specimen, PlateSpecimen) else ()
 
 
 def _on_pulled_beam(beam: Beam) -> tuple[str, ...]:
@@ -35,7 +35,7 @@ def _on_ends_of_treatment(beam: Beam) -> tuple[str, ...]:
     )
 
 
-def _on_pulled_plate(plate: Specimen) -> tuple[str, ...]:
+def _on_pulled_plate(plate: PlateSpecimen) -> tuple[str, ...]:
     """Where opposite edges are clamped, of the shorter way between them."""
     sides = {"x": plate.length_m, "y": plate.width_m}
     if not plate.pulled_along:
@@ -44,7 +44,7 @@ def _on_pulled_plate(plate: Specimen) -> tuple[str, ...]:
     return (_pulled("clamps on opposite edges", plate, shorter, tolerance(plate, "axial")),)
 
 
-def _pulled(by_what: str, specimen: Beam | Specimen, length_m: float, tolerance_pa: float) -> str:
+def _pulled(by_what: str, specimen: Beam | PlateSpecimen, length_m: float, tolerance_pa: float) -> str:
     faces = [face for face in (specimen.substrate, specimen.constraining) if face is not None]
     thickness = sum(face.thickness_m for face in faces)
     rigidity = sum(face.young_pa * face.thickness_m**3 for face in faces) / 12

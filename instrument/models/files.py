@@ -9,7 +9,7 @@ from fitting.diagnosis.inference.evidence import BareModes
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.several.mountings import of_mounting
 from fitting.reduced.reduced_plate import ReducedPlate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen, Beam
 from fitting.sweep import Sweep
 from instrument.models.set_up import Hammer, set_up, set_up_spots, with_hammer
@@ -27,13 +27,13 @@ class File:
     """Of the file, from 1; in order where it is not said: several spots of one file share it."""
     pickup: int | None = None
     """Which spot of the file, where it has several."""
-    like: Specimen | None = None
+    like: PlateSpecimen | None = None
     """As `instrument.models.set_up.set_up` takes it."""
 
 
 def spots_of(sweep: Sweep, specimen: AnySpecimen, name: str = "", number: int = 1) -> list[File]:
     """A file's data, each of its spots for itself."""
-    if sweep.pickup is None or not isinstance(specimen, Specimen | Beam):
+    if sweep.pickup is None or not isinstance(specimen, PlateSpecimen | Beam):
         return [File(sweep, specimen, name, number)]
     return [
         File(replace(sweep.take(sweep.pickup == k), pickup=None), specimen.at_pickup(k), name, number, k)
@@ -41,10 +41,10 @@ def spots_of(sweep: Sweep, specimen: AnySpecimen, name: str = "", number: int = 
     ]
 
 
-def lone_plate(files: Sequence[File]) -> Specimen | None:
+def lone_plate(files: Sequence[File]) -> PlateSpecimen | None:
     """The plate, where all there is is one file of it: nothing is joined then, and nothing told apart."""
     first = files[0].specimen
-    return first if len(files) == 1 and isinstance(first, Specimen) else None
+    return first if len(files) == 1 and isinstance(first, PlateSpecimen) else None
 
 
 def numbers_of(files: Sequence[File]) -> list[int]:
@@ -59,7 +59,7 @@ def name_of(files: Sequence[File], number: int) -> str:
 
 def one_plate(files: Sequence[File]) -> bool:
     """Whether the specimens differ in what drives them, in the spot and in masses put on them alone."""
-    plates = [f.specimen for f in files if isinstance(f.specimen, Specimen)]
+    plates = [f.specimen for f in files if isinstance(f.specimen, PlateSpecimen)]
     whole = [replace(s, force_m=None, pickup_m=None, further_pickups_m=(), masses=()) for s in plates]
     if len({s.drive for s in plates}) > 1:
         whole = [replace(s.as_it_stands, masses=()) for s in plates]
@@ -94,7 +94,7 @@ def plates_of(
     """
     alike: list[tuple[object, list[int]]] = []
     for k, file in enumerate(files):
-        if isinstance(s := file.specimen, Specimen):
+        if isinstance(s := file.specimen, PlateSpecimen):
             whole = replace(s, force_m=None if s.force_m is None else (0.0, 0.0), pickup_m=None), file.like
             its = next((its for one, its in alike if one == whole), None)
             if its is None:
@@ -105,9 +105,9 @@ def plates_of(
     bare: BareModes | None = None
     first = files[0].specimen
     for _, group in alike:
-        specimens = [s for k in group if isinstance(s := files[k].specimen, Specimen)]
+        specimens = [s for k in group if isinstance(s := files[k].specimen, PlateSpecimen)]
         # The bare plate was struck as the first file's plate is held.
-        held_alike = isinstance(first, Specimen) and specimens[0].edges == first.edges
+        held_alike = isinstance(first, PlateSpecimen) and specimens[0].edges == first.edges
         test = hammer if held_alike else None
         like = files[group[0]].like
         if len(group) > 1 and like is None:

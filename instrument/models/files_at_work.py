@@ -26,7 +26,7 @@ from fitting.errors import OutsideModel
 from fitting.identification.result import BIASED
 from fitting.laws import CoreLaw
 from fitting.reduced.reduced_plate import ReducedPlate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import Beam, ShearPair
 from fitting.sweep import Sweep
 from instrument.models.files import File, name_of, numbers_of, plates_of
@@ -110,7 +110,7 @@ class FilesAtWork:
         reduced: list[ReducedPlate | None] = []
         noises = []
         for k, (file, sweep, noise) in enumerate(zip(self.files, sweeps, noises_of(sweeps), strict=True)):
-            if isinstance(file.specimen, Specimen):
+            if isinstance(file.specimen, PlateSpecimen):
                 member, of_it = plates[k]
                 members.append(member)
                 reduced.append(of_it)

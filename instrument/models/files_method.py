@@ -21,7 +21,7 @@ from fitting.identification.fit import Fit
 from fitting.identification.result import Identification
 from fitting.identification.validation import Validation, rms
 from fitting.progress import Report
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.models.exchanged import exchanged, leaves_much
 from instrument.models.file_remarks import remarks_on_files, remarks_on_rest, remarks_on_scale
 from instrument.models.files import File
@@ -49,7 +49,7 @@ class FilesMethod(IdentificationMethod):
         self.given = joined([f.sweep for f in files])
         plate = files[0].specimen
         self.questioned = files[0].sweep, plate
-        if hammer is not None and isinstance(plate, Specimen):
+        if hammer is not None and isinstance(plate, PlateSpecimen):
             self.bare = fit_bare_plate(plate, *hammer)
         self._work = FilesAtWork(files, progress, with_effects=False, hammer=hammer)
         self._misfit: tuple[str, ...] = ()

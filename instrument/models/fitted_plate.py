@@ -13,7 +13,7 @@ from fitting.nuisances.moved_plate import moved_plate
 from fitting.nuisances.nuisances import Nuisances
 from fitting.plate.mesh import Mesh
 from fitting.reduced.reduced_plate import ReducedPlate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from instrument.models.specimen_models import Models
 
@@ -22,12 +22,12 @@ from instrument.models.specimen_models import Models
 class FittedPlate:
     """One specimen with its stated numbers moved by `z`, in standard deviations of their tolerances."""
 
-    specimen: Specimen
+    specimen: PlateSpecimen
     """The specimen as its file states it."""
     nuisances: Nuisances
     z: Array
 
-    def moved_specimen(self) -> Specimen:
+    def moved_specimen(self) -> PlateSpecimen:
         """What the fit says the plate is: layers, lengths and modal ratios."""
         found = self.nuisances.moved_specimen(self.z)
         by = {n.name: n.sigma * float(z) for n, z in zip(self.nuisances.each, self.z, strict=True)}

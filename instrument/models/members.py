@@ -22,7 +22,7 @@ from fitting.mode_tables.misread import misread
 from fitting.mode_tables.standing import standing
 from fitting.mode_tables.table import ModalTable
 from fitting.progress import Report, unheard
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen, Beam
 from fitting.sweep import Sweep
 from fitting.temperature.members import Alone, Joined
@@ -154,7 +154,7 @@ class Members:
         clean = sweep.take(strays(sweep) == 0)
         said = (*remarks_on_strays(sweep), *remarks_on_noise(clean))
         self.remarks += [f"{one.name}: {text}" for text in said]
-        if isinstance(specimen, Specimen):
+        if isinstance(specimen, PlateSpecimen):
             sweep = clean
             noise = noise_of(sweep)
             ready = set_up(sweep, specimen, self.hammer, with_effects=with_effects)
@@ -183,7 +183,7 @@ class Members:
     def _member(self, one: AtTemperature, *, with_effects: bool) -> Member:
         assert isinstance(one.data, ModalTable)
         specimen = self.specimen(one)
-        if not isinstance(specimen, Specimen):
+        if not isinstance(specimen, PlateSpecimen):
             return member_of(one.data, specimen)
         # A plate's motions are dear, and the same at all of its temperatures.
         key = one.specimen, with_effects

@@ -33,7 +33,7 @@ from fitting.identification.validation import Validation, rms, validate
 from fitting.laws import CoreLaw
 from fitting.progress import Report
 from fitting.reduced.reduced_plate import ReducedPlate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
 from instrument.models.clamp_remarks import remarks_on_clamps
@@ -137,7 +137,7 @@ class PlateMethod(IdentificationMethod):
     models: Models | None = None
     """The reduced models, once they are made."""
 
-    def __init__(self, file: File, stated: Specimen, hammer: Hammer | None, progress: Progress) -> None:
+    def __init__(self, file: File, stated: PlateSpecimen, hammer: Hammer | None, progress: Progress) -> None:
         if stated.core is None:
             raise OutsideModel("a bare plate has no core to identify, expected [core] and [constraining]")
         self.given, self.why_aside = file.sweep, reasons(strays(file.sweep) > 0, LOST)
@@ -151,7 +151,7 @@ class PlateMethod(IdentificationMethod):
         self.questioned = self.sweep, self.plate
         self._provisional: tuple[str, ...] = ()
 
-    def with_bare_plate(self, bare: BarePlateFit) -> Specimen:
+    def with_bare_plate(self, bare: BarePlateFit) -> PlateSpecimen:
         """The plate as it is fitted."""
         return self.stated
 
@@ -288,7 +288,7 @@ class PaperMethod(PlateMethod):
 
     name = "paper"
 
-    def with_bare_plate(self, bare: BarePlateFit) -> Specimen:
+    def with_bare_plate(self, bare: BarePlateFit) -> PlateSpecimen:
         """Moved to where the test has it."""
         return with_bare_plate(self.stated, bare)
 

@@ -28,7 +28,7 @@ from fitting.mode_tables.standing import standing
 from fitting.mode_tables.table import FREQUENCY_STD, LOSS_STD, ModalTable
 from fitting.plate.plate import Plate
 from fitting.progress import Report
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen
 from fitting.structures.beam import Beam
 from fitting.widened.enriched_plate import EnrichedReducedPlate
@@ -169,7 +169,7 @@ def _remark_on_free_layers(
     )
 
 
-def widened(specimen: Specimen, V: Array, report: Report, reach_hz: float) -> EnrichedReducedPlate:
+def widened(specimen: PlateSpecimen, V: Array, report: Report, reach_hz: float) -> EnrichedReducedPlate:
     """A plate and its own motions with all that effects need, made or loaded. Shape (n, k)."""
 
     def build() -> EnrichedReducedPlate:
@@ -265,7 +265,7 @@ def remarks_on_tables(tables: Sequence[ModalTable], specimens: Sequence[AnySpeci
     for table, specimen in zip(tables, specimens, strict=True):
         if specimen.core is not None:
             said += remarks_on_law(specimen.core.law, table.frequency_hz)
-        if isinstance(specimen, Specimen):
+        if isinstance(specimen, PlateSpecimen):
             said += [*remarks_on_tolerances(specimen), *remarks_on_damping(specimen, tested=False)]
         said += (*remarks_on_patches(specimen), *remarks_on_clamps(specimen))
         said += remarks_on_errors([table])

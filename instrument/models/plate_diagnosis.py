@@ -6,7 +6,7 @@ from fitting.diagnosis.diagnose import seen_in_channels
 from fitting.diagnosis.verdict.result import Diagnosis
 from fitting.effects import Effect
 from fitting.errors import OutsideModel
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.models.clamp_remarks import remarks_on_clamps
 from instrument.models.files import File
 from instrument.models.files_at_work import SetAside
@@ -31,7 +31,7 @@ class PlateDiagnosis:
     def __init__(
         self,
         file: File,
-        plate: Specimen,
+        plate: PlateSpecimen,
         effects: Sequence[Effect],
         hammer: Hammer | None,
         resamples: int | None,

@@ -12,7 +12,7 @@ import numpy as np
 from fitting.arrays import Complex
 from fitting.errors import FittingError
 from fitting.identification.result import LOST_PERCENT
-from fitting.specimen import Reading, Specimen
+from fitting.specimen import PlateSpecimen, Reading
 from fitting.structures import AnySpecimen, Beam
 from fitting.sweep import Sweep
 from instrument.models.any_core import FURTHEST, AnyCore, Nearest, any_core
@@ -289,7 +289,7 @@ def _other(model: AnyCore) -> Reading:
 
 def _one_spot(sweep: Sweep, specimen: AnySpecimen) -> tuple[Sweep, AnySpecimen]:
     """Of not too many points."""
-    if sweep.pickup is not None and isinstance(specimen, Specimen | Beam):
+    if sweep.pickup is not None and isinstance(specimen, PlateSpecimen | Beam):
         first = int(sweep.pickup.min())
         sweep = replace(sweep.take(sweep.pickup == first), pickup=None)
         specimen = specimen.at_pickup(first)
@@ -298,7 +298,7 @@ def _one_spot(sweep: Sweep, specimen: AnySpecimen) -> tuple[Sweep, AnySpecimen]:
 
 def _other_spots(sweep: Sweep, specimen: AnySpecimen) -> list[tuple[str, AnySpecimen]]:
     """Where the first spot in the data may be instead, of those that are stated, and words for each."""
-    if sweep.pickup is None or not isinstance(specimen, Specimen | Beam):
+    if sweep.pickup is None or not isinstance(specimen, PlateSpecimen | Beam):
         return []
     first, *others = (int(k) for k in np.unique(sweep.pickup))
     return [
@@ -338,7 +338,7 @@ def _median(look: _Look) -> float:
 def _in_another_unit(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> tuple[float, str]:
     """Distance with the frequencies in the unit in which it is least, and words for it."""
     found = [(float("inf"), "")]
-    if not isinstance(specimen, Specimen | Beam):
+    if not isinstance(specimen, PlateSpecimen | Beam):
         # Of a pair any frequency is as good: its modulus goes along.
         return found[0]
     for unit, hz in _UNITS.items():

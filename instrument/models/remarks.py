@@ -8,7 +8,7 @@ from fitting.data.strays import BEYOND, strays
 from fitting.dynamics.unstated_damping import RATIO, with_unstated_damping
 from fitting.laws import CoreLaw
 from fitting.laws.bent_law import BentLaw
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.patches import shifts_of
 from fitting.stated.tolerances import STATED
 from fitting.structures import AnySpecimen
@@ -32,7 +32,7 @@ def remarks_on_tolerances(specimen: AnySpecimen) -> tuple[str, ...]:
 
 def remarks_on_patches(specimen: AnySpecimen) -> tuple[str, ...]:
     """That no data tell a patch cut wrongly from another core."""
-    if not isinstance(specimen, Specimen) or specimen.exact or "cut" in specimen.tolerances:
+    if not isinstance(specimen, PlateSpecimen) or specimen.exact or "cut" in specimen.tolerances:
         return ()
     if not any(shift.kind == "cut" for shift in shifts_of(specimen)):
         return ()
@@ -42,7 +42,7 @@ def remarks_on_patches(specimen: AnySpecimen) -> tuple[str, ...]:
     )
 
 
-def remarks_on_damping(specimen: Specimen, *, tested: bool) -> tuple[str, ...]:
+def remarks_on_damping(specimen: PlateSpecimen, *, tested: bool) -> tuple[str, ...]:
     """Where neither the file nor a hammer test says how a plate rings without its core."""
     if tested or with_unstated_damping(specimen) is specimen:
         return ()

@@ -18,7 +18,7 @@ from fitting.plate.mesh import Mesh
 from fitting.plate.plate_numbers import tolerance
 from fitting.reduced.rational import RationalSweep, RationalSweeps, rational_sweep, rational_sweeps
 from fitting.reduced.reduced_plate import ReducedPlate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.sweep import Sweep
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from fitting.widened.enriching import enriched
@@ -51,21 +51,21 @@ class SetUp:
     """The problem of some of its points."""
 
     @property
-    def specimen(self) -> Specimen:
+    def specimen(self) -> PlateSpecimen:
         """As stated, the damping ratios as the hammer test has them."""
-        assert isinstance(self.problem.specimen, Specimen)
+        assert isinstance(self.problem.specimen, PlateSpecimen)
         return self.problem.specimen
 
 
 def set_up(
     sweep: Sweep,
-    specimen: Specimen,
+    specimen: PlateSpecimen,
     hammer: Hammer | None = None,
     progress: Progress = quiet,
     *,
     with_effects: bool = True,
     models: Models | None = None,
-    like: Specimen | None = None,
+    like: PlateSpecimen | None = None,
 ) -> SetUp:
     """Models for a sweep, made or loaded. `models` where they are to hold over a domain of their own.
 
@@ -95,7 +95,7 @@ def set_up(
     return SetUp(problem, reduced, models, bare, remade)
 
 
-def with_hammer(specimen: Specimen, hammer: Hammer | None) -> tuple[Specimen, BareModes | None]:
+def with_hammer(specimen: PlateSpecimen, hammer: Hammer | None) -> tuple[PlateSpecimen, BareModes | None]:
     """The specimen with the ratios of its bare plate's test, and what else that says.
 
     Those that neither file nor test have are in it with a wide tolerance.
@@ -111,7 +111,7 @@ def with_hammer(specimen: Specimen, hammer: Hammer | None) -> tuple[Specimen, Ba
 
 def set_up_spots(
     sweeps: Sequence[Sweep],
-    specimens: Sequence[Specimen],
+    specimens: Sequence[PlateSpecimen],
     progress: Progress = quiet,
     *,
     with_effects: bool = True,
@@ -165,7 +165,7 @@ def _between(
     return rational(omega).of(*sides)
 
 
-def _usual(plate: Specimen, specimen: Specimen) -> Specimen:
+def _usual(plate: PlateSpecimen, specimen: PlateSpecimen) -> PlateSpecimen:
     """A plate with usual damping ratios: as many models are made of, whatever the specimen's are.
 
     What a force does where masses sit on the specimen is among its motions: they are put on afterwards.
@@ -176,7 +176,7 @@ def _usual(plate: Specimen, specimen: Specimen) -> Specimen:
 
 
 def _damped(
-    models: Models, specimen: Specimen, *, with_effects: bool
+    models: Models, specimen: PlateSpecimen, *, with_effects: bool
 ) -> tuple[ReducedPlate, EnrichedReducedPlate]:
     """The reduced plates of some models, with a specimen's own damping ratios."""
     factor = np.zeros(len(models.specimen.modal_ratios))
@@ -190,7 +190,7 @@ def _damped(
     return reduced, replace(plate, d=plate.d * factor)
 
 
-def check_like(specimen: Specimen, like: Specimen) -> None:
+def check_like(specimen: PlateSpecimen, like: PlateSpecimen) -> None:
     """Raise `OutsideModel` where one plate's model cannot serve the other."""
     for name, ours, theirs in _numbers(specimen, like):
         if abs(ours / theirs - 1) > _LIKE:
@@ -206,14 +206,14 @@ def check_like(specimen: Specimen, like: Specimen) -> None:
         raise OutsideModel(f"driven by a {specimen.drive}, the model by a {like.drive}")
 
 
-def _form(specimen: Specimen) -> tuple[object, ...]:
+def _form(specimen: PlateSpecimen) -> tuple[object, ...]:
     """What stated numbers do not move."""
     faces = (f.rolled for f in (specimen.substrate, specimen.constraining) if f is not None)
     glue = specimen.core.glue if specimen.core is not None else ()
     return specimen.patches, specimen.both_sides, glue, *faces
 
 
-def _numbers(specimen: Specimen, like: Specimen) -> list[tuple[str, float, float]]:
+def _numbers(specimen: PlateSpecimen, like: PlateSpecimen) -> list[tuple[str, float, float]]:
     found = [(n, getattr(specimen, f"{n}_m"), getattr(like, f"{n}_m")) for n in ("length", "width")]
     for layer in ("substrate", "constraining"):
         ours, theirs = getattr(specimen, layer), getattr(like, layer)
@@ -225,7 +225,7 @@ def _numbers(specimen: Specimen, like: Specimen) -> list[tuple[str, float, float
     return found
 
 
-def _plain(reduced: ReducedPlate, specimen: Specimen) -> EnrichedReducedPlate:
+def _plain(reduced: ReducedPlate, specimen: PlateSpecimen) -> EnrichedReducedPlate:
     """The reduced plate as one that carries no effects; a mode it does not have is not damped."""
     assert specimen.pickup_m is not None
     mesh = Mesh(specimen.length_m, specimen.width_m, *specimen.mesh)
@@ -249,7 +249,7 @@ def _spanned(models: Models) -> EnrichedReducedPlate:
     return cached("spanned", depends_on, EnrichedReducedPlate, build, [*span_modules(), enriched.__module__])
 
 
-def bare_of(modes: MatchedModes, specimen: Specimen) -> BareModes:
+def bare_of(modes: MatchedModes, specimen: PlateSpecimen) -> BareModes:
     """A hammer test beside the bare plate's model, for the joint fit."""
     return BareModes(
         shift=modes.shift,

@@ -10,7 +10,7 @@ from fitting.dynamics.direct import displacement_direct
 from fitting.errors import OutsideModel
 from fitting.nuisances.moved_plate import moved_plate
 from fitting.plate.plate import Plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.sweep import Sweep
 from instrument.models.cache import cached
 from instrument.models.set_up import check_like, set_up
@@ -30,7 +30,7 @@ class _Probed:
     error: Array
 
 
-def may_be_like(specimen: Specimen, like: Specimen) -> bool:
+def may_be_like(specimen: PlateSpecimen, like: PlateSpecimen) -> bool:
     """Whether it is worth asking: both with tolerances, of one mesh, a few percent apart."""
     if specimen.exact or like.exact or specimen.core is None or like.core is None:
         return False
@@ -43,7 +43,7 @@ def may_be_like(specimen: Specimen, like: Specimen) -> bool:
     return True
 
 
-def serves(like: Specimen, specimen: Specimen, sweep: Sweep, progress: Progress = quiet) -> bool:
+def serves(like: PlateSpecimen, specimen: PlateSpecimen, sweep: Sweep, progress: Progress = quiet) -> bool:
     """Compare the moved model with full solves at a few points of the sweep, under the specimen's law."""
     if specimen.core is None or not may_be_like(specimen, like):
         return False

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import replace
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.edges import named
 from fitting.structures import AnySpecimen, Beam
 
@@ -17,7 +17,7 @@ Stated = tuple[str, AnySpecimen]
 
 def specimen_mistakes(specimen: AnySpecimen) -> Iterator[Stated]:
     """What seems to be stated, in a phrase, and the specimen that would be meant; the likeliest first."""
-    if isinstance(specimen, Specimen):
+    if isinstance(specimen, PlateSpecimen):
         yield from _spots(specimen)
         yield from _sides(specimen)
         yield from _faces(specimen)
@@ -27,7 +27,7 @@ def specimen_mistakes(specimen: AnySpecimen) -> Iterator[Stated]:
         yield from _faces(specimen)
 
 
-def _spots(plate: Specimen) -> Iterator[Stated]:
+def _spots(plate: PlateSpecimen) -> Iterator[Stated]:
     assert plate.pickup_m is not None
     (x, y), length, width = plate.pickup_m, plate.length_m, plate.width_m
     yield "pickup.x_mm is from the free end, expected from the clamp", _at(plate, length - x, y)
@@ -40,11 +40,11 @@ def _spots(plate: Specimen) -> Iterator[Stated]:
         yield "pickup.x_mm and pickup.y_mm are exchanged", _at(plate, y, x)
 
 
-def _at(plate: Specimen, x: float, y: float) -> Specimen:
+def _at(plate: PlateSpecimen, x: float, y: float) -> PlateSpecimen:
     return replace(plate, pickup_m=(x, y))
 
 
-def _sides(plate: Specimen) -> Iterator[Stated]:
+def _sides(plate: PlateSpecimen) -> Iterator[Stated]:
     assert plate.pickup_m is not None
     length, width, (x, y) = plate.length_m, plate.width_m, plate.pickup_m
     sides = replace(plate, length_m=width, width_m=length)
@@ -57,7 +57,7 @@ def _sides(plate: Specimen) -> Iterator[Stated]:
         yield f"length, width and pickup are in {unit}, expected mm", _at(other, times * x, times * y)
 
 
-def _or_held_otherwise(plate: Specimen) -> str:
+def _or_held_otherwise(plate: PlateSpecimen) -> str:
     """The boundary that makes the same plate as sides and pickup exchanged; empty where it is the stated one.
 
     Of a cantilever it is not told: of the usual plate exchanged sides are likelier.
@@ -96,7 +96,7 @@ def _length_of_beam(beam: Beam) -> Iterator[Stated]:
         yield f"length, width and places are in {unit}, expected mm", other
 
 
-def _faces(one: Specimen | Beam) -> Iterator[Stated]:
+def _faces(one: PlateSpecimen | Beam) -> Iterator[Stated]:
     upper, core = one.constraining, one.core
     if upper is None or core is None:
         return

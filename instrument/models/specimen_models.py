@@ -16,7 +16,7 @@ from fitting.plate.plate import Plate
 from fitting.reduced.domain import Domain, domain_of
 from fitting.reduced.rational import RationalSweep, rational_sweep
 from fitting.reduced.reduced_plate import ReducedPlate, reduce_plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.widened.enriching import USUAL_HZ, reach_over
 from instrument.models.cache import cached
 from instrument.progress import Progress, quiet
@@ -31,14 +31,14 @@ _WORST = 3
 class Models:
     """A specimen's plate and reduced models over a domain; heavy ones are made when first asked for."""
 
-    specimen: Specimen
+    specimen: PlateSpecimen
     domain: Domain
     progress: Progress = quiet
     reach_hz: float = USUAL_HZ
     """How far up the motions hold that effects stir."""
 
     @classmethod
-    def of(cls, specimen: Specimen, frequency_hz: Array, progress: Progress = quiet) -> "Models":
+    def of(cls, specimen: PlateSpecimen, frequency_hz: Array, progress: Progress = quiet) -> "Models":
         """Models that hold over `frequency_hz`, of any shape, for any sensible core.
 
         Raises `OutsideModel` for a specimen that no base moves or no pickup sees, and beyond what the mesh
@@ -103,7 +103,7 @@ class Models:
         return cached("rational", [self.without_law, self.domain, omega], RationalSweep, build)
 
     @property
-    def without_law(self) -> Specimen:
+    def without_law(self) -> PlateSpecimen:
         """The specimen as far as these models depend on it: neither law nor level nor reading."""
         core = replace(self.specimen.core, law=None) if self.specimen.core else None  # type: ignore[arg-type]
         return replace(

@@ -9,7 +9,7 @@ from fitting.digits import two_digits
 from fitting.dynamics.bare_modes import bare_modes
 from fitting.dynamics.complex_modes import ModalValue, ModalValues, complex_modes
 from fitting.plate.plate import Plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.models.cache import cached
 from instrument.progress import Progress, quiet
 
@@ -17,7 +17,7 @@ _WORTH_SAYING = 5e-4
 """Of a frequency: the plate's own mesh is good for less. A choice."""
 
 
-def specimen_modes(specimen: Specimen, count: int, progress: Progress = quiet) -> list[ModalValue]:
+def specimen_modes(specimen: PlateSpecimen, count: int, progress: Progress = quiet) -> list[ModalValue]:
     """The first `count` elastic modes with the specimen's own law. Raises `OutsideModel`."""
     law = specimen.core.law if specimen.core is not None else None
 
@@ -36,7 +36,7 @@ class EdgeFalls:
     falls: Array
 
 
-def edge_twist_remark(specimen: Specimen, count: int) -> str:
+def edge_twist_remark(specimen: PlateSpecimen, count: int) -> str:
     """What `specimen_modes` of a bare plate leave out at its free edges; empty where that is nothing."""
     if specimen.core is not None or specimen.lacks_edge_twist:
         return ""

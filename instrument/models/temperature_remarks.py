@@ -1,7 +1,7 @@
 """What is to be said of data of several temperatures as they were given."""
 
 from fitting.mode_tables.table import ModalTable
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import METAL_PER_K, Face
 from fitting.structures import Beam
 from fitting.temperature.shifts import ZERO_K
@@ -23,7 +23,7 @@ def remarks_at_temperatures(members: Members, *, vertical: bool) -> tuple[str, .
         said += [*remarks_on_clamps(specimen), *remarks_on_edges(specimen)]
         if isinstance(specimen, Beam):
             said += _on_metal(members, specimen)
-        elif isinstance(specimen, Specimen) and _kelvins(members) > _FAR_K:
+        elif isinstance(specimen, PlateSpecimen) and _kelvins(members) > _FAR_K:
             said.append(
                 f"the faces are taken to be as stiff at all temperatures: over {_kelvins(members):.0f} K a "
                 "metal's modulus changes by 0.03 to 0.05 % a kelvin, which is not counted of a plate"

@@ -10,7 +10,7 @@ from fitting.discrepancy.theory_error import TheoryError, check_beam_theory, che
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 from fitting.plate.face_shear import COUNTED_ABOVE, share_of_faces
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen, Beam
 
 _PLACES = 10
@@ -31,7 +31,7 @@ def check_each_theory(
     """
     said = []
     for specimen, frequency_hz in zip(specimens, bands_hz, strict=True):
-        if isinstance(specimen, Specimen):
+        if isinstance(specimen, PlateSpecimen):
             theory_over(specimen, law, frequency_hz)
             said.append(stiffer_than_stated(specimen, law, frequency_hz))
         elif isinstance(specimen, Beam) and specimen.as_plate is not None:
@@ -39,7 +39,7 @@ def check_each_theory(
     return tuple(text for text in dict.fromkeys(said) if text)
 
 
-def _of_beam(layers: Specimen, law: CoreLaw, frequency_hz: Array) -> str:
+def _of_beam(layers: PlateSpecimen, law: CoreLaw, frequency_hz: Array) -> str:
     f = np.geomspace(np.min(frequency_hz), np.max(frequency_hz), 4 * _PLACES)
     error = check_beam_theory(layers, law, f)
     if error.acceptable:
@@ -48,7 +48,7 @@ def _of_beam(layers: Specimen, law: CoreLaw, frequency_hz: Array) -> str:
     return f"{refusal(error, 'beam')}; resonances above {last:.3g} Hz count by so much less"
 
 
-def theory_over(specimen: Specimen, law: CoreLaw, frequency_hz: Array) -> TheoryError:
+def theory_over(specimen: PlateSpecimen, law: CoreLaw, frequency_hz: Array) -> TheoryError:
     """The theory's error over the band of some frequencies, of any shape.
 
     Raises `OutsideModel` beyond its limits.
@@ -57,7 +57,7 @@ def theory_over(specimen: Specimen, law: CoreLaw, frequency_hz: Array) -> Theory
     return check_theory(specimen, law, np.geomspace(low, high, _PLACES if high > low else 1))
 
 
-def stiffer_than_stated(specimen: Specimen, law: CoreLaw, frequency_hz: Array) -> str:
+def stiffer_than_stated(specimen: PlateSpecimen, law: CoreLaw, frequency_hz: Array) -> str:
     """A line where faces shear about the core found, and were not counted to about the one stated; or empty.
 
     Over the band of `frequency_hz`, of any shape.
@@ -77,7 +77,7 @@ def stiffer_than_stated(specimen: Specimen, law: CoreLaw, frequency_hz: Array) -
     )
 
 
-def theory_remark(specimen: Specimen, law: CoreLaw | None, frequency_hz: Array) -> str:
+def theory_remark(specimen: PlateSpecimen, law: CoreLaw | None, frequency_hz: Array) -> str:
     """What would be refused, in a line; empty where the theory holds or the plate has no core.
 
     Over the band of `frequency_hz`, of any shape.

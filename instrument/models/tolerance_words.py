@@ -1,7 +1,7 @@
 """The tolerances that a specimen's numbers are taken with: named in its file, typical, or none at all."""
 
 from fitting.plate.plate_numbers import plate_numbers, tolerance
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.tolerances import IN_FILES, OF_CHANNELS, OF_TEMPERATURE, PLATE, STATED
 from fitting.structures import AnySpecimen
 from instrument.facts.check import ToleranceUsed
@@ -12,7 +12,7 @@ _NOT_OF_A_SWEEP = ("mass", "place", "area")
 
 def asked(specimen: AnySpecimen) -> list[str]:
     """Kinds of stated numbers that a sweep of this specimen can feel."""
-    if not isinstance(specimen, Specimen):
+    if not isinstance(specimen, PlateSpecimen):
         # What a theory leaves open nobody states.
         return [*(n for n in specimen.numbers if n in STATED), *specimen.places, *OF_CHANNELS]
     of_plate = {kind for _, kind in plate_numbers(specimen)}
@@ -54,4 +54,4 @@ def tolerance_rows(specimen: AnySpecimen) -> list[tuple[str, str]]:
 
 
 def _tolerance(specimen: AnySpecimen, name: str) -> float:
-    return tolerance(specimen, name) if isinstance(specimen, Specimen) else specimen.tolerance(name)
+    return tolerance(specimen, name) if isinstance(specimen, PlateSpecimen) else specimen.tolerance(name)

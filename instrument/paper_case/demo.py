@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.sweep import Sweep
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
@@ -17,7 +17,7 @@ from instrument.progress import Progress, quiet
 class PaperRun:
     """What the published tables give."""
 
-    specimen: Specimen
+    specimen: PlateSpecimen
     sweep: Sweep
     direct: Identified
     paper: Identified

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from fitting.arrays import Array
 from fitting.identification.result import LawBand
 from fitting.numerics.chances import Z_95
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.files.specimen_file import read_specimen
 from instrument.models.specimen_models import Models
 from instrument.paper_case import TABLE_4, case_file
@@ -111,7 +111,7 @@ def figure_10(run: PaperRun) -> Figure:
     return figure
 
 
-def _amplitude(specimen: Specimen, f: Array, progress: Progress) -> Array:
+def _amplitude(specimen: PlateSpecimen, f: Array, progress: Progress) -> Array:
     law = specimen.core.law if specimen.core is not None else None
     return np.abs(Models.of(specimen, f, progress).predict(law, f))
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.check.forecast import OWN_RATIO
 from instrument.stepped_sine.expected_time import settling_s, step_s
 from instrument.stepped_sine.settings import SweepSettings
@@ -31,7 +31,7 @@ def settle_seconds(frequency_hz: Array, poles_hz: Complex, settings: SweepSettin
     return np.array([settling_s(f, decay(f), settings) for f in frequency_hz])
 
 
-def as_run(poles_hz: Complex, specimen: Specimen) -> Complex:
+def as_run(poles_hz: Complex, specimen: PlateSpecimen) -> Complex:
     """Poles with the damping that a run assumes of a bare plate where none is stated. Shape as given."""
     return poles_hz if specimen.modal_ratios else poles_hz + 1j * OWN_RATIO * poles_hz.real
 

@@ -26,7 +26,7 @@ from fitting.planning.further_readings import FurtherReadings
 from fitting.planning.rival_forecasts import RivalForecasts
 from fitting.planning.sensitivity import ReadingNoise
 from fitting.reduced.reduced_plate import ReducedPlate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.tolerances import of_scope
 from instrument.impact.mobility import GAIN
 from instrument.planning.measurement import HANDS_S, Measurable
@@ -67,7 +67,7 @@ def damped_struck(
     `whole_length_m` is of all that hangs; None: as long as it stands out of its clamp.
     """
     stated = expecting.member.nuisances.specimen
-    if not isinstance(stated, Specimen) or stated.boundary != "cantilever" or expecting.struck_already:
+    if not isinstance(stated, PlateSpecimen) or stated.boundary != "cantilever" or expecting.struck_already:
         return
     effects = [[inner_of(e) for e in known.fitted.effects] for known in expecting.learnt]
     if len({frozenset(e.name for e in each if not _of_the_mounting(e)) for each in effects}) > 1:
@@ -88,7 +88,7 @@ def _of_the_mounting(effect: Effect) -> bool:
 
 
 def _hung_free(
-    expecting: RivalForecasts, free: Specimen, effects: list[Effect], settings: SweepSettings
+    expecting: RivalForecasts, free: PlateSpecimen, effects: list[Effect], settings: SweepSettings
 ) -> Iterator[Measurable]:
     band, law = expecting.member.sweep.frequency_hz, expecting.learnt[0].fitted.law
     spans = {s.name: s for e in effects if not _of_the_mounting(e) for s in e.spans}
@@ -112,7 +112,7 @@ def _hung_free(
     yield replace(found, spot_m=free.pickup_m, held="free")
 
 
-def _in_clamp(expecting: RivalForecasts, stated: Specimen, lines: Steps) -> Iterator[Measurable]:
+def _in_clamp(expecting: RivalForecasts, stated: PlateSpecimen, lines: Steps) -> Iterator[Measurable]:
     member, reduced = expecting.member, expecting.reduced
     assert reduced is not None
     assert stated.pickup_m is not None
@@ -120,7 +120,7 @@ def _in_clamp(expecting: RivalForecasts, stated: Specimen, lines: Steps) -> Iter
     places = [(along * stated.length_m, across * stated.width_m) for along, across in _STRUCK_AT]
     point = next(p for p in places if np.hypot(*(read - p)) > _APART_M)
     plate, moved, nuisances = struck(member.plate, reduced, member.nuisances, point, GAIN)
-    assert isinstance(nuisances.specimen, Specimen)
+    assert isinstance(nuisances.specimen, PlateSpecimen)
     f, first = np.unique(lines.frequency_hz, return_index=True)
     there = exact_problem(f, lines.segment[first], 1.0, nuisances.specimen, plate, moved)
     there = replace(there, nuisances=nuisances)

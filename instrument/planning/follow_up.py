@@ -10,7 +10,7 @@ from fitting.diagnosis.thresholds import VERDICT
 from fitting.diagnosis.verdict.result import Rivals
 from fitting.planning.rival_forecasts import RivalForecasts
 from fitting.planning.rivalry import Forecast, Outcome, outcome
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.follow_up import FollowUp
 from instrument.models.diagnosis import Diagnosed
@@ -86,7 +86,7 @@ def _doubtful(diagnosed: Diagnosed, rivals: Rivals) -> bool:
     if len(rivals.each) < 2 or not rivals.evidence.scale_known:
         return False
     stated = rivals.problem.nuisances.specimen
-    if not isinstance(stated, Specimen) or stated.drive != "base":
+    if not isinstance(stated, PlateSpecimen) or stated.drive != "base":
         # Of beams, shear pairs and what a force drives nothing is foretold.
         return False
     result = diagnosed.result

@@ -18,7 +18,7 @@ from fitting.planning.candidates import Candidates, candidate_frequencies, regio
 from fitting.planning.exact_problem import exact_problem
 from fitting.planning.signatures import Signature, signatures_of
 from fitting.reduced.reduced_plate import ReducedPlate
-from fitting.specimen import Specimen, StatedSpecimen
+from fitting.specimen import PlateSpecimen, StatedSpecimen
 from fitting.sweep import Sweep
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from instrument.models.set_up import Hammer, set_up
@@ -35,7 +35,7 @@ _LOWEST_HZ = 5.0
 class Ground:
     """What stays through a sweep: models of the specimen, its band, the regions of the law it starts from."""
 
-    specimen: Specimen
+    specimen: PlateSpecimen
     settings: SweepSettings
     band_hz: tuple[float, float]
     level_m_s2: float
@@ -49,7 +49,7 @@ class Ground:
     @classmethod
     def of(
         cls,
-        specimen: Specimen,
+        specimen: PlateSpecimen,
         settings: SweepSettings,
         band_hz: tuple[float, float],
         level_m_s2: float,

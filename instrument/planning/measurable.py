@@ -19,7 +19,7 @@ from fitting.planning.measured import noise_seen
 from fitting.planning.rival_forecasts import RivalForecasts
 from fitting.planning.sensitivity import ReadingNoise
 from fitting.reduced.reduced_plate import ReducedPlate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.tolerances import STATED
 from fitting.sweep import Sweep
 from instrument.facts.follow_up import FollowUpKind
@@ -257,14 +257,14 @@ class Template:
             plate, reduced, nuisances = read_elsewhere(plate, reduced, nuisances, spot_m)
         time = float(member.points.time_s.max()) + _PAUSE_S + np.cumsum(steps.seconds)[first]
         specimen = nuisances.specimen
-        assert isinstance(specimen, Specimen)
+        assert isinstance(specimen, PlateSpecimen)
         there = exact_problem(f, steps.segment[first], self.level_m_s2, specimen, plate, reduced, time)
         return replace(there, nuisances=nuisances)
 
     @property
-    def _specimen(self) -> Specimen:
+    def _specimen(self) -> PlateSpecimen:
         stated = self.member.nuisances.specimen
-        assert isinstance(stated, Specimen)
+        assert isinstance(stated, PlateSpecimen)
         return stated
 
     def _exceeds(self, level_m_s2: float, times: float) -> bool:
@@ -290,7 +290,7 @@ def _places(member: DiagnosisProblem) -> Integers:
     return np.concatenate(found)
 
 
-def _on(specimen: Specimen, share: tuple[float, float]) -> Place:
+def _on(specimen: PlateSpecimen, share: tuple[float, float]) -> Place:
     return share[0] * specimen.length_m, share[1] * specimen.width_m
 
 

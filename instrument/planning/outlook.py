@@ -13,7 +13,7 @@ from fitting.planning.candidates import Candidates, candidate_frequencies, regio
 from fitting.planning.exact_problem import exact_problem
 from fitting.planning.sensitivity import ReadingNoise, Sensitivity, bent, sensitivity
 from fitting.reduced.reduced_plate import ReducedPlate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.sweep import Sweep
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from instrument.models.set_up import Hammer, SetUp, set_up
@@ -40,7 +40,7 @@ Band = tuple[float, float]
 class Outlook:
     """Of one specimen, one spot, one band."""
 
-    specimen: Specimen
+    specimen: PlateSpecimen
     setup: SetUp
     poles_hz: Complex
     """Of the plate, by the law it starts from, and as it rings."""
@@ -97,7 +97,7 @@ class At:
 
 
 def outlook_of(
-    specimen: Specimen,
+    specimen: PlateSpecimen,
     settings: SweepSettings,
     band_hz: Band | None = None,
     hammer: Hammer | None = None,

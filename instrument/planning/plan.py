@@ -16,7 +16,7 @@ from fitting.planning.confusion import EffectOutlook, outlooks
 from fitting.planning.limits import limited_by
 from fitting.planning.sensitivity import Sensitivity, bent
 from fitting.planning.signatures import judged_elsewhere, signatures_of
-from fitting.specimen import Specimen, StatedSpecimen
+from fitting.specimen import PlateSpecimen, StatedSpecimen
 from instrument.facts.plan import SettlingForecast
 from instrument.models.set_up import Hammer
 from instrument.models.theory import theory_remark
@@ -75,7 +75,7 @@ class Plan:
 
 
 def make_plan(
-    specimen: Specimen,
+    specimen: PlateSpecimen,
     wish: Wish,
     hammer: Hammer | None = None,
     progress: Progress = quiet,

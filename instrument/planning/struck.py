@@ -9,7 +9,7 @@ from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.dynamics.bare_modes import bare_modes
 from fitting.identification.bare_plate import match_modes
 from fitting.plate.plate import Plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.models.set_up import bare_of
 
 _COARSE = (18, 12)
@@ -21,7 +21,7 @@ _MODES = 6
 def bare_modes_expected(member: DiagnosisProblem) -> BareModes | None:
     """Of the plate as stated; None where it has no bare plate to be clamped and struck."""
     specimen = member.nuisances.specimen
-    if not isinstance(specimen, Specimen) or specimen.boundary != "cantilever":
+    if not isinstance(specimen, PlateSpecimen) or specimen.boundary != "cantilever":
         return None
     # A coarse mesh does: shares of energy are asked for, not frequencies.
     specimen = replace(specimen, elements=_COARSE)

@@ -7,7 +7,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.errors import FittingError
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.rows import PointSetAside
@@ -56,7 +56,7 @@ class ReportedFit:
         if self.fit is None or self.result is None:
             return None
         specimen, found = self.fit.files[0].specimen, found_law(self.result)
-        if not isinstance(specimen, Specimen):
+        if not isinstance(specimen, PlateSpecimen):
             return FittedSmall.of(specimen, found)
         return FittedModel.of(specimen, found, self.fit.given.frequency_hz)
 

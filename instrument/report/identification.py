@@ -5,7 +5,7 @@ import numpy as np
 from fitting.diagnosis.checks.structure import in_words
 from fitting.digits import two_digits, written_out
 from fitting.identification.result import Identification
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen
 from instrument.facts.session_result import SessionResult
 from instrument.models.identification import Identified
@@ -140,7 +140,7 @@ def _points(fit: Identified) -> str:
 
 def _hammer(fit: Identified) -> str:
     plate = fit.files[0].specimen
-    if not isinstance(plate, Specimen):
+    if not isinstance(plate, PlateSpecimen):
         return "stated numbers within their tolerances"
     if fit.bare is None:
         return "without a hammer test: stiffness and viscous damping as the specimen states them"

@@ -16,7 +16,7 @@ from fitting.laws import CoreLaw
 from fitting.laws.bent_law import BentLaw
 from fitting.nuisances.nuisance import Nuisance
 from fitting.nuisances.nuisances import Nuisances
-from fitting.specimen import Specimen, StatedSpecimen
+from fitting.specimen import PlateSpecimen, StatedSpecimen
 from fitting.stated.tolerances import OF_NARROW, kind_of
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult
@@ -142,7 +142,7 @@ class FoundLaw(BaseModel):
         """Stated numbers alone: where narrow resonances lie is the data's."""
         return [one for one in self.adjusted if kind_of(one.name) not in OF_NARROW]
 
-    def plate(self, specimen: Specimen) -> FittedPlate:
+    def plate(self, specimen: PlateSpecimen) -> FittedPlate:
         """The specimen's plate as it was found. Raises `BadInput` where that cannot be."""
         ratios = list(self.hammer.modal_ratios if self.hammer is not None else specimen.modal_ratios)
         for one in self.adjusted:

@@ -12,7 +12,7 @@ from fitting.errors import OutsideModel
 from fitting.identification.model import velocity
 from fitting.laws import CoreLaw
 from fitting.reduced.reduced_plate import ReducedPlate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen
 from instrument.models.fitted_plate import FittedPlate
 from instrument.models.specimen_models import CERTIFIED, Models
@@ -47,7 +47,7 @@ class FittedModel:
 
     @classmethod
     def of(
-        cls, specimen: Specimen, found: FoundLaw, frequency_hz: Array, progress: Progress = quiet
+        cls, specimen: PlateSpecimen, found: FoundLaw, frequency_hz: Array, progress: Progress = quiet
     ) -> "FittedModel":
         """Over the band of some frequencies, of shape (points,).
 
@@ -109,7 +109,7 @@ def fitted_response(
 
     Shape (points,). Raises `BadInput` for a law of another kind, `OutsideModel` for a bare plate.
     """
-    if isinstance(specimen, Specimen):
+    if isinstance(specimen, PlateSpecimen):
         return FittedModel.of(specimen, found, frequency_hz, progress).response(frequency_hz)
     if specimen.core is None:
         raise OutsideModel(f"a bare {specimen.kind} has no core, expected [core]")

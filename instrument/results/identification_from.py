@@ -11,7 +11,7 @@ from fitting.identification.fit import Fit
 from fitting.identification.result import Identification
 from fitting.laws import CoreLaw
 from fitting.laws.bent_law import BentLaw
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.sweep import Sweep
 from instrument.facts.identification import (
     BareMode,
@@ -70,12 +70,12 @@ def identification_from(found: Identified) -> IdentificationResult:
         theory_error=_theory(found.theory),
     )
     plate = found.files[0].specimen
-    if found.bare is not None and isinstance(plate, Specimen):
+    if found.bare is not None and isinstance(plate, PlateSpecimen):
         result = result.but(hammer=_bare_plate(found.bare, plate))
     return with_files(result, found.files, found.why_aside == "", found.aside)
 
 
-def _bare_plate(bare: BarePlateFit, specimen: Specimen) -> BarePlateFound:
+def _bare_plate(bare: BarePlateFit, specimen: PlateSpecimen) -> BarePlateFound:
     young = specimen.substrate.young_pa * bare.young_scale
     return BarePlateFound(
         substrate_young_pa=young,

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen
 from instrument.facts.follow_up import FollowUp
 from instrument.results.sketch import Mark, View, sketch_of
@@ -11,7 +11,7 @@ from instrument.results.sketch import Mark, View, sketch_of
 
 def offer_view(specimen: AnySpecimen, offers: Sequence[FollowUp]) -> View | None:
     """Of the first that says a place; None where none does, and of what is no plate."""
-    if not isinstance(specimen, Specimen):
+    if not isinstance(specimen, PlateSpecimen):
         return None
     for offer in offers:
         marks = _marks(offer)
@@ -20,7 +20,7 @@ def offer_view(specimen: AnySpecimen, offers: Sequence[FollowUp]) -> View | None
     return None
 
 
-def _view(specimen: Specimen, offer: FollowUp, marks: list[Mark]) -> View:
+def _view(specimen: PlateSpecimen, offer: FollowUp, marks: list[Mark]) -> View:
     free = offer.held == "free"
     plate = replace(specimen, boundary="free") if free else specimen
     # Where the laser is aimed anew it is not where it was.

@@ -9,7 +9,7 @@ from typing import Literal
 
 import numpy as np
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.edges import Edge
 from fitting.structures import AnySpecimen, Beam, ShearPair
 
@@ -82,7 +82,7 @@ def sketch_of(specimen: AnySpecimen, further: Sequence[Mark] = ()) -> tuple[View
     return (_plate(specimen, further),)
 
 
-def _plate(s: Specimen, further: Sequence[Mark]) -> View:
+def _plate(s: PlateSpecimen, further: Sequence[Mark]) -> View:
     L, B = 1e3 * s.length_m, 1e3 * s.width_m
     d = _HELD * max(L, B)
     patches = [

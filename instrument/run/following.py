@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen
 from instrument.check.forecast import distinct
 from instrument.facts.follow_up import FollowUp, Support
@@ -75,7 +75,7 @@ class Following:
 
     def __post_init__(self) -> None:
         plate = self.specimen
-        self._spots = dict(enumerate(plate.pickups_m if isinstance(plate, Specimen) else ()))
+        self._spots = dict(enumerate(plate.pickups_m if isinstance(plate, PlateSpecimen) else ()))
         for moved in self.earlier.spots:
             x, y = moved.spot_mm
             self._spots[moved.pickup] = (1e-3 * x, 1e-3 * y)
@@ -199,7 +199,7 @@ class Following:
     def _blows(self, offer: FollowUp, rig: Rig) -> None:
         plate = self.specimen
         assert self.blows is not None
-        assert isinstance(plate, Specimen)
+        assert isinstance(plate, PlateSpecimen)
         assert offer.struck_mm is not None
         assert offer.held is not None
         length_m = self.whole_length_m if offer.held == "free" else plate.length_m

@@ -5,7 +5,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from concurrent.futures import TimeoutError as NotYet
 
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.files.experiment_file import SweepTable
 from instrument.files.hammer_file import accepted_modes
 from instrument.planning.choosing import Goal, choose_steps, lay_out
@@ -19,7 +19,7 @@ class Chooser:
     """Makes the choices of one sweep, in order. Pure but for the models it keeps: the same in a replay."""
 
     def __init__(
-        self, specimen: Specimen, table: SweepTable, settings: SweepSettings, chosen: list[StepsChosen]
+        self, specimen: PlateSpecimen, table: SweepTable, settings: SweepSettings, chosen: list[StepsChosen]
     ) -> None:
         """`chosen` are those of a run that was broken off."""
         assert table.adaptive is not None

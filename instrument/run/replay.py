@@ -7,7 +7,7 @@ from time import monotonic, sleep
 
 from threadpoolctl import threadpool_limits
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.run.analysis import Analysis
 from instrument.run.differences import as_known_then, first_difference
 from instrument.run.live_choice import Chooser
@@ -78,7 +78,7 @@ def _replay(
     analysis = Analysis(setup, settled_at)
     adaptive = table is not None and table.plan == "adaptive"
     chooser = None
-    if adaptive and table is not None and isinstance(specimen, Specimen):
+    if adaptive and table is not None and isinstance(specimen, PlateSpecimen):
         chooser = Chooser(specimen, table, setup.sweep, [])
     again = Replayed()
     expected: list[Derived] = []

@@ -9,7 +9,7 @@ from drivers.errors import DriverError
 from drivers.shaker import Alarm
 from fitting.errors import TooFewPoints
 from fitting.identification.bare_plate import match_modes
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.check.forecast import Forecast, distinct
 from instrument.errors import NOT_SILENT, RigStopped, ShakerNotSilent
 from instrument.files.hammer_file import accepted_modes
@@ -186,7 +186,7 @@ class SessionRun:
         if modes is None or len(modes.frequency_hz) < _MODES_TO_TELL:
             return
         plate = self._configuration.the_specimen()
-        if not isinstance(plate, Specimen):
+        if not isinstance(plate, PlateSpecimen):
             return
         try:
             match_modes(plate, *modes)

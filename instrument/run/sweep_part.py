@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen
 from instrument.check.forecast import (
     Forecast,
@@ -87,7 +87,7 @@ class SweepPart:
         """Models that choices are made with, before anything moves; a hammer test changes little of them."""
         if self.table.plan == "adaptive":
             # Refused for every other structure before a run begins.
-            assert isinstance(self._specimen, Specimen)
+            assert isinstance(self._specimen, PlateSpecimen)
             self._chooser = Chooser(self._specimen, self.table, self._setup.sweep, self._chosen)
             self._chooser.ground(self._analysis.damping)
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fitting.specimen import PlacedMass, Specimen
+from fitting.specimen import PlacedMass, PlateSpecimen
 from fitting.sweep import Sweep
 from instrument.files.column import reading_std_m_s
 from instrument.stream.derived import PointMeasured
@@ -22,7 +22,7 @@ def uncalibrated(points: Sequence[PointMeasured]) -> list[str]:
     ]
 
 
-def with_spots(specimen: Specimen, points: Sequence[PointMeasured]) -> Specimen:
+def with_spots(specimen: PlateSpecimen, points: Sequence[PointMeasured]) -> PlateSpecimen:
     """The specimen with every spot that points were read at."""
     further = {p.pickup: p.spot_mm for p in points if p.spot_mm is not None}
     if not further:
@@ -31,7 +31,9 @@ def with_spots(specimen: Specimen, points: Sequence[PointMeasured]) -> Specimen:
     return replace(specimen, further_pickups_m=(*specimen.further_pickups_m, *spots))
 
 
-def by_mounting(points: Sequence[PointMeasured], specimen: Specimen) -> list[tuple[list[int], Specimen]]:
+def by_mounting(
+    points: Sequence[PointMeasured], specimen: PlateSpecimen
+) -> list[tuple[list[int], PlateSpecimen]]:
     """Points of one clamping with one known mass on the plate, by their places; and the plate with it."""
     groups: dict[tuple[int, tuple[PlacedMass, ...]], list[int]] = {}
     for k, p in enumerate(points):

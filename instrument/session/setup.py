@@ -8,7 +8,7 @@ import numpy as np
 from fitting.dynamics.bare_modes import CarriedSensor
 from fitting.dynamics.real_modes import real_modes
 from fitting.plate.plate import Plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import Beam
 from fitting.structures.small_modes import small_modes
 from instrument.errors import BadInput
@@ -105,7 +105,7 @@ def _until(slowest: float) -> float:
 
 
 @lru_cache(maxsize=8)
-def record_length_s(specimen: Specimen) -> float:
+def record_length_s(specimen: PlateSpecimen) -> float:
     """Until the slowest mode has decayed to 1 %, from the ratios the specimen states."""
     ratios = np.array(specimen.modal_ratios)
     if not np.any(ratios > 0):

@@ -18,13 +18,13 @@ from drivers.simulated.plant.solid_plate import PlateStated
 from drivers.simulated.plant.structure import Structure
 from drivers.simulated.plates import Hang, Mount, Struck
 from fitting.dynamics.unstated_damping import MODES
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.models.cache import cached
 from instrument.progress import Progress, quiet
 from instrument.simulated_case.layers import core_sheet, face_sheet, series_of
 
 
-def unlike_a_cantilever(plate: Specimen) -> str:
+def unlike_a_cantilever(plate: PlateSpecimen) -> str:
     """What the simulated rig cannot build of a plate; empty where it can."""
     faces = [face for face in (plate.substrate, plate.constraining) if face is not None]
     reasons = (
@@ -41,7 +41,7 @@ def unlike_a_cantilever(plate: Specimen) -> str:
     return next((said for wrong, said in reasons if wrong), "")
 
 
-def plate_mount(plate: Specimen, effects: Effects, progress: Progress = quiet) -> Mount:
+def plate_mount(plate: PlateSpecimen, effects: Effects, progress: Progress = quiet) -> Mount:
     """How it is mounted; its solid from the cache, or built. Raises `ValueError`."""
     assert plate.core is not None
     assert plate.pickup_m is not None
@@ -59,12 +59,12 @@ def plate_mount(plate: Specimen, effects: Effects, progress: Progress = quiet) -
     )
 
 
-def _ratios(plate: Specimen) -> tuple[float, ...]:
+def _ratios(plate: PlateSpecimen) -> tuple[float, ...]:
     """Of the treated plate: a file that states none has the bare plate's."""
     return plate.modal_ratios or (OTHER_RATIO,) * MODES
 
 
-def plate_struck(plate: Specimen, effects: Effects, progress: Progress = quiet) -> Struck:
+def plate_struck(plate: PlateSpecimen, effects: Effects, progress: Progress = quiet) -> Struck:
     """The substrate alone, under a hammer."""
     whole = plate_of(plate)
     bare = PlateStated(whole.length_m, whole.width_m, whole.sheets[:1])
@@ -79,7 +79,7 @@ def plate_struck(plate: Specimen, effects: Effects, progress: Progress = quiet) 
     )
 
 
-def plate_hung(plate: Specimen | None, effects: Effects, progress: Progress = quiet) -> Hang:
+def plate_hung(plate: PlateSpecimen | None, effects: Effects, progress: Progress = quiet) -> Hang:
     """The treated plate without its clamp, or the published one; built when it is hung first, then kept.
 
     It is as long as it stands out of its clamp: this clamp holds it by its end alone.
@@ -108,7 +108,7 @@ def plate_hung(plate: Specimen | None, effects: Effects, progress: Progress = qu
     return hang
 
 
-def plate_of(plate: Specimen) -> PlateStated:
+def plate_of(plate: PlateSpecimen) -> PlateStated:
     """Its layers from below."""
     assert plate.core is not None
     assert plate.constraining is not None

@@ -18,7 +18,7 @@ from drivers.simulated.plates import DampedPlate, HammerInHand, OnShaker, Simula
 from drivers.simulated.rig import Ports, SimulatedChamber, SimulatedRig
 from drivers.simulated.sensors import SimulatedSensor
 from drivers.simulated.world import Laser, Wiring, World
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import Beam
 from instrument.errors import BadInput
 from instrument.files.devices import VIBROMETERS, ranges_of
@@ -130,7 +130,7 @@ def _plates(
     alike, mount, struck, stated = _of_the_bare_plate(effects), None, None, None
     if simulation.specimen is not None:
         stands = stands_on(simulation, path)
-        if not isinstance(stands, Specimen):
+        if not isinstance(stands, PlateSpecimen):
             found = mounted_structure(stands, effects, progress)
             plant = ShakenPlate(effects, climate=climate, mounted=found)
             on_shaker: dict[str, MountedPlate] = {"damped": OnShaker(plant, effects, climate)}

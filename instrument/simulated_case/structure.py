@@ -24,7 +24,7 @@ from drivers.simulated.plant.solid_beam import BeamStated
 from drivers.simulated.plant.solid_pad import PairStated
 from drivers.simulated.plant.struck_beam import struck_beam
 from drivers.simulated.plates import Struck
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import Beam, ShearPair
 from instrument.errors import BadInput
 from instrument.files.rig_file import Simulation
@@ -35,12 +35,12 @@ from instrument.simulated_case.layers import core_sheet, face_sheet, series_of
 from instrument.simulated_case.plate import unlike_a_cantilever
 
 
-def stands_on(simulation: Simulation, rig_path: Path) -> Beam | ShearPair | Specimen:
+def stands_on(simulation: Simulation, rig_path: Path) -> Beam | ShearPair | PlateSpecimen:
     """What the rig file's `[simulation]` names. Raises `BadInput`."""
     assert simulation.specimen is not None
     path = rig_path.parent / simulation.specimen
     read = read_structure(path)
-    if isinstance(read, Specimen):
+    if isinstance(read, PlateSpecimen):
         unlike = unlike_a_cantilever(read)
         if unlike:
             raise BadInput(

@@ -22,7 +22,7 @@ from fitting.errors import FittingError, OutsideModel
 from fitting.laws import LAWS, CoreLaw
 from fitting.mode_tables.table import ModalTable
 from fitting.plate.plate import Plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face
 from instrument.models.modal import identify_tables
 from instrument.models.theory import theory_over
@@ -40,7 +40,7 @@ class Case:
     """What is true."""
 
     kind: str
-    plate: Specimen
+    plate: PlateSpecimen
     law: CoreLaw
 
 
@@ -64,14 +64,14 @@ def drawn(rng: np.random.Generator) -> Case:
     layers = [Face(h, E, nu, rho) for h, (E, nu, rho) in zip(faces, _metals(rng), strict=True)]
     law = LAWS["fractional-zener"](G, G * between(3, 100), between(1e-5, 1e-2), float(rng.uniform(0.35, 0.8)))
     core = Core(core_m, float(rng.uniform(0.4, 0.495)), between(700, 1600), law)
-    return Case(kind, Specimen(*sides, "simply-supported", *layers, core, exact=True), law)
+    return Case(kind, PlateSpecimen(*sides, "simply-supported", *layers, core, exact=True), law)
 
 
 def _metals(rng: np.random.Generator) -> list[tuple[float, float, float]]:
     return [METALS[k] for k in rng.integers(len(METALS), size=2)]
 
 
-def wavenumbers(plate: Specimen) -> np.ndarray:
+def wavenumbers(plate: PlateSpecimen) -> np.ndarray:
     """Of its first modes, rad/m: of simply supported edges. Shape (modes,)."""
     m = np.arange(1, 8) * np.pi
     k = np.hypot(m[:, None] / plate.length_m, m / plate.width_m).ravel()
@@ -90,7 +90,7 @@ def exact_mode(case: Case, k: float) -> complex:
     return value
 
 
-def lowest(plate: Specimen, k: float, G: complex) -> complex:
+def lowest(plate: PlateSpecimen, k: float, G: complex) -> complex:
     """Of u = U(z) sin kx, w = W(z) cos kx, by inverse iteration: bending lies far below all else."""
     K, M = matrices(plate, k, G)
     factored, x = la.lu_factor(K), np.tile([0.0, 1.0], len(K) // 2).astype(complex)
@@ -104,7 +104,7 @@ def lowest(plate: Specimen, k: float, G: complex) -> complex:
     return complex(value)
 
 
-def matrices(plate: Specimen, k: float, G: complex) -> tuple[np.ndarray, np.ndarray]:
+def matrices(plate: PlateSpecimen, k: float, G: complex) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness and mass through the thickness; U and W of every node in turn."""
     b, v, c = plate.substrate, plate.core, plate.constraining
     assert v is not None

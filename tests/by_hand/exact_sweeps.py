@@ -19,7 +19,7 @@ from rich.progress import track
 
 from fitting.errors import FittingError
 from fitting.laws import LAWS
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face
 from fitting.sweep import Sweep
 from instrument.models.files import File
@@ -68,13 +68,13 @@ def drawn(rng: np.random.Generator, *, shaken: bool) -> Case:
     law = LAWS["fractional-zener"](G, G * between(3, 100), between(1e-5, 1e-2), float(rng.uniform(0.35, 0.8)))
     core = Core(core_m, float(rng.uniform(0.4, 0.495)), between(700, 1600), law)
     spots = [(sides[0] * rng.uniform(0.12, 0.88), sides[1] * rng.uniform(0.12, 0.88)) for _ in range(2)]
-    plate = Specimen(*sides, "simply-supported", *layers, core, exact=True, pickup_m=spots[0])
+    plate = PlateSpecimen(*sides, "simply-supported", *layers, core, exact=True, pickup_m=spots[0])
     if not shaken:
         plate = replace(plate, force_m=spots[1])
     return Case(kind, plate, law)
 
 
-def waves(plate: Specimen) -> tuple[np.ndarray, np.ndarray]:
+def waves(plate: PlateSpecimen) -> tuple[np.ndarray, np.ndarray]:
     """Wavenumbers, ascending, and how much of each is driven and read. Shape (waves,) each.
 
     Driven is the shape at the force, or its mean over the plate: half waves in odd numbers are shaken alone.
@@ -92,7 +92,7 @@ def waves(plate: Specimen) -> tuple[np.ndarray, np.ndarray]:
     return np.hypot(a, b), driven * at(plate.pickup_m)
 
 
-def compliance(plate: Specimen, k: float, omega: np.ndarray, G: np.ndarray) -> np.ndarray:
+def compliance(plate: PlateSpecimen, k: float, omega: np.ndarray, G: np.ndarray) -> np.ndarray:
     """Of a wave: mean deflection of the substrate.
 
     For a pressure that is spread over it as evenly, or for a base that accelerates all there is.

@@ -15,7 +15,7 @@ from fitting.arrays import Array, Integers
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
 from fitting.planning.sensitivity import ReadingNoise
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.sweep import Sweep
 
 _SHARES = (0.1, 0.4)
@@ -30,7 +30,7 @@ class PlannedCase:
 
     seed: int
     truth: PlateTruth
-    specimen: Specimen
+    specimen: PlateSpecimen
     noise: ReadingNoise
     channel: ChannelError
 
@@ -77,7 +77,7 @@ def planned_case(seed: int) -> PlannedCase:
     return PlannedCase(seed, truth, specimen.with_law(law), noise, channel)
 
 
-def _stated_law(specimen: Specimen, truth: PlateTruth, rng: np.random.Generator) -> CoreLaw:
+def _stated_law(specimen: PlateSpecimen, truth: PlateTruth, rng: np.random.Generator) -> CoreLaw:
     """The law nearest to the truth of those a specimen states, moduli and rate off by as much as is usual."""
     f = np.geomspace(0.7 * truth.resonances_hz[0], 1.3 * truth.resonances_hz[-1], 40)
     wanted = np.log(truth.law.modulus(2 * np.pi * f))

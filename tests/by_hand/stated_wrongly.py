@@ -35,7 +35,7 @@ from fitting.identification.as_stated import pulled_together
 from fitting.identification.fit import Fit
 from fitting.laws import LAWS
 from fitting.numerics.chances import chi2_above
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.tolerances import STATED
 from fitting.sweep import Sweep
 from instrument.errors import BadInput
@@ -254,7 +254,7 @@ def identified(one: Given) -> tuple[Band, tuple[str, ...]]:
     """The law, and the remarks; of a plate how likely stated numbers are moved together as far."""
     found = identify([File(one.sweep, one.specimen)], hammer=one.hammer)
     said = found.result.warnings
-    if isinstance(one.specimen, Specimen):
+    if isinstance(one.specimen, PlateSpecimen):
         said = (*said, f"p = {chance_of(found.result.fit):.2g}")
     return band_from(identification_from(found).law), said
 

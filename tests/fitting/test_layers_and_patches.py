@@ -19,7 +19,7 @@ from fitting.plate.part_names import names_of
 from fitting.plate.parts import coefficients, loaded
 from fitting.plate.plate import Plate
 from fitting.plate.plate_numbers import plate_numbers
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face, Glue, Orthotropy
 from fitting.stated.patches import Patch, shifts_of
 
@@ -27,7 +27,7 @@ G = 5e5
 CORE = Core(0.5e-3, 0.49, 790.0, ConstantModulus(G, 0.8))
 SHEET = Face(1.9e-3, 68.9e9, 0.3, 2700.0)
 FOIL = Face(0.3e-3, 209e9, 0.3, 7890.0, 0.01)
-PLATE = Specimen(0.3, 0.2, "cantilever", SHEET, FOIL, CORE, pickup_m=(0.06, 0.06), elements=(15, 10))
+PLATE = PlateSpecimen(0.3, 0.2, "cantilever", SHEET, FOIL, CORE, pickup_m=(0.06, 0.06), elements=(15, 10))
 ROLLED = Orthotropy(30e9, 12e9)
 GLUED = replace(CORE, glue=(Glue(30e-6, 3e6, 1100.0, 0.3), Glue(20e-6, 8e6, 1000.0)))
 PATCHES = (Patch(0.0, 0.105, 0.031, 0.17), Patch(0.155, 0.26, 0.021, 0.09))
@@ -95,7 +95,7 @@ def test_a_turn_to_either_side_is_the_same_plate_mirrored():
 def test_a_simply_supported_orthotropic_plate_is_the_closed_form():
     """omega^2 = pi^4/(rho h) (D_11 m^4/a^4 + 2 (D_12 + 2 D_66) m^2 n^2/(a b)^2 + D_22 n^4/b^4)."""
     face = replace(SHEET, rolled=ROLLED)
-    plate = Specimen(0.3, 0.2, "simply-supported", face, elements=(36, 24))
+    plate = PlateSpecimen(0.3, 0.2, "simply-supported", face, elements=(36, 24))
     D = face_plane_stress(face) * face.thickness_m**3 / 12
     m, n = (np.arange(1, 6)[:, None] * np.pi / 0.3) ** 2, (np.arange(1, 6) * np.pi / 0.2) ** 2
     squared = D[0, 0] * m**2 + 2 * (D[0, 1] + 2 * D[2, 2]) * m * n + D[1, 1] * n**2
@@ -106,7 +106,7 @@ def test_a_simply_supported_orthotropic_plate_is_the_closed_form():
 def test_treated_on_both_sides_it_is_the_closed_form_of_five_layers():
     """D = D_b + 2 D_c + 2 A_c d^2 / (1 + A_c H k^2/G): the substrate's middle does not stretch."""
     thin = replace(CORE, thickness_m=0.05e-3, density_kg_m3=1.0)
-    plate = Specimen(0.3, 0.2, "simply-supported", SHEET, FOIL, thin, both_sides=True, elements=(36, 24))
+    plate = PlateSpecimen(0.3, 0.2, "simply-supported", SHEET, FOIL, thin, both_sides=True, elements=(36, 24))
     k_2 = (np.pi / 0.3) ** 2 + (np.pi / 0.2) ** 2
     A, H = FOIL.young_pa / (1 - 0.3**2) * FOIL.thickness_m, thin.thickness_m
     bending = [f.young_pa / (1 - 0.3**2) * f.thickness_m**3 / 12 for f in (SHEET, FOIL)]

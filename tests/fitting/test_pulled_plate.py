@@ -17,10 +17,12 @@ from fitting.plate.part_names import names_of
 from fitting.plate.parts import coefficients
 from fitting.plate.plate import Plate
 from fitting.plate.plate_numbers import moved, plate_numbers
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.patches import Patch
 
-STRIP = Specimen(LENGTH_M, 0.02, "clamped-free-clamped-free", replace(FACE, poisson=1e-9), elements=(60, 4))
+STRIP = PlateSpecimen(
+    LENGTH_M, 0.02, "clamped-free-clamped-free", replace(FACE, poisson=1e-9), elements=(60, 4)
+)
 
 
 @pytest.mark.parametrize("stress_mpa", [-8.0, 0.0, 20.0])
@@ -29,7 +31,7 @@ def test_a_strips_frequencies_are_those_of_a_bar_with_an_axial_force(along, stre
     plate = STRIP
     if along == "y":
         sides = {"length_m": STRIP.width_m, "width_m": STRIP.length_m, "elements": STRIP.mesh[::-1]}
-        plate = Specimen(**sides, boundary="free-clamped-free-clamped", substrate=STRIP.substrate)
+        plate = PlateSpecimen(**sides, boundary="free-clamped-free-clamped", substrate=STRIP.substrate)
     pulled = moved(plate, [f"axial_{along}"], [1e6 * stress_mpa])
     found = real_modes(Plate(pulled), 0.0, 2).omega / (2 * np.pi)
     assert found == pytest.approx(exact_hz(1e6 * stress_mpa, 2), rel=2e-4)

@@ -23,7 +23,7 @@ from fitting.laws import CoreLaw
 from fitting.nuisances.narrow import NarrowResonances
 from fitting.nuisances.nuisances import Nuisances, nuisances_of
 from fitting.reduced.rational import RationalSweep
-from fitting.specimen import Specimen, StatedSpecimen
+from fitting.specimen import PlateSpecimen, StatedSpecimen
 from fitting.sweep import Sweep
 from fitting.widened.condensing import CONDENSED, Training, condensed
 from fitting.widened.enriched_plate import EnrichedReducedPlate
@@ -92,10 +92,10 @@ class DiagnosisProblem:
     def of(
         cls,
         sweep: Sweep,
-        specimen: Specimen,
+        specimen: PlateSpecimen,
         plate: EnrichedReducedPlate,
         rational: Callable[[Array], RationalSweep],
-        reference: Specimen | None = None,
+        reference: PlateSpecimen | None = None,
     ) -> "DiagnosisProblem":
         """`rational` gives the unchanged plate's sum on an ascending grid in rad/s, shape (grid,).
 
@@ -165,7 +165,7 @@ class DiagnosisProblem:
     def pickup_x_m(self) -> float:
         """How far from the clamp it is stated to be read; the plate's own pickup may be another one's."""
         stated = self.nuisances.specimen
-        if isinstance(stated, Specimen) and stated.pickup_m is not None:
+        if isinstance(stated, PlateSpecimen) and stated.pickup_m is not None:
             return stated.pickup_m[0]
         return float(self.plate.pickup[0])
 
@@ -196,7 +196,7 @@ class DiagnosisProblem:
     @property
     def errs(self) -> Errs | None:
         """What the theory of its structure gets wrong of a resonance; None where that is of no account."""
-        return partial(model_error_at, self.specimen) if isinstance(self.specimen, Specimen) else None
+        return partial(model_error_at, self.specimen) if isinstance(self.specimen, PlateSpecimen) else None
 
     def with_narrow(self, law: CoreLaw, sweeps: Sequence[Sweep] = ()) -> Self:
         """The same with where its narrow resonances lie, under a law, among its numbers.

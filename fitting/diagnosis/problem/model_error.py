@@ -19,7 +19,7 @@ from fitting.discrepancy.model_error import GAIN, STRUCK_GAIN, model_error_at
 from fitting.laws import CoreLaw
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.reduced.resonance_parts import Answers, Part, parts_of
-from fitting.specimen import Specimen, StatedSpecimen
+from fitting.specimen import PlateSpecimen, StatedSpecimen
 from fitting.widened.change import Change
 
 _ALIKE = 1e-3
@@ -61,7 +61,7 @@ def own_errors(problem: DiagnosisProblem, reduced: ReducedPlate, law: CoreLaw, v
 
     Where the problem's plate is condensed to laws like this one, that serves.
     """
-    assert isinstance(problem.specimen, Specimen)
+    assert isinstance(problem.specimen, PlateSpecimen)
     omega, index = np.unique(problem.points.omega, return_inverse=True)
     answers = _answers(problem, reduced, omega, law.modulus(omega))
 
@@ -123,7 +123,7 @@ class OfOnePlate:
         self._points = points
         self._known: list[tuple[StatedSpecimen, float, str, Complex]] = []
 
-    def add(self, specimen: Specimen, part: slice | NDArray[np.intp], found: OwnErrors) -> None:
+    def add(self, specimen: PlateSpecimen, part: slice | NDArray[np.intp], found: OwnErrors) -> None:
         """Those of a file, whose points are `part` of all; of shape (points of all,) where it is no slice."""
         its = plate_alone(specimen)
         before = [(k, one) for k, one in enumerate(self._known) if one[0] == its]

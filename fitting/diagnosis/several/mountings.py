@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.several.one_plate import Plates
-from fitting.specimen import Specimen, StatedSpecimen
+from fitting.specimen import PlateSpecimen, StatedSpecimen
 
 
 def mountings(members: Sequence[DiagnosisProblem], plates: Plates) -> tuple[int, ...]:
@@ -20,13 +20,13 @@ def mountings(members: Sequence[DiagnosisProblem], plates: Plates) -> tuple[int,
 def of_mounting(stated: Sequence[StatedSpecimen], k: int, otherwise: int) -> int:
     """Of the k-th of some specimens the place of the one that it stands like; `otherwise` of none."""
     own = stated[k]
-    if not isinstance(own, Specimen) or own.drive == "base":
+    if not isinstance(own, PlateSpecimen) or own.drive == "base":
         return k
     standing = own.as_it_stands
     alike = [
         j
         for j, other in enumerate(stated)
-        if isinstance(other, Specimen) and other.drive == "base" and other.as_it_stands == standing
+        if isinstance(other, PlateSpecimen) and other.drive == "base" and other.as_it_stands == standing
     ]
     before = [j for j in alike if j < k]
     return before[-1] if before else (alike or [otherwise])[0]

@@ -12,7 +12,7 @@ from fitting.arrays import Array
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.plate_poles import PlatePoles
 from fitting.laws import CoreLaw
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from fitting.widened.span import Span
 
@@ -79,7 +79,7 @@ def _sides(members: Sequence[DiagnosisProblem], plates: Plates) -> dict[int, lis
 
 def _at(plate: EnrichedReducedPlate, member: DiagnosisProblem) -> EnrichedReducedPlate:
     specimen = member.specimen
-    assert isinstance(specimen, Specimen)
+    assert isinstance(specimen, PlateSpecimen)
     assert specimen.pickup_m is not None
     return plate.at(specimen.force_m, specimen.pickup_m)
 

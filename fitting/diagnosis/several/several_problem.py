@@ -31,7 +31,7 @@ from fitting.errors import OutsideModel
 from fitting.identification.adjusted import Adjusted
 from fitting.laws import CoreLaw
 from fitting.reduced.reduced_plate import ReducedPlate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.sweep import Sweep
 
 
@@ -180,7 +180,7 @@ class SeveralProblem(DiagnosisProblem):
         rows, theory = [], OfOnePlate(len(v))
         each = zip(self.members, self.reduced, self.starts_at, strict=True)
         for k, (m, reduced, part) in enumerate(each):
-            if reduced is not None and isinstance(m.specimen, Specimen):
+            if reduced is not None and isinstance(m.specimen, PlateSpecimen):
                 found = own_errors(m, reduced, law_at(law, k), v[part])
                 theory.add(m.specimen, part, found)
                 own = found.of_channels

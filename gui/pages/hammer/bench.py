@@ -6,7 +6,7 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from gui.background_task import BackgroundTask, Progress
 from gui.pages.hammer.findings import Averaged, Hits, Sight, modes_of
 from gui.pages.hammer.records_beside import frfs_of_records
@@ -156,5 +156,5 @@ def _expected(configuration: Configuration, below_hz: float) -> Any:
     sensor = settings.sensor if settings is not None else None
     plate = configuration.the_specimen()
     # A hammer test is of a plate alone.
-    assert isinstance(plate, Specimen)
+    assert isinstance(plate, PlateSpecimen)
     return expected_modes_hz(plate, sensor, below_hz)

@@ -4,7 +4,7 @@ from PySide6.QtCore import QRectF, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QWidget
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from gui.pages.run.plate_view import PlateView
 from gui.theme import current_theme
 from gui.widgets import button
@@ -63,7 +63,7 @@ class Banner(QFrame):
 
     def show_place(
         self,
-        specimen: Specimen,
+        specimen: PlateSpecimen,
         at_mm: tuple[float, float],
         mark: str,
         read_mm: tuple[float, float] | None = None,

@@ -9,7 +9,7 @@ from typing import Literal
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QMenu, QSplitter, QTabWidget, QVBoxLayout, QWidget
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from gui.background_task import BackgroundTask, Progress
 from gui.controller import AppController
 from gui.export import Export
@@ -235,7 +235,7 @@ class RunPage(Page):
             return
         plate = state.configuration.the_specimen()
         # Nothing is asked of a place on anything else.
-        assert isinstance(plate, Specimen)
+        assert isinstance(plate, PlateSpecimen)
         if question.free:
             whole_m = state.configuration.experiment.whole_length_m or plate.length_m
             plate = replace(plate, boundary="free", length_m=whole_m, pickup_m=None, further_pickups_m=())
@@ -279,7 +279,7 @@ class RunPage(Page):
         self.tabs.setDocumentMode(True)
         self.tabs.addTab(self.now, "State")
         self.tabs.addTab(self.checked, "Dry run")
-        self.tabs.addTab(self.drawing, "Specimen")
+        self.tabs.addTab(self.drawing, "PlateSpecimen")
         below = QHBoxLayout()
         below.setContentsMargins(6, 0, 6, 6)
         below.addStretch(1)

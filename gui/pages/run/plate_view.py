@@ -6,7 +6,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPalette, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from gui.form.draft import Draft
 from gui.form.drafts import Drafts
 from gui.form.fields import Place
@@ -70,7 +70,7 @@ class PlateView(QWidget):
 
     def show_place(
         self,
-        specimen: Specimen,
+        specimen: PlateSpecimen,
         at_mm: tuple[float, float],
         mark: str,
         read_mm: tuple[float, float] | None = None,

@@ -7,7 +7,7 @@ from PySide6.QtGui import QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QStackedWidget, QWidget
 
 from fitting.errors import FittingError
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen
 from gui.form.draft import Draft
 from gui.form.drafts import Drafts
@@ -142,7 +142,7 @@ class Drawing(QStackedWidget):
         """Of an experiment's files; nothing where there are none."""
         specimen = drafts.specimen if drafts is not None else None
         described_now = _described(specimen) if specimen is not None else None
-        if described_now is None or isinstance(described_now, Specimen):
+        if described_now is None or isinstance(described_now, PlateSpecimen):
             # A plate is drawn while its file is being written, whole or not.
             self.plate.show_drafts(drafts)
             self.setCurrentWidget(self.plate)

@@ -10,7 +10,7 @@ from campaign.plates.solid import Build, Solid, factorised
 from fitting.dynamics.real_modes import real_modes
 from fitting.laws.constant import ConstantModulus
 from fitting.plate.plate import Plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face
 from fitting.stated.patches import Patch
 
@@ -42,7 +42,7 @@ def solid_eigenvalues(G):
 def test_a_patch_is_as_stiff_and_its_core_shares_as_much_as_in_a_solid():
     s, c, v = P8.substrate, P8.constraining, P8.core
     plate = Plate(
-        Specimen(
+        PlateSpecimen(
             P8.length_m,
             P8.width_m,
             "cantilever",

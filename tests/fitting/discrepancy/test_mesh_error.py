@@ -11,7 +11,7 @@ from fitting.discrepancy.model_error import FREQUENCY, model_error_at
 from fitting.dynamics.complex_modes import complex_modes
 from fitting.laws.constant import ConstantModulus
 from fitting.plate.plate import Plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face, Glue, Orthotropy
 
 ALUMINIUM = Face(2e-3, 70e9, 0.3, 2700.0)
@@ -24,7 +24,7 @@ WITHIN = 0.1
 def square(G=2e6, elements=(12, 12), core=True, **more):
     law = ConstantModulus(G, 0.5)
     layers = (ALUMINIUM, FOIL, Core(1e-3, 0.45, 1000.0, law)) if core else (ALUMINIUM,)
-    return Specimen(SIDE, SIDE, "simply-supported", *layers, elements=elements, **more), law
+    return PlateSpecimen(SIDE, SIDE, "simply-supported", *layers, elements=elements, **more), law
 
 
 def off(plate, law):

@@ -18,7 +18,7 @@ from fitting.dynamics.complex_modes import complex_modes
 from fitting.errors import OutsideModel
 from fitting.laws.constant import ConstantModulus
 from fitting.plate.plate import Plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face
 
 BAND = np.array([20.0, 55.0, 100.0, 180.0, 280.0])
@@ -81,7 +81,7 @@ def random_specimen(random):
     )
     law = ConstantModulus(log(1e4, 1e9), log(0.02, 1.5))
     core = Core(log(0.05e-3, 1e-2), random.uniform(0.3, 0.495), log(50, 2000), law)
-    return Specimen(log(0.1, 0.6), log(0.1, 0.6), "simply-supported", b, c, core)
+    return PlateSpecimen(log(0.1, 0.6), log(0.1, 0.6), "simply-supported", b, c, core)
 
 
 def modulus(specimen):

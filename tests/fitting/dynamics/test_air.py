@@ -13,7 +13,7 @@ from fitting.dynamics.real_modes import real_modes
 from fitting.effects.air_added_mass import AirAddedMassEffect
 from fitting.plate.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
 from fitting.plate.plate import Plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Face
 
 ALUMINIUM = Face(1.9e-3, 68.9e9, 0.3, 2700.0)
@@ -21,7 +21,7 @@ MODES = 10
 
 
 def rectangle(length_m, width_m, elements=None, boundary="free"):
-    return Plate(Specimen(length_m, width_m, boundary, ALUMINIUM, elements=elements))
+    return Plate(PlateSpecimen(length_m, width_m, boundary, ALUMINIUM, elements=elements))
 
 
 def heave_mass(length_m, width_m, counts=None):

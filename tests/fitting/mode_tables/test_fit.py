@@ -11,7 +11,7 @@ from fitting.mode_tables.build import member_of, tapped, with_own_error
 from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.table import ModalTable
 from fitting.plate.plate import Plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face
 from fitting.structures.beam import Beam
 from fitting.structures.small_modes import small_modes
@@ -192,7 +192,7 @@ def by_differences(member):
         assert np.allclose(found[k], expected, rtol=3e-3, atol=1e-6), k
 
 
-PLATE = Specimen(
+PLATE = PlateSpecimen(
     0.3,
     0.2,
     "cantilever",

@@ -19,7 +19,7 @@ from fitting.plate.mesh import mesh_of
 from fitting.plate.part_matrices import element_parts
 from fitting.plate.parts import coefficients, stretched
 from fitting.plate.plate import Plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face, Glue
 from fitting.stated.patches import Patch
 
@@ -37,7 +37,7 @@ STACKS = {
 def plate(name, **stated):
     b, h_v, c = STACKS[name]
     core = Core(h_v, 0.45, 1000.0, ConstantModulus(1e8, 0.5))
-    made = Specimen(0.3, 0.2, "simply-supported", b, constraining=c, core=core, elements=(12, 8))
+    made = PlateSpecimen(0.3, 0.2, "simply-supported", b, constraining=c, core=core, elements=(12, 8))
     return replace(made, **{"faces_shear": True, **stated})
 
 

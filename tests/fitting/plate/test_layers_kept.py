@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from fitting.laws.constant import ConstantModulus
 from fitting.plate.layers_array import layers_of, specimen_of
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face, Glue, Orthotropy
 from fitting.stated.patches import Patch
 
@@ -47,7 +47,7 @@ PLATE = {
     "faces_shear": st.booleans(),
 }
 NOT_ASKED = {
-    Specimen: {
+    PlateSpecimen: {
         "boundary",
         "modal_ratios",
         "pickup_m",
@@ -72,25 +72,25 @@ def kept(specimen):
 
 @pytest.mark.parametrize(
     ("of", "drawn"),
-    [(Specimen, PLATE), (Face, FACE), (Orthotropy, AXES), (Core, CORE), (Glue, GLUE), (Patch, PATCH)],
+    [(PlateSpecimen, PLATE), (Face, FACE), (Orthotropy, AXES), (Core, CORE), (Glue, GLUE), (Patch, PATCH)],
 )
 def test_a_field_is_kept_or_known_not_to_be_asked_for(of, drawn):
     assert {f.name for f in fields(of)} == set(drawn) | NOT_ASKED.get(of, set())
 
 
-@given(st.builds(Specimen, boundary=st.just("free"), **PLATE))
+@given(st.builds(PlateSpecimen, boundary=st.just("free"), **PLATE))
 def test_every_number_that_coefficients_ask_for_comes_back(specimen):
     assert kept(specimen) == specimen
 
 
-@given(st.builds(Specimen, boundary=st.just("free"), **PLATE))
+@given(st.builds(PlateSpecimen, boundary=st.just("free"), **PLATE))
 def test_a_bare_plate_comes_back_without_a_treatment(specimen):
     assert kept(specimen.bare) == specimen.bare
 
 
 def test_the_order_of_the_numbers_is_that_of_cached_files():
     glue = Glue(31.0, 32.0, 33.0, 34.0), Glue(41.0, 42.0, 43.0, 44.0)
-    plate = Specimen(
+    plate = PlateSpecimen(
         1.0,
         1.0,
         "free",

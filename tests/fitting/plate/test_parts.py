@@ -16,11 +16,11 @@ from fitting.plate.part_matrices import element_parts, load_part, projected_part
 from fitting.plate.part_names import CORE, MASS, STIFFNESS
 from fitting.plate.parts import coefficients, stretched
 from fitting.plate.plate import Plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face
 
 LAW = ConstantModulus(1e6, 0.0)
-REFERENCE = Specimen(
+REFERENCE = PlateSpecimen(
     0.12,
     0.09,
     "cantilever",

@@ -13,7 +13,7 @@ from fitting.errors import OutsideModel
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.plate.plate import Plate
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face
 
 
@@ -68,7 +68,7 @@ def test_narrow_plate_agrees_with_the_sandwich_beam():
     # Soni; Bilasse and Daya. A plate is a little stiffer than a beam: the clamp holds its width.
     face = Face(1.524e-3, 69e9, 0.3, 2766.0)
     core = Core(0.127e-3, 0.3, 968.1, ConstantModulus(1.794e6 / (2 * 1.3), 0.1))
-    narrow = Specimen(0.1778, 0.0127, "cantilever", face, face, core, elements=(60, 5))
+    narrow = PlateSpecimen(0.1778, 0.0127, "cantilever", face, face, core, elements=(60, 5))
     f, eta = modes_of(narrow, 4)
     flexural = [0, 1, 3]  # mode 3 of the plate is a twist
     np.testing.assert_allclose(f[flexural], [64.1, 296.4, 743.7], rtol=1e-2)

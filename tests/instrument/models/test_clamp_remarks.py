@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from fitting.laws.constant import ConstantModulus
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face
 from fitting.structures import Beam
 from instrument.models.clamp_remarks import remarks_on_clamps
@@ -44,9 +44,9 @@ def test_a_constraining_layer_that_two_clamps_may_not_grip_is_asked_to_be_looked
 
 
 def test_of_a_plate_with_clamps_on_opposite_edges_too():
-    plate = Specimen(0.4, 0.25, "free-clamped-free-clamped", STEEL)
+    plate = PlateSpecimen(0.4, 0.25, "free-clamped-free-clamped", STEEL)
     (said,) = remarks_on_clamps(plate)
     assert higher_percent(said) == pytest.approx(PERCENT, rel=0.05)
     assert "allowed for is 2 MPa (axial_mpa)" in said
     for boundary in ("cantilever", "free", "clamped-clamped-free-free"):
-        assert remarks_on_clamps(Specimen(0.4, 0.25, boundary, STEEL)) == ()
+        assert remarks_on_clamps(PlateSpecimen(0.4, 0.25, boundary, STEEL)) == ()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from instrument.facts.plan import PlannedStep
 from instrument.files.specimen_file import read_specimen
 from instrument.paper_case import case_file
@@ -44,7 +44,7 @@ def test_what_no_file_may_wait_for_is_counted():
 
 def test_a_plate_of_which_no_damping_is_stated_rings_as_the_run_takes_it():
     stated = read_specimen(case_file("zn1.toml"))
-    assert isinstance(stated, Specimen)
+    assert isinstance(stated, PlateSpecimen)
     assert as_run(poles(0.01), stated) == pytest.approx(poles(0.01))
     unknown = stated.__class__(**{**vars(stated), "modal_ratios": ()})
     assert as_run(poles(0.01), unknown).imag == pytest.approx(poles(0.012).imag)

@@ -4,13 +4,13 @@ from dataclasses import replace
 
 from following_cases import BACKWARDS, SPOT
 
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Face
 from fitting.structures import ShearPair
 from instrument.facts.follow_up import FollowUp
 from instrument.results.offer_sketch import offer_view
 
-PLATE = Specimen(0.3, 0.2, "cantilever", Face(2e-3, 70e9, 0.3, 2700.0), pickup_m=(0.1, 0.1))
+PLATE = PlateSpecimen(0.3, 0.2, "cantilever", Face(2e-3, 70e9, 0.3, 2700.0), pickup_m=(0.1, 0.1))
 NOWHERE = FollowUp.model_validate(BACKWARDS)
 AIMED = FollowUp.model_validate(SPOT)
 FREE = AIMED.but(

@@ -5,10 +5,10 @@ from dataclasses import replace
 import pytest
 
 from fitting.diagnosis.several.mountings import mountings, of_mounting
-from fitting.specimen import PlacedMass, Specimen
+from fitting.specimen import PlacedMass, PlateSpecimen
 from fitting.stated.layers import Face
 
-SHAKEN = Specimen(
+SHAKEN = PlateSpecimen(
     0.3, 0.2, "cantilever", Face(2e-3, 70e9, 0.3, 2700.0), pickup_m=(0.1, 0.1), reads="absolute"
 )
 STRUCK = replace(SHAKEN, force_m=(0.28, 0.1), pickup_m=(0.2, 0.15), tolerances={"force": 2e-3, "gain": 0.01})

@@ -8,13 +8,13 @@ from fitting.diagnosis.several.of_files import Place
 from fitting.diagnosis.several.sharing import shared, with_narrow
 from fitting.nuisances.narrow import NarrowResonance, NarrowResonances
 from fitting.nuisances.nuisance import Nuisance
-from fitting.specimen import Specimen
+from fitting.specimen import PlateSpecimen
 
 NUMBERS = (Nuisance("gain", "gain", 0.003), Nuisance("length", "length", 1e-3))
 
 
 def member(length_m=0.3, drive="base", numbers=NUMBERS):
-    specimen = object.__new__(Specimen)
+    specimen = object.__new__(PlateSpecimen)
     object.__setattr__(specimen, "length_m", length_m)
     nuisances = SimpleNamespace(each=numbers)
     return SimpleNamespace(specimen=specimen, nuisances=nuisances, points=SimpleNamespace(drive=drive))
