@@ -68,7 +68,7 @@ def identify(
     if pointwise and method == "paper":
         raise BadInput("pointwise with method 'paper', expected the direct method")
     given = _given(data, specimen, hammer)
-    model = given.plate.model if viscous_damping else replace(given.plate.model, modal_ratios=())
+    model = given.plate.model if viscous_damping else replace(given.plate.model, modal_ratios=(0.0,))
     if pointwise:
         # Said before the work, not after it.
         phase_is_kept(given.points)

@@ -37,6 +37,14 @@ def test_identify_with_options(command, sweep, plate, options, keywords):
     assert timeless(vr.identify(sweep, plate, **keywords).as_dict()) == timeless(expected)
 
 
+def test_identify_without_the_damping_of_a_plate_known_within_tolerances(command, tmp_path, sweep):
+    path = tmp_path / "plate.toml"
+    path.write_text(COARSE.read_text(encoding="utf-8").replace("exact = true", ""), encoding="utf-8")
+    expected = command("identify", TABLE5, "--specimen", path, "--no-viscous-damping")
+    found = vr.identify(sweep, vr.Specimen.from_file(path), viscous_damping=False)
+    assert timeless(found.as_dict()) == timeless(expected)
+
+
 def test_identify_without_a_law_too(command, tmp_path, plate):
     path = tmp_path / "sweep.csv"
     f = np.linspace(90.0, 110.0, 11)
