@@ -1,6 +1,6 @@
 """How strained the core is at every point of a sweep, softened or not: what softening with strain goes by."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import TypeVar
@@ -11,6 +11,7 @@ from fitting.arrays import Array, Complex
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.plate_answer import Asked, StrainedCore
 from fitting.diagnosis.problem.plate_poles import PLAIN
+from fitting.diagnosis.response.core_poles import away_from_poles, compliances
 from fitting.effects.given import Strain
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
@@ -45,6 +46,10 @@ class Reference:
     strain: float | None = None
 
 
+FromPoles = Callable[[Array, Array], Array]
+"""Distance from the poles of every point, its core softened by its share and gained. Shape (points,) each."""
+
+
 @dataclass(frozen=True)
 class _Table:
     """Strain for a unit of what drives it, and the cores that it was read of, one a gain and share.
@@ -55,8 +60,7 @@ class _Table:
 
     cubics: Array
     """Of ln strain times the distance from the poles. Shape (gains, 4, points)."""
-    poles: Complex
-    """Coefficients of the same cubics for the squares of the poles. Shape (gains, 4, poles)."""
+    from_poles: FromPoles
     away: Array
     """From the poles, at the nodes of every gain and share. Shape (gains 4 nodes,)."""
     core: StrainedCore
@@ -64,6 +68,8 @@ class _Table:
 
 Changes = Callable[[], Change]
 A = TypeVar("A", Array, Complex)
+FEW = 10
+"""Motions of a structure, a shear pair's, whose every point is solved for its poles: milliseconds."""
 
 
 class Strains:
@@ -105,7 +111,7 @@ class Strains:
         def strain(softened: Array, gained: Array | None = None) -> Array:
             gains = gained is not None
             known, more = of(gains), np.zeros(len(softened)) if gained is None else gained
-            away = self._away(known.poles, softened, more)
+            away = known.from_poles(softened, more)
             logs_here = _at(known.cubics, softened, more)
             if further is not None:
                 logs_here = logs_here + _at(further(gains), softened, more) / away**2
@@ -116,12 +122,6 @@ class Strains:
 
         return strain
 
-    def _away(self, poles: Complex, softened: Array, gained: Array) -> Array:
-        """From the poles, each point's core softened by its share. Shape (points,)."""
-        return self._problem.dense.away(
-            lambda mine, at: _at(poles[:, :, mine, None], softened[at], gained[at])
-        )
-
     def _table(self, law: CoreLaw, key: bytes, changes: Changes, gains: bool) -> _Table:
         key = law.values.tobytes() + key + bytes([gains])
         if key not in self._known:
@@ -131,19 +131,38 @@ class Strains:
             core = StrainedCore(
                 self._plate, np.tile(dense.omega, len(moduli)), np.concatenate(moduli), change
             )
-            squares: Complex = np.array([self._poles(each, change) for each in moduli]) ** 2
-            away = np.concatenate([self._away_at_nodes(p) for p in squares])
-            poles = _through(squares.reshape(1 + gains, len(_SOFTENED), *squares.shape[1:]))
-            table = _Table(self._cubics(np.log(core.strain * away)), poles, away, core)
+            from_poles, away = self._from_poles(G, change, moduli)
+            table = _Table(self._cubics(np.log(core.strain * away)), from_poles, away, core)
             if len(self._known) > _KEPT:
                 self._known.clear()
             self._known[key] = table
             if self._reference.strain is None:
                 unit = PUBLISHED_G_M_S2 if self._problem.points.drive == "base" else 1.0
                 none = np.zeros(len(dense.points))
-                largest = np.exp(table.cubics[0, -1]) / self._away(table.poles, none, none)
+                largest = np.exp(table.cubics[0, -1]) / table.from_poles(none, none)
                 self._reference.strain = float(largest.max()) * unit
         return self._known[key]
+
+    def _from_poles(self, G: Complex, change: Change, moduli: Sequence[Complex]) -> tuple[FromPoles, Array]:
+        """Distance from the poles at the points, and at the nodes of each of the `moduli` in turn.
+
+        Shapes (nodes,) of `G` and each modulus, (moduli nodes,).
+        """
+        dense = self._problem.dense
+        if len(self._plate.load) <= FEW:
+            # Every point is a node: what has all their poles is known exactly.
+            by_G = compliances(self._plate, change, dense.omega)
+            return (
+                lambda softened, gained: away_from_poles(by_G, strained(G, softened, gained)),
+                np.concatenate([away_from_poles(by_G, each) for each in moduli]),
+            )
+        squares: Complex = np.array([self._poles(each, change) for each in moduli]) ** 2
+        cubics = _through(squares.reshape(-1, len(_SOFTENED), *squares.shape[1:]))
+
+        def away(softened: Array, gained: Array) -> Array:
+            return dense.away(lambda mine, at: _at(cubics[:, :, mine, None], softened[at], gained[at]))
+
+        return away, np.concatenate([self._away_at_nodes(p) for p in squares])
 
     def _away_at_nodes(self, squares: Complex) -> Array:
         """The same at the nodes, from poles that are the same for all. Shapes (poles,) to (nodes,)."""
