@@ -32,6 +32,8 @@ _SLOWEST_1_S = 1e-6
 """What has no damping at all never settles: weeks are as good as that."""
 _NOTHING_KNOWN = 1e300
 """A bound before there is one: finite, so that it may die away."""
+_TINY = float(np.finfo(float).tiny)
+"""In place of a response of nothing: what is left of it is no share of it."""
 
 
 @dataclass
@@ -67,7 +69,7 @@ class Settling:
         self.elapsed_s += block_s
         halving = max(1, int(np.ceil(np.log(2) / (self._expected_1_s * block_s))))
         lag = min(halving, len(self.readings) - 1)
-        size = abs(response)
+        size = max(abs(response), _TINY)
         drift, std = abs(response - self.readings[-1 - lag]), np.sqrt(2) * relative_std * size
         if lag == halving:
             self._look_at_decay(drift, std)

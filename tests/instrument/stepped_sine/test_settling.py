@@ -72,3 +72,10 @@ def test_samples_are_taken_from_where_the_command_took_effect():
     assert (samples.first, samples.count) == (11, 1)
     samples.clear()
     assert (samples.first, samples.count, samples.end) == (None, 0, 0)
+
+
+def test_a_response_of_nothing_is_followed():
+    settling = Settling(DECAY_1_S, TOLERANCE)
+    for response in (0j, 0j, 1e-12 + 0j, 0j):
+        settling.add(response, 1.0, BLOCK_S)
+    assert not np.isnan(settling.remaining)
