@@ -11,6 +11,7 @@ from instrument.hammer_test.struck import StruckAnalysis
 from instrument.run.refused_calibration import refused
 from instrument.session.setup import Setup
 from instrument.stepped_sine.calibration import Calibration, calibrate
+from instrument.stepped_sine.lost_velocity import lost_in_noise
 from instrument.stepped_sine.step import StepAnalysis
 from instrument.stepped_sine.step_context import StepContext
 from instrument.stream.clock import SessionClock
@@ -165,7 +166,7 @@ class Analysis:
             case PointMeasured():
                 self.points.append(event)
                 self.times_s.append(self._clock.at(event.sample))
-                return self._compared(event)
+                return [*self._compared(event), *lost_in_noise(self.points)]
             case CalibrationFound():
                 self.calibrations[event.range_name] = event
                 own = [p for p in self._calibration_points if p.range_name == event.range_name]

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from instrument.stepped_sine.lost_velocity import noise_remarks
 from instrument.stepped_sine.sine_fit import SineFit
 from instrument.stepped_sine.step_context import StepContext
 from instrument.stream.derived import PointMeasured
@@ -35,6 +36,7 @@ def point_of(reading: Reading, began: StepBegan, context: StepContext) -> PointM
     """The point measured by a step's reading."""
     fit, remarks = reading.fit, list(reading.remarks)
     velocity = fit.phasor[1]
+    remarks += noise_remarks(float(abs(velocity)), float(fit.std[1]))
     velocity_std = np.hypot(fit.std[1], reading.left * abs(velocity) / _BOUND)
     if context.calibration is not None:
         calibration = context.calibration(reading.range_name)

@@ -14,6 +14,7 @@ import numpy as np
 from fitting.arrays import Array
 from instrument.stepped_sine.guard import Guard
 from instrument.stepped_sine.level_control import LevelControl
+from instrument.stepped_sine.lost_velocity import StillVelocity
 from instrument.stepped_sine.point_of_reading import Reading, point_of
 from instrument.stepped_sine.samples import Samples
 from instrument.stepped_sine.settling import Settling
@@ -58,6 +59,7 @@ class StepAnalysis:
         self._phase: Literal["settling", "dwelling", "done"] = "settling"
         self._remarks: list[str] = []
         self._control = LevelControl(began, context.settings, self._guard, self._remarks.append)
+        self._still = StillVelocity()
         self._base: float | None = None
         self._flattened = False
         self._settle_s = 0.0
@@ -129,9 +131,9 @@ class StepAnalysis:
             return events + self._loop_checked(first + x.shape[1], fit)
         if self._phase == "dwelling":
             return events + self._dwelt(first, x, fit)
-        return events + self._followed(first + x.shape[1], x.shape[1], fit)
+        return events + self._followed(first + x.shape[1], x, fit)
 
-    def _followed(self, end: int, count: int, fit: SineFit) -> list[Derived]:
+    def _followed(self, end: int, x: Array, fit: SineFit) -> list[Derived]:
         """A block on the way to rest: correct the level, or see whether it has settled."""
         base, velocity = fit.phasor[:2]
         error = self._control.error(abs(base))
@@ -140,12 +142,14 @@ class StepAnalysis:
             return lost
         if self._control.far_under:
             return []
+        if self._still.add(x[1]):
+            return self._lost_velocity()
         trim = self._control.trim
         steady = before is not None and abs(abs(base) / before - 1) < max(abs(error) / 2, trim / 2)
         if abs(error) > trim and steady and self._control.may_correct:
             return self._control.correct(abs(base), error, self._command_drive())
         noise = float(np.hypot(fit.std[1] / abs(velocity), fit.std[0] / abs(base)))
-        block_s = count / self._rate
+        block_s = x.shape[1] / self._rate
         waited = (end - self._from) / self._rate
         settled = self._settling.add(complex(velocity / base), noise, block_s)
         if self._settled_at is not None:
@@ -185,6 +189,8 @@ class StepAnalysis:
             if abs(error) > self._settings.control.abort:
                 return [self._guard.under_level(float(abs(fit.phasor[0])), self._control.level_m_s2)]
             self._remarks.append(f"level {100 * error:+.2g} % off, limit {self._tolerance_percent:.2g} %")
+        if self._still.add(x[1]):
+            return self._lost_velocity()
         if unsound := self._unsound(first, x, fit):
             return unsound
         self._phase = "done"
@@ -214,6 +220,11 @@ class StepAnalysis:
             return [RangeRequested(self._began.step, self._wider[0], f"a flat top in {self._range.name}")]
         self._remarks += found.remarks
         return []
+
+    def _lost_velocity(self) -> list[Derived]:
+        """A reading of an input that stands still is none; some in a row end the run."""
+        began = self._began
+        return [self._still.stop(began.step, began.frequency_hz)] if self._still.lost else []
 
     def _loop_checked(self, end: int, fit: SineFit) -> list[Derived]:
         base, need = abs(fit.phasor[0]), self._settings.control.signal_over_noise

@@ -3,6 +3,7 @@
 import time
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from engine_cases import is_silent
 from formula_rig import formula_rig, gain
@@ -84,7 +85,34 @@ def loosen_cable(rig):
     rig.world.acquire = with_fault
 
 
+def hold_velocity(rig):
+    """The velocity's input reads the same count from now on, as with a cable that is off."""
+    acquire = rig.world.acquire
+
+    def with_a_dead_input(samples):
+        found = acquire(samples)
+        counts = found.counts.copy()
+        counts[1] = 12345
+        return replace(found, counts=counts)
+
+    rig.world.acquire = with_a_dead_input
+
+
+def lose_velocity_in_noise(rig):
+    """The velocity's input reads noise from now on, as with a beam that is off its spot."""
+    acquire, random = rig.world.acquire, np.random.default_rng(1)
+
+    def with_noise(samples):
+        found = acquire(samples)
+        counts = found.counts.copy()
+        counts[1] = random.integers(-(2**16), 2**16, counts.shape[1])
+        return replace(found, counts=counts)
+
+    rig.world.acquire = with_noise
+
+
 MISLEADS = {
+    "a velocity that stands still": (hold_velocity, "velocity lost: readings in a row"),
     "its range changed by hand": (change_range, "range is 50mm/s/V, it was set to"),
     "switched off at its panel": (switch_off, "switched off by somebody|output is not allowed"),
     "another frequency by its word alone": (
@@ -107,6 +135,16 @@ def test_what_misleads_ends_the_run_before_it_counts(tmp_path, monkeypatch, name
     points = points_in(tmp_path)
     assert 3 <= len(points) < 6
     assert all_are_right(points)
+
+
+def test_a_velocity_that_is_noise_ends_the_run_and_its_points_say_so(tmp_path):
+    with formula_rig(tmp_path) as (rig, experiment):
+        with pytest.raises(RigStopped, match="velocity lost: points in a row within its own noise"):
+            run(experiment, tmp_path, companion=RunAtPoint(3, lambda: lose_velocity_in_noise(rig)))
+        assert is_silent(rig)
+    noisy = [any("within its noise" in r for r in p.remarks) for p in points_in(tmp_path)]
+    assert not any(noisy[:3])
+    assert noisy.count(True) >= 5
 
 
 class AtSettled(Companion):

@@ -62,3 +62,11 @@ def test_a_range_without_a_calibration_and_weak_light_are_said():
         f"range {RANGE.name} is not calibrated",
         "weak light: signal level 0.01",
     )
+
+
+def test_a_velocity_within_its_noise_is_said():
+    fit = replace(FIT, std=np.array([0.01, 0.02, 0.0]))
+    assert (
+        "velocity within its noise: 2.5 standard deviations"
+        in point_of(replace(READING, fit=fit), began(), CONTEXT).remarks
+    )

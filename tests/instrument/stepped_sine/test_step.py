@@ -1,6 +1,6 @@
 """One step: from its command to its point."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -24,6 +24,21 @@ from instrument.stream.scaling import Scaling
 
 SCALING = Scaling({"base": 0, "velocity": 1}, {"base": 1 / BASE_V, "velocity": 1.0})
 SETTINGS = SweepSettings()
+
+
+@dataclass
+class Still(Station):
+    """A station whose velocity's input stands still for so many reads."""
+
+    volts: float = 0.0
+    blocks: int = 10**9
+
+    def read(self, samples, range_scale=RANGE.scale_m_s_v):
+        first, x = super().read(samples, range_scale)
+        self.blocks -= 1
+        if self.blocks >= 0:
+            x[1] = self.volts
+        return first, x
 
 
 def context_of(station, light=0.8):
@@ -407,3 +422,22 @@ def test_a_level_far_out_of_reach_names_its_key_and_asks_for_the_sensitivity_fir
     assert f"under the 9.81 m/s^2 of {key} level_g, short by 6.81" in said
     assert "limit 4.905 m/s^2: is the accelerometer" in said
     assert said.index("sensitivity_mv_per_unit") < said.index("limits.drive_v")
+
+
+@pytest.mark.parametrize("volts", [0.0, 0.0123])
+def test_a_velocity_whose_input_stands_still_ends_the_run(volts):
+    events = follow(Still(volts=volts))
+    (stop,) = of_kind(events, LimitExceeded)
+    assert "velocity lost" in stop.message
+    assert not of_kind(events, PointMeasured)
+
+
+def test_a_velocity_that_stood_still_for_two_blocks_is_measured_all_the_same():
+    events = follow(Still(stirred=0.0, blocks=2))
+    assert not of_kind(events, LimitExceeded)
+    assert point_of(events).velocity_m_s / point_of(events).base_m_s2 == pytest.approx(0.004 - 0.002j)
+
+
+def test_a_base_that_is_lost_with_the_velocity_is_what_is_told():
+    (stop,) = of_kind(follow(Still(gain_m_s2_v=1e-6)), LimitExceeded)
+    assert "base acceleration lost" in stop.message
