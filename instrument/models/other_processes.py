@@ -13,6 +13,7 @@ from threading import Thread
 from time import sleep
 from types import TracebackType
 from typing import Any
+from weakref import WeakSet
 
 from loky import ProcessPoolExecutor
 
@@ -26,6 +27,8 @@ _MOST_PROCESSES = 4
 """Processes of a diagnosis: it goes from one step to the next, and a fifth would mostly wait."""
 _LOOKS_ROUND_S = 1.0
 """How often another process asks whether the first one is still there."""
+_begun: "WeakSet[SeveralProcesses]" = WeakSet()
+"""Those that have not been ended, for whoever gives up what they work on."""
 
 
 def processors() -> int:
@@ -52,11 +55,18 @@ def executor() -> AbstractContextManager[Executor]:
     return SeveralProcesses(others) if others else nullcontext(ALONE)
 
 
+def end_all() -> None:
+    """End the other processes of every diagnosis: given up, it would be waited for when this process ends."""
+    for several in list(_begun):
+        several.end()
+
+
 class SeveralProcesses(Executor):
     """Others beside this one; a context manager. They begin to load at once."""
 
     def __init__(self, others: int) -> None:
         self._others = [_Other() for _ in range(others)]
+        _begun.add(self)
 
     def __enter__(self) -> "SeveralProcesses":
         return self
@@ -64,6 +74,11 @@ class SeveralProcesses(Executor):
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        self.end()
+
+    def end(self) -> None:
+        """End them at once, whatever they are at; also twice."""
+        _begun.discard(self)
         for other in self._others:
             other.end()
 

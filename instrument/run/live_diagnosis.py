@@ -15,6 +15,7 @@ from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.hammer_file import accepted_modes
 from instrument.interchange.files_of import files_of
 from instrument.models.diagnosis import diagnose
+from instrument.models.other_processes import end_all
 from instrument.planning.follow_up import Possible
 from instrument.planning.open_questions import with_open_questions
 from instrument.progress import Progress, quiet
@@ -98,7 +99,10 @@ def _result(asked: ToDiagnose, progress: Progress) -> DiagnosisResult:
 
 
 def apart(work: Callable[[], DiagnosisFound]) -> DiagnosisFound:
-    """Do the work on a thread of its own and wait: a signal reaches the waiting thread at once."""
+    """Do the work on a thread of its own and wait: a signal reaches the waiting thread at once.
+
+    What ends the wait ends the diagnosis's other processes too.
+    """
     found: list[DiagnosisFound] = []
     failure: list[BaseException] = []
 
@@ -109,8 +113,12 @@ def apart(work: Callable[[], DiagnosisFound]) -> DiagnosisFound:
             failure.append(error)
 
     thread = threading.Thread(target=do, name="diagnosis", daemon=True)
-    thread.start()
-    thread.join()
+    try:
+        thread.start()
+        thread.join()
+    except BaseException:
+        end_all()
+        raise
     if failure:
         raise failure[0]
     return found[0]

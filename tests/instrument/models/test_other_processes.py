@@ -10,7 +10,7 @@ from fitting.diagnosis.executor import ALONE
 from fitting.errors import OutsideModel
 from instrument.errors import BadInput
 from instrument.models import other_processes
-from instrument.models.other_processes import VARIABLE, SeveralProcesses, learn, wanted
+from instrument.models.other_processes import VARIABLE, SeveralProcesses, end_all, learn, wanted
 
 
 @pytest.fixture(scope="module")
@@ -106,6 +106,19 @@ def test_a_process_that_is_replaced_is_told_anew(two):
     # What a new process knows, where loky puts one in the place of another whose memory has grown.
     two._others[0].pool.submit(learn, 0, None).result()
     assert shared_by_two()
+
+
+def test_what_is_given_up_leaves_no_process_behind():
+    with SeveralProcesses(1) as executor:
+        (pool,) = [other.pool for other in executor._others]
+        # One that never comes to an end: whoever waited for it would wait for ever.
+        given_up = pool.submit(Squares().wait_in_the_other, os.getpid())
+        pids = list(pool._processes)
+        end_all()
+        assert given_up.exception(timeout=60) is not None
+        for pid in pids:
+            with pytest.raises(ProcessLookupError):
+                os.kill(pid, 0)
 
 
 @pytest.mark.parametrize(

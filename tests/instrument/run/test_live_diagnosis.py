@@ -164,6 +164,22 @@ def test_a_failure_of_the_thread_is_raised_where_it_is_waited_for():
         apart(fail)
 
 
+def test_ctrl_c_ends_the_processes_that_work_for_it(monkeypatch):
+    over, ended = threading.Event(), []
+    monkeypatch.setattr("instrument.run.live_diagnosis.end_all", lambda: ended.append(1))
+
+    def endless():
+        os.kill(os.getpid(), signal.SIGINT)
+        over.wait(60)
+
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            apart(endless)
+    finally:
+        over.set()
+    assert ended == [1]
+
+
 def test_ctrl_c_does_not_wait_for_it_and_keeps_the_session(tmp_path):
     over = threading.Event()
 
