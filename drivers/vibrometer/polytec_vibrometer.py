@@ -24,6 +24,8 @@ _REOPEN_S = 0.2
 _DECODERS = 2
 """How many velocity decoders a controller may hold."""
 
+_LATE = " (a late answer to another question?)"
+
 
 class PolytecVibrometer:
     """A `Vibrometer` that speaks the OFV-5000's language.
@@ -58,6 +60,8 @@ class PolytecVibrometer:
         self._timeout_s, self._retries = timeout_s, retries
         self._line = SerialLine(port, baud, timeout_s=timeout_s)
         self._closed = False
+        self._set_to: Range | None = None
+        """As the device stated it when it was set; None once it may have been switched off meanwhile."""
         self._received = bytearray()
         self._lock = RLock()
         try:
@@ -86,16 +90,23 @@ class PolytecVibrometer:
         """Choose a range and read it back. Refused where the device keeps another."""
         wanted = self._model.range_named(name)
         with self._lock:
+            self._set_to = None
             self._set(polytec.put("VeloDec", self._decoder, "Range", wanted.name))
-            found = self.range()
+            found = self._set_to = self.range()
         if found.name != wanted.name:
             raise Refused(f"{self._me}: range {wanted.name} was asked, the device keeps {found.name}")
         return found
 
     def range(self) -> Range:
-        """The one in use, with the highest frequency and delay that the device states for it."""
+        """The one in use, with the highest frequency and delay that the device states for it.
+
+        These two are asked for when it is set; of a range that still is the one set its name alone, since a
+        run asks before every point, and its heartbeat waits meanwhile.
+        """
         with self._lock:
             found = self._ask(polytec.get("VeloDec", self._decoder, "Range"), self._parse_range)
+            if self._set_to is not None and self._set_to.name == found.name:
+                return self._set_to
             highest = self._ask(
                 polytec.get("VeloDec", self._decoder, "MaxFreq"),
                 lambda reply: polytec.parse_optional_quantity(reply, "Hz"),
@@ -152,7 +163,13 @@ class PolytecVibrometer:
         """The answer, asked for again where it is missing or makes no sense."""
 
         def attempt() -> T:
-            return parse(self._exchange(command))
+            reply = self._exchange(command)
+            try:
+                return parse(reply)
+            except Garbled as error:
+                # What is no noise answers something: a question before, whose answer was given up.
+                late = reply.isprintable() and "\ufffd" not in reply
+                raise Garbled(f"{error}{_LATE if late else ''}") from None
 
         return self._try(command, attempt)
 
@@ -181,6 +198,7 @@ class PolytecVibrometer:
 
     def _reopen(self) -> None:
         """Open the port and tell the device to echo nothing and to acknowledge what is set."""
+        self._set_to = None
         for attempt in range(self._retries + 1):
             try:
                 self._line.open()

@@ -37,6 +37,26 @@ def test_every_range_is_set_and_read_back(server, vibrometer):
     assert [r.name for r in seen] == [r.name for r in reversed(vibrometer.ranges)]
 
 
+def test_of_the_range_it_was_set_to_the_name_alone_is_asked_again(server, vibrometer, monkeypatch):
+    asked, ask = [], PolytecVibrometer._exchange
+    monkeypatch.setattr(
+        PolytecVibrometer, "_exchange", lambda self, command: asked.append(str(command)) or ask(self, command)
+    )
+    wanted = vibrometer.set_range("20mm/s/V")
+    asked.clear()
+    assert vibrometer.range() == wanted
+    assert asked == ["Get,VeloDec,1,Range"]
+    server.head.range_name = "50mm/s/V"
+    assert vibrometer.range().name == "50mm/s/V"
+    assert len(asked) == 4
+
+
+def test_an_answer_that_is_none_to_the_question_may_be_late(server, vibrometer, monkeypatch):
+    monkeypatch.setattr(VibrometerServer, "_reply", lambda self, text: "20mm/s/V")
+    with pytest.raises(Garbled, match=r"expected a whole number \(a late answer to another question\?\)"):
+        vibrometer.signal_level()
+
+
 def test_a_range_that_there_is_not_is_refused_and_nothing_is_sent(server, vibrometer):
     with pytest.raises(Refused, match="has no range '7mm/s/V': it has 5mm/s/V"):
         vibrometer.set_range("7mm/s/V")
