@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from time import sleep
 
-from drivers.errors import DriverError
+from drivers.errors import DriverError, Refused
 from drivers.front_end import Block, InputChannel
 from instrument.errors import RigStopped, ShakerNotSilent
 from instrument.files.experiment_file import TemperatureTable
@@ -85,7 +85,7 @@ class Runner:
         channels = tuple(n for n in ("base", "velocity", "temperature") if n in self._rig.sensors)
         self._wait_for_rest()
         with self.acquisition(part, channels):
-            self._rig.shaker.start()
+            self._start()
             result: Result = None
             while True:
                 try:
@@ -143,7 +143,8 @@ class Runner:
         self._watching.look()
         most = max(1, int(_LONGEST_READ_S * self._rig.front_end.sample_rate_hz))
         concludes = self._analysis.concludes
-        block = self._rig.front_end.read(min(samples, most))
+        with self._watching.beats.asking("front-end"):
+            block = self._rig.front_end.read(min(samples, most))
         self.samples = block.first_sample + block.samples
         if concludes:
             self._watching.confirm_range()
@@ -157,7 +158,8 @@ class Runner:
     def set_range(self, name: str) -> None:
         """Have the vibrometer read in another range, where it does not yet. Raises `DriverError`."""
         if self._told.range is None or self._told.range.name != name:
-            self._told.range = self._rig.vibrometer.set_range(name)
+            with self._watching.beats.asking("vibrometer"):
+                self._told.range = self._rig.vibrometer.set_range(name)
             r = self._told.range
             self._emit(RangeSet(r.name, r.scale_m_s_v, r.full_scale_v, r.highest_hz, r.delay_s))
 
@@ -209,9 +211,13 @@ class Runner:
         told = self._told
         self._control.declined()
         while True:
-            if (read := read_temperature(self._rig)) is not None:
+            with self._watching.beats.asking("chamber"):
+                read = read_temperature(self._rig)
+            if read is not None:
                 self._emit(read)
-            self._emit(SignalLevelRead(self._rig.vibrometer.signal_level()))
+            with self._watching.beats.asking("vibrometer"):
+                level = self._rig.vibrometer.signal_level()
+            self._emit(SignalLevelRead(level))
             if told.range is not None and began.frequency_hz > told.range.highest_hz:
                 raise RigStopped(
                     f"at {began.frequency_hz:g} Hz: the vibrometer's range {told.range.name} reads up to "
@@ -247,6 +253,10 @@ class Runner:
         while self._control.held:
             self.read(round(BEAT_S * self._rig.front_end.sample_rate_hz))
         self._wait_for_rest()
+        self._start()
+
+    def _start(self) -> None:
+        self._watching.beats.restart()
         self._rig.shaker.start()
 
     def _lower(self, drive_v: float) -> None:
@@ -259,7 +269,11 @@ class Runner:
     def _command(self, frequency_hz: float, drive_v: float) -> ShakerCommanded:
         ramp_s = self._settings.control.ramp_s
         change = max(abs(drive_v - self._told.drive_v), 1e-6)
-        echo = self._rig.shaker.command(frequency_hz, drive_v, change / ramp_s)
+        try:
+            with self._watching.beats.asking("shaker"):
+                echo = self._rig.shaker.command(frequency_hz, drive_v, change / ramp_s)
+        except Refused as refusal:
+            raise self._watching.explained(refusal) from refusal
         if not 0 < echo.drive_v <= drive_v * (1 + _ECHO_OFF):
             raise RigStopped(f"the shaker took {drive_v:.4g} V for {echo.drive_v:.4g} V: does its map hold?")
         self._told.frequency_hz, self._told.drive_v = frequency_hz, echo.drive_v

@@ -1,11 +1,13 @@
 """Between two blocks of a run: is it to end, is the shaker well, do devices do what they were told."""
 
+from contextlib import suppress
 from dataclasses import dataclass
-from time import monotonic
 
+from drivers.errors import DriverError, Refused
 from drivers.shaker import Alarm, ShakerStatus
 from drivers.vibrometer import Range
 from instrument.errors import RigStopped
+from instrument.run.beats import Beats
 from instrument.run.control import RunControl
 from instrument.run.rig import Rig
 from instrument.stepped_sine.soundness import MOST_OFF
@@ -30,7 +32,7 @@ class Watching:
     def __init__(self, rig: Rig, control: RunControl, told: Told) -> None:
         """`told` is kept up to date by whoever commands the devices."""
         self._rig, self._control, self._told = rig, control, told
-        self._beaten = -1e9
+        self.beats = Beats()
 
     def look(self) -> None:
         """Beat the heartbeat where it is time to, and ask the shaker how it is.
@@ -41,14 +43,17 @@ class Watching:
             raise KeyboardInterrupt
         if self._control.aborted is not None:
             raise RigStopped(self._control.aborted)
-        if monotonic() - self._beaten < BEAT_S:
+        if not self.beats.due(BEAT_S):
             return
-        self._rig.shaker.beat()
-        self._beaten = monotonic()
-        status = self._rig.shaker.status()
+        with self.beats.asking("shaker"):
+            self._rig.shaker.beat()
+        self.beats.beaten()
+        with self.beats.asking("shaker"):
+            status = self._rig.shaker.status()
         if status.alarm != Alarm.NONE:
+            why = f" ({self.beats.said})" if status.alarm is Alarm.HEARTBEAT else ""
             raise RigStopped(
-                f"shaker alarm: {status.alarm.name.lower()}: remove its cause, then reset the alarm"
+                f"shaker alarm: {status.alarm.name.lower()}{why}: remove its cause, then reset the alarm"
             )
         if status.interlock_open:
             raise RigStopped("shaker interlock open: close it, then begin again")
@@ -72,9 +77,18 @@ class Watching:
 
         Somebody at its panel, or a mains plug, changes it, and every velocity is wrong by the ratio.
         """
-        found, wanted = self._rig.vibrometer.range(), self._told.range
+        with self.beats.asking("vibrometer"):
+            found = self._rig.vibrometer.range()
+        wanted = self._told.range
         if wanted is not None and found.name != wanted.name:
             raise RigStopped(
                 f"the vibrometer's range is {found.name}, it was set to {wanted.name}: "
                 "was it changed at its panel, or switched off and on? this step does not count"
             )
+
+    def explained(self, refusal: Refused) -> Refused:
+        """A command's refusal; where the heartbeat went stale before it, with what held the beat up."""
+        with suppress(DriverError):
+            if self._rig.shaker.status().alarm is Alarm.HEARTBEAT:
+                return Refused(f"{refusal}; {self.beats.said}")
+        return refusal

@@ -1,11 +1,14 @@
 """What is asked between two blocks, of devices that answer by a table."""
 
+import re
 from types import SimpleNamespace
 
 import pytest
 
+from drivers.errors import Refused
 from drivers.shaker import Alarm, ShakerStatus
 from instrument.errors import RigStopped
+from instrument.run.beats import Beats
 from instrument.run.control import RunControl
 from instrument.run.watching import Told, Watching
 
@@ -56,3 +59,35 @@ def test_an_abort_ends_the_run_before_the_heart_beats():
     with pytest.raises(RigStopped, match="the plate came loose"):
         watching(shaker, control=control).look()
     assert shaker.beats == []
+
+
+def slowed(asked):
+    """The vibrometer took its time before now."""
+    now = iter((0.0, 0.0, 2.1, 2.4))
+    asked.beats = Beats(lambda: next(now, 2.4))
+    with asked.beats.asking("vibrometer"):
+        pass
+    return asked
+
+
+HELD_UP = r"no beat for 2\.4 s, of which the vibrometer took 2\.1 s: its answers are slow"
+
+
+def test_an_alarm_of_the_heartbeat_says_what_held_the_beat_up():
+    with pytest.raises(RigStopped, match=rf"alarm: heartbeat \({HELD_UP}\): remove its cause"):
+        slowed(watching(shaker_that_says(alarm=Alarm.HEARTBEAT))).look()
+
+
+@pytest.mark.parametrize(
+    ("alarm", "said"), [(Alarm.HEARTBEAT, f"refused; {HELD_UP}"), (Alarm.NONE, "refused")]
+)
+def test_a_command_that_is_refused_for_a_stale_heartbeat_says_so_too(alarm, said):
+    asked = slowed(watching(shaker_that_says(alarm=alarm)))
+    assert re.fullmatch(said, str(asked.explained(Refused("refused"))))
+
+
+def test_a_range_is_asked_for_in_the_vibrometers_own_time():
+    asked = watching(shaker_that_says(), Told(range=SimpleNamespace(name="fine")))
+    asked._rig.vibrometer = SimpleNamespace(range=lambda: SimpleNamespace(name="coarse"))
+    with pytest.raises(RigStopped, match="range is coarse, it was set to fine"):
+        asked.confirm_range()
