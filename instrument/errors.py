@@ -13,7 +13,7 @@ SWITCH_OFF = "SWITCH THE AMPLIFIER OFF"
 """What a person has to do about a shaker that nobody knows to be silent."""
 NOT_SILENT: Literal["stopped, shaker NOT known to be silent"] = "stopped, shaker NOT known to be silent"
 """How such a run ended, as its session says."""
-_FULL = (errno.ENOSPC, errno.EDQUOT)
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 class BadInput(Exception):
@@ -36,7 +36,7 @@ class ShakerNotSilent(RigStopped):
 
 
 def is_full(error: Exception) -> bool:
-    """Whether the disk, or somebody's share of it, is."""
+    """Whether the disk, somebody's share of it, or what one file may hold is."""
     return isinstance(error, OSError) and error.errno in _FULL
 
 
@@ -44,6 +44,8 @@ def system_words(error: OSError) -> str:
     """What the system says of a file that it did not take or give, without the number of its error."""
     if not is_full(error):
         return error.strerror or str(error)
+    if error.errno == errno.EFBIG:
+        return "a file larger than this disk or account may hold"
     said = error.strerror or ""
     # The library under a session's file says more of itself than of the disk.
     return said if said.startswith("disk full") else "disk full"

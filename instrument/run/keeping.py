@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
-from instrument.errors import BadInput, is_full
+from instrument.errors import BadInput, is_full, system_words
 from instrument.session.configuration import Configuration, Experiment
 from instrument.session.journal import SessionJournal
 from instrument.session.storage import part_events, write_session
@@ -23,23 +23,34 @@ def open_journal(
 
     `command`: which one begins it.
     """
+    journal, name = _opened(experiment, out, resume, command)
+    try:
+        journal.lock()
+        if resume is not None:
+            if (lost := journal.damage()) is not None:
+                log.warning("%s: lost is %s: measured again", resume, lost.words)
+            journal.truncate(journal.entries())
+    except OSError as error:
+        journal.unlock()
+        raise BadInput(f"{journal.folder}: {system_words(error)}") from None
+    return journal, name
+
+
+def _opened(
+    experiment: Experiment, out: Path, resume: Path | None, command: str
+) -> tuple[SessionJournal, str]:
     now = datetime.now(UTC)
     if resume is not None:
         journal = SessionJournal(resume)
         name = resume.name.removesuffix(".running")
         before = journal.configuration()
         _refuse_another(before, experiment.configuration(before.name, before.created_utc))
-        journal.lock()
-        if (lost := journal.damage()) is not None:
-            log.warning("%s: lost is %s: measured again", resume, lost.words)
-        journal.truncate(journal.entries())
         return journal, name
     stem = re.sub(r"[^A-Za-z0-9_-]+", "-", experiment.path.stem).strip("-") or "session"
     name = f"{stem}-{now:%Y%m%dT%H%M%SZ}"
     journal = SessionJournal(out / f"{name}.running")
     made = experiment.configuration(name, now.isoformat(timespec="seconds"))
     journal.begin(made.model_copy(update={"command": command, "experiment_file": experiment.path.name}))
-    journal.lock()
     return journal, name
 
 
@@ -78,7 +89,11 @@ def kept(journal: SessionJournal, path: Path, begun: Sequence[str] = ("run", "EX
         return f"{done} kept in {path}; to go on: {again}"
     except (OSError, ValueError, RuntimeError) as error:
         first = "make room, or copy that folder to another disk; then " if is_full(error) else ""
-        return f"what is complete is in {journal.folder}: {first}viscorig recover {journal.folder}"
+        why = system_words(error) if isinstance(error, OSError) else str(error)
+        return (
+            f"what is complete is in {journal.folder}, as no session could be written of it "
+            f"({' '.join(why.split())}): {first}viscorig recover {journal.folder}"
+        )
 
 
 def _refuse_another(before: Configuration, now: Configuration) -> None:

@@ -1,5 +1,6 @@
 """The folder of a running session: begun, taken up again, put together whatever the end was."""
 
+import errno
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import SimpleNamespace
@@ -169,7 +170,9 @@ def test_where_the_session_cannot_be_written_the_folder_says_what_to_do(begin, t
     journal, _ = begin()
     add(journal, point(1))
     said = kept(journal, tmp_path / "no folder" / "a.h5")
-    assert said == f"what is complete is in {journal.folder}: viscorig recover {journal.folder}"
+    assert said.startswith(f"what is complete is in {journal.folder}, as no session could be written of it (")
+    assert "No such file or directory" in said
+    assert said.endswith(f"): viscorig recover {journal.folder}")
     assert journal.entries()
 
 
@@ -184,6 +187,7 @@ def test_where_the_disk_is_full_the_folder_goes_elsewhere_first(begin, tmp_path,
     add(journal, point(1, 20.0))
     monkeypatch.setattr("shutil.disk_usage", lambda _: SimpleNamespace(free=0))
     said = kept(journal, tmp_path / "a.h5")
+    assert "(disk full" in said
     assert "make room, or copy that folder to another disk; then viscorig recover" in said
 
 
@@ -191,3 +195,20 @@ def test_a_new_folder_knows_the_name_of_its_experiment_s_file(begin):
     journal, _ = begin("a first try.toml")
     again = journal.configuration().resumed("run", "a.running")
     assert again == "viscorig run 'a first try.toml' --resume a.running"
+
+
+def test_a_run_carried_on_on_a_full_disk_names_its_folder(begin, monkeypatch):
+    journal, _ = begin()
+    add(journal, point(1))
+    journal.unlock()
+
+    def full(self, *_, **__):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Path, "write_text", full)
+        with pytest.raises(BadInput) as refused:
+            begin(resume=journal.folder)
+    assert str(refused.value) == f"{journal.folder}: disk full"
+    again, _ = begin(resume=journal.folder)
+    assert [e.steps for e in again.entries()] == [(1,)]
