@@ -144,7 +144,8 @@ class ModbusLine:
         except ModbusIOException as problem:
             if "No response" in str(problem):
                 raise TimedOut(
-                    f"{here}: an answer expected, none came within {self._timeout_s:g} s {tried}"
+                    f"{here}: an answer expected, none came within {self._timeout_s:g} s {tried}: "
+                    f"is its unit {self._unit}?"
                 ) from problem
             raise Garbled(f"{here}: a Modbus answer expected: {problem}") from problem
         except struct.error as problem:

@@ -19,7 +19,9 @@ from drivers.shaker.protocol import (
     encode,
     encode_command,
     heartbeat_timeout_objection,
+    limit_objection,
     next_sequence,
+    word_order_hint,
 )
 from drivers.shaker.register_map import COMMAND, DEFAULT, ECHO, IDENTITY, STATUS, ControlBits, RegisterMap
 
@@ -92,9 +94,13 @@ class ModbusShaker:
         return f"{identity.name}, serial number {identity.serial_number}"
 
     def start(self) -> None:
-        """Allow output; the drive stays zero until a command. Refused with an alarm or an open interlock."""
+        """Allow output; the drive stays zero until a command.
+
+        Refused with an alarm, an open interlock, or a drive limit that is none.
+        """
         self._identity()
-        why = _forbids_start(self.status())
+        status = self.status()
+        why = _forbids_start(status) or limit_objection(status.limit_v)
         if why:
             raise Refused(f"{self._line.name} does not start: {why}")
         self._control(ControlBits.RUN)
@@ -169,9 +175,10 @@ class ModbusShaker:
         # nothing silences the shaker of a program that was killed.
         kept_s = self.heartbeat_timeout_s()
         if abs(kept_s - timeout_s) > _KEPT * timeout_s:
+            hint = word_order_hint(kept_s) if heartbeat_timeout_objection(kept_s) else ""
             raise Refused(
                 f"{self._line.name}: heartbeat_timeout_s {timeout_s:g} was asked, the device keeps "
-                f"{kept_s:g}: its watchdog is off, or its map another"
+                f"{kept_s:g}{hint}: its watchdog is off, or its map another"
             )
 
     def _identity(self) -> Identity:

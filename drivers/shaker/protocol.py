@@ -20,6 +20,10 @@ FREQUENCY_HZ = (0.01, 100e3)
 HIGHEST_DRIVE_V = 1e3
 RAMP_V_S = (1e-6, 1e6)
 HEARTBEAT_TIMEOUT_S = (0.1, 60.0)
+LEAST_LIMIT_V = 1e-3
+"""Of a device's own drive limit: less is none, but as a rule a number whose words are exchanged."""
+_PLAUSIBLE = (1e-3, FREQUENCY_HZ[1])
+"""Of any float32 of the map, where it is not 0: V, Hz, V/s, s."""
 
 _FORMATS = {"uint16": ">H", "uint32": ">I", "uint64": ">Q", "float32": ">f"}
 
@@ -73,7 +77,8 @@ def decode(register: Register, words: Sequence[int]) -> Value:
         return _text(register.name, data)
     value: int | float = struct.unpack(_FORMATS[register.kind], data)[0]
     if not math.isfinite(value):
-        raise Garbled(f"{register.name}: a finite number expected, {value} came as {data.hex(' ', 2)}")
+        hint = _with_words_exchanged(data) if register.kind == "float32" else ""
+        raise Garbled(f"{register.name}: a finite number expected, {value} came as {data.hex(' ', 2)}{hint}")
     return value
 
 
@@ -200,6 +205,28 @@ def heartbeat_timeout_objection(timeout_s: float) -> str | None:
     return _outside("heartbeat_timeout_s", timeout_s, *HEARTBEAT_TIMEOUT_S)
 
 
+def limit_objection(limit_v: float) -> str | None:
+    """Why a device's own drive limit is none that a shaker has; None where it may be one."""
+    if limit_v >= LEAST_LIMIT_V:
+        return None
+    hint = word_order_hint(limit_v)
+    return f"its limit_v is {limit_v:.3g} V, at least {LEAST_LIMIT_V:g} V expected{hint}"
+
+
+def word_order_hint(value: float) -> str:
+    """Asks for the order of words, of a float32 that cannot be, where it can with these exchanged.
+
+    Begins with a blank; empty where that explains nothing.
+    """
+    return _with_words_exchanged(struct.pack(_FORMATS["float32"], value))
+
+
+def _with_words_exchanged(data: bytes) -> str:
+    value = struct.unpack(_FORMATS["float32"], data[2:] + data[:2])[0]
+    lowest, highest = _PLAUSIBLE
+    return f" (with its words exchanged {value:.4g}: word order?)" if lowest <= value <= highest else ""
+
+
 def _objection(command: SineCommand) -> str | None:
     return (
         _outside("frequency_hz", command.frequency_hz, *FREQUENCY_HZ)
@@ -228,7 +255,8 @@ def _alarm(code: int) -> Alarm:
 def _not_negative(values: Mapping[str, Value], name: str) -> float:
     value = float(values[name])
     if value < 0:
-        raise Garbled(f"{name}: no negative number expected, {value:g} came")
+        hint = word_order_hint(value)
+        raise Garbled(f"{name}: no negative number expected, {value:g} came{hint}")
     return value
 
 

@@ -112,6 +112,15 @@ def test_start_is_refused_naming_the_interlock(rig, shaker):
         shaker.start()
 
 
+def test_start_is_refused_where_the_drive_limit_s_words_are_exchanged(rig, shaker):
+    rig.device.limit_v = 2.3183e-41
+    with pytest.raises(
+        Refused, match=r"does not start: its limit_v is 2\.32e-41 V.*exchanged 5: word order\?"
+    ):
+        shaker.start()
+    assert rig.whats() == []
+
+
 def test_a_command_at_rest_is_refused_with_the_exception_and_the_reason(rig, shaker):
     with pytest.raises(Refused) as refusal:
         shaker.command(50.0, 1.0, 1.0)

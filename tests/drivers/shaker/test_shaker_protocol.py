@@ -22,7 +22,9 @@ from drivers.shaker.protocol import (
     encode_identity,
     encode_span,
     encode_status,
+    limit_objection,
     next_sequence,
+    word_order_hint,
 )
 from drivers.shaker.register_map import DEFAULT, ECHO, IDENTITY, STATUS
 
@@ -228,3 +230,30 @@ def test_identity_text_comes_back(text):
 def test_floats_are_big_endian_pairs(value):
     assume(math.isfinite(value))
     assert struct.pack(">2H", *encode(DEFAULT["drive_v"], value)) == struct.pack(">f", value)
+
+
+def exchanged(value):
+    """As a device reads out a float32 low word first."""
+    return struct.unpack(">f", struct.pack(">HH", *reversed(struct.unpack(">HH", struct.pack(">f", value)))))[
+        0
+    ]
+
+
+@pytest.mark.parametrize("limit_v", [5.0, 10.0, 3.3])
+def test_a_drive_limit_whose_words_are_exchanged_is_none(limit_v):
+    assert limit_objection(limit_v) is None
+    said = limit_objection(exchanged(limit_v))
+    assert said.endswith(f"(with its words exchanged {limit_v:g}: word order?)")
+
+
+def test_a_drive_limit_of_nothing_is_none_in_any_order_of_words():
+    assert limit_objection(0.0) == "its limit_v is 0 V, at least 0.001 V expected"
+
+
+def test_what_is_not_finite_or_negative_may_be_a_matter_of_word_order():
+    with pytest.raises(Garbled, match=r"finite number expected.*words exchanged 3\.281: word order"):
+        decode(DEFAULT["limit_v"], [0xFF80, 0x4051])
+    hint = word_order_hint(exchanged(0.1))
+    assert exchanged(0.1) < 0
+    assert hint == " (with its words exchanged 0.1: word order?)"
+    assert word_order_hint(-1.0) == ""
