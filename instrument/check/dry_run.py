@@ -14,6 +14,7 @@ from fitting.structures import AnySpecimen
 from instrument.check.bare_test import bare_test_remarks
 from instrument.check.coarse_steps import coarse_remarks
 from instrument.check.faults import experiment_objections
+from instrument.check.few_frequencies import few_frequencies_remark
 from instrument.check.follow_up_remark import follow_up_remarks
 from instrument.check.forecast import (
     Forecast,
@@ -147,6 +148,9 @@ def _sweep(
         once = [s for s in planned if s.sweep == 1]
         warnings += [*odd_segment_remarks(table.segments, once)]
         warnings += [w for s in once for w in coarse_remarks(forecast, s)]
+        core = experiment.the_specimen().core
+        few = few_frequencies_remark(core.law if core is not None else None, planned)
+        warnings += [few] if few else []
     if level > settings.limits.base_m_s2:
         warnings.append(f"level {in_both(level)} is over the base limit {in_both(settings.limits.base_m_s2)}")
     unverified = [r.name for r in ranges if r.name in names and not r.verified]

@@ -85,7 +85,13 @@ def diagnose_points(asked: ToDiagnose, progress: Progress = quiet) -> DiagnosisF
             return DiagnosisFound(number, last_step, _result(asked, progress))
     except (FittingError, BadInput, ValidationError, ValueError, ArithmeticError) as error:
         # Data may be such that nothing can be said of them: that is said, and the session is kept.
-        return DiagnosisFound(number, last_step, None, " ".join(str(error).split()))
+        f = {p.frequency_hz for p in asked.points}
+        why = (
+            f"all points are at {f.pop():g} Hz, expected two frequencies or more"
+            if len(f) == 1
+            else str(error)
+        )
+        return DiagnosisFound(number, last_step, None, " ".join(why.split()))
 
 
 def _result(asked: ToDiagnose, progress: Progress) -> DiagnosisResult:

@@ -145,6 +145,15 @@ def test_why_none_was_possible_is_the_result(finished):
     assert "\n" not in found.message
 
 
+def test_points_at_one_frequency_are_said_to_be_why_there_is_none(finished):
+    with SessionFile(finished.session) as file:
+        specimen = file.configuration.the_specimen()
+    points = list(finished.points)[:1]
+    found = diagnose_points(ToDiagnose(1, points[0].step, points, [0.0], None, (), specimen, Possible()))
+    assert found.result is None
+    assert found.message == "all points are at 95 Hz, expected two frequencies or more"
+
+
 def test_a_run_is_offered_what_it_still_allows_and_a_person_what_anybody_may():
     settings = SweepSettings()
     table = DiagnosisTable(follow_up="do", follow_up_at_most=2, follow_up_most_s=500.0)
