@@ -20,7 +20,7 @@ from instrument.errors import BadInput, system_words
 from instrument.files.law_table import with_rows
 from instrument.files.structure_file import AnyDocument, described, document_type
 from instrument.files.text import read_text
-from instrument.files.toml import faults
+from instrument.files.toml import faults, parse_document
 
 Faults = dict[Place, str]
 """What is wrong where, in words; `()` is the whole file."""
@@ -49,6 +49,8 @@ class Draft:
         try:
             self._toml = tomlkit.parse(text)
         except (TOMLKitError, RecursionError) as error:
+            # In the words of the commands, where they do not read it either.
+            parse_document(path, text, BaseModel)
             raise BadInput(f"{path}: not TOML: {' '.join(str(error).split())}") from None
 
     @classmethod

@@ -12,6 +12,7 @@ from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.new_file import write_new
 from instrument.files.rig_file import RigDocument
 from instrument.files.specimen_file import SpecimenDocument
+from instrument.files.toml import read_document
 from instrument.simulated_case import case_file, write_case
 
 MODELS = {"experiment": ExperimentDocument, "rig": RigDocument, "specimen": SpecimenDocument}
@@ -167,6 +168,17 @@ def test_what_is_no_toml_is_refused_in_one_line(tmp_path):
     bad.write_text("a = = 1")
     with pytest.raises(BadInput, match="not TOML"):
         Drafts.of(bad)
+
+
+def test_what_is_no_toml_is_told_as_the_commands_tell_it(tmp_path):
+    bad = tmp_path / "bad.toml"
+    bad.write_text("[plate]\nlength_mm = 200,5\n")
+    with pytest.raises(BadInput) as by_command:
+        read_document(bad, MODELS["specimen"])
+    with pytest.raises(BadInput) as by_form:
+        Draft.of(bad, MODELS["specimen"])
+    assert "decimal" in str(by_form.value)
+    assert str(by_form.value) == str(by_command.value)
 
 
 def test_of_several_spots_the_form_shows_and_writes_the_first(tmp_path):
