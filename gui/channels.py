@@ -2,6 +2,8 @@
 
 from html import escape
 
+from PySide6.QtCore import QSize
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QLabel, QWidget
 
 from gui.feeds.feed import Feed
@@ -12,6 +14,7 @@ from gui.theme import Role, current_theme
 _CLIPPED_S = 3.0
 """A light stays on for so long: nobody sees one that flashes."""
 _NEAR = 0.8
+_GAP = "\u00a0 "
 _COLUMNS = {
     "channel": "What the input measures",
     "peak / V": "Largest in the newest block",
@@ -38,25 +41,58 @@ def words_of(channel: ChannelNow, clipped: bool) -> str:
 
 
 class ClipLights(QLabel):
-    """A light for each channel."""
+    """A light for each channel; where there is no room for their names these are shortened."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.said: dict[str, str] = {}
+        self._lights: list[tuple[str, str, str]] = []
+        """Of each channel its name, sign and colour."""
         self.setMinimumWidth(1)
 
     def show_feed(self, feed: Feed | None) -> None:
         """Show the lights as the feed has them now."""
         rows = _rows(feed)
         self.said = {channel.name: words_of(channel, clipped) for channel, clipped in rows}
-        theme, lights = current_theme(), []
+        theme, self._lights = current_theme(), []
         for channel, clipped in rows:
             role = role_of(channel, clipped)
             sign = "\u25cf" if role == "good" else "\u25b2" if role == "fair" else "\u2716"
-            color = theme.color(role).name()
-            lights.append(f"<span style='color:{color}'>{sign}</span> {escape(channel.name)}")
-        self.setText("&nbsp; ".join(lights))
+            self._lights.append((channel.name, sign, theme.color(role).name()))
+        self._show()
         self.setToolTip("\n".join(f"{name}: {words}" for name, words in self.said.items()))
+
+    def sizeHint(self) -> QSize:
+        """All names whole: what is shown follows the room, and must not change it."""
+        return QSize(self._width(self._longest), super().sizeHint().height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """More of the names, or less."""
+        super().resizeEvent(event)
+        self._show()
+
+    @property
+    def _longest(self) -> int:
+        return max((len(name) for name, _, _ in self._lights), default=0)
+
+    def _width(self, letters: int) -> int:
+        plain = _GAP.join(f"{sign} {_cut(name, letters)}" for name, sign, _ in self._lights)
+        return self.fontMetrics().horizontalAdvance(plain)
+
+    def _show(self) -> None:
+        letters = self._longest
+        while letters > 1 and self._width(letters) > self.width():
+            letters -= 1
+        self.setText(
+            _GAP.join(
+                f"<span style='color:{color}'>{sign}</span> {escape(_cut(name, letters))}"
+                for name, sign, color in self._lights
+            )
+        )
+
+
+def _cut(name: str, letters: int) -> str:
+    return name if len(name) <= letters else f"{name[: letters - 1]}\u2026"
 
 
 class ChannelTable(ReadTable):

@@ -1,6 +1,8 @@
 """What happened, line by line."""
 
-from PySide6.QtWidgets import QDockWidget, QPlainTextEdit, QWidget
+from PySide6.QtCore import QEvent
+from PySide6.QtGui import QFont
+from PySide6.QtWidgets import QApplication, QDockWidget, QPlainTextEdit, QWidget
 
 from gui.state import SessionState
 from gui.state.log import LogLine
@@ -23,12 +25,27 @@ class LogPane(QDockWidget):
         self._text.setMaximumBlockCount(_MOST_LINES)
         self._text.setPlaceholderText("What happens is written here.")
         self.setWidget(self._text)
+        self._size()
         self._at_end = True
         bar = self._text.verticalScrollBar()
         bar.valueChanged.connect(self._scrolled)
         bar.rangeChanged.connect(self._stay_at_end)
         self._shown_of: SessionState | None = None
         self._shown = 0
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Type follows the window's: what has its own hears of another size by the style sheet alone."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.StyleChange and hasattr(self, "_text"):
+            self._size()
+
+    def _size(self) -> None:
+        """Take the window's type as its own: where the two are one, Qt writes the title in the system's."""
+        font = QApplication.font()
+        # Says nothing that shows, but makes it another one.
+        font.setStyleHint(QFont.StyleHint.SansSerif)
+        if font != self.font():
+            self.setFont(font)
 
     @property
     def text(self) -> str:

@@ -1,7 +1,7 @@
 """The stop button: red while there is something to stop, and larger than all others."""
 
 from PySide6.QtCore import QEvent
-from PySide6.QtWidgets import QPushButton, QSizePolicy, QWidget
+from PySide6.QtWidgets import QApplication, QPushButton, QSizePolicy, QWidget
 
 from gui.style_sheet import STOP
 
@@ -9,7 +9,9 @@ _LARGER = 1.3
 _SIGNS = (
     QEvent.Type.Show,
     QEvent.Type.ApplicationFontChange,
+    QEvent.Type.StyleChange,
 )
+"""The last, which comes with a style sheet, is all that a button with a type of its own hears of another."""
 
 
 class StopButton(QPushButton):
@@ -33,7 +35,7 @@ class StopButton(QPushButton):
         return bool(super().event(event))
 
     def _size(self) -> None:
-        font = self.window().font()
+        font = QApplication.font()
         font.setBold(True)
         font.setPointSizeF(_LARGER * font.pointSizeF())
         self.setFont(font)

@@ -48,6 +48,26 @@ def test_a_light_stays_on_for_a_while_after_a_channel_was_clipped(qtbot, opened)
     assert lights.said["base"] == "well"
 
 
+def test_a_light_without_room_for_its_name_shortens_it_visibly(qtbot, opened):
+    lights, state = ClipLights(), opened.controller.state
+    qtbot.addWidget(lights)
+    state.run.state = "hammer"
+    state.readings.take(AcquisitionBegan(1, "hammer", 8192.0, ("force", "response")), 0.0)
+    state.readings.take(block(overload=(False, False)), 1.0)
+    lights.resize(400, 20)
+    lights.show_feed(opened.controller.feed)
+    assert "</span> response" in lights.text()
+    whole = lights.sizeHint()
+    lights.resize(whole.width() - 10, 20)
+    lights.show()
+    assert "</span> response" not in lights.text()
+    assert "</span> resp" in lights.text()
+    assert "\u2026" in lights.text()
+    assert "</span> force" in lights.text()
+    assert "response: well" in lights.toolTip()
+    assert lights.sizeHint() == whole
+
+
 def test_nothing_moves_when_a_message_comes(window):
     before = window.tabs.geometry(), window.bar.geometry()
     window.notice.refuse("something could not be done")

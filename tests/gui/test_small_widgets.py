@@ -7,7 +7,7 @@ import pytest
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QKeyEvent, QShowEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QDialog, QLabel, QPushButton, QWidget
+from PySide6.QtWidgets import QDialog, QLabel, QMainWindow, QPushButton, QWidget
 
 from gui.controller import AppController
 from gui.feeds import feed
@@ -51,6 +51,30 @@ def test_larger_type_reaches_widgets_that_are_there_and_dressed(qtbot, qapp):
     appearance.resize(1.0)
     assert all(b > 1.3 * a for a, b in zip(usual, larger, strict=True))
     qapp.setStyleSheet("")
+
+
+def test_larger_type_reaches_the_stop_button_and_the_title_of_the_log(qtbot, qapp):
+    appearance = Appearance(qapp, "light")
+    whole = QMainWindow()
+    qtbot.addWidget(whole)
+    stop, log = StopButton(), LogPane()
+    whole.setCentralWidget(stop)
+    whole.addDockWidget(Qt.DockWidgetArea.BottomDockWidgetArea, log)
+    whole.show()
+
+    def sizes():
+        # Qt writes the title in the system's type where the pane's is the application's.
+        assert log.font() != qapp.font()
+        return stop.font().pointSizeF(), stop.minimumWidth(), log.font().pointSizeF()
+
+    usual = sizes()
+    appearance.resize(1.5)
+    larger = sizes()
+    appearance.resize(1.0)
+    again = sizes()
+    qapp.setStyleSheet("")
+    assert all(b > 1.3 * a for a, b in zip(usual, larger, strict=True))
+    assert again == usual
 
 
 def test_looks_that_are_held_wait_and_are_shown_afterwards(qtbot, qapp):
