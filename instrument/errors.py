@@ -42,10 +42,8 @@ def is_full(error: Exception) -> bool:
 
 def system_words(error: OSError) -> str:
     """What the system says of a file that it did not take or give, without the number of its error."""
-    if not is_full(error):
+    if not is_full(error) or error.errno == errno.EFBIG:
         return error.strerror or str(error)
-    if error.errno == errno.EFBIG:
-        return "a file larger than this disk or account may hold"
     said = error.strerror or ""
     # The library under a session's file says more of itself than of the disk.
     return said if said.startswith("disk full") else "disk full"

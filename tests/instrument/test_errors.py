@@ -13,7 +13,7 @@ from instrument.files.at_once import write_at_once
     ("error", "said"),
     [
         (OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "a.h5"), "disk full"),
-        (OSError(errno.EFBIG, os.strerror(errno.EFBIG)), "a file larger than this disk or account may hold"),
+        (OSError(errno.EFBIG, os.strerror(errno.EFBIG)), "File too large"),
         (OSError(errno.ENOSPC, "Can't write data (file write failed: time = Mon, errno = 28)"), "disk full"),
         (
             OSError(errno.ENOSPC, "disk full: 1 MB free, 2 MB needed for a.h5"),
