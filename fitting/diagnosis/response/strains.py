@@ -157,7 +157,8 @@ class Strains:
                 np.concatenate([away_from_poles(by_G, each) for each in moduli]),
             )
         squares: Complex = np.array([self._poles(each, change) for each in moduli]) ** 2
-        cubics = _through(squares.reshape(-1, len(_SOFTENED), *squares.shape[1:]))
+        gains = len(moduli) // len(_SOFTENED)
+        cubics = _through(squares.reshape(gains, len(_SOFTENED), *squares.shape[1:]))
 
         def away(softened: Array, gained: Array) -> Array:
             return dense.away(lambda mine, at: _at(cubics[:, :, mine, None], softened[at], gained[at]))

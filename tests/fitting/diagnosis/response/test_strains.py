@@ -5,17 +5,21 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import shear_pair_cases
 
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.problem.plate_answer import StrainedCore
+from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.diagnosis.response.plate_changes import PlateChanges
 from fitting.diagnosis.response.point_modulus import PointModulus
 from fitting.diagnosis.response.strains import Reference, Strains
 from fitting.diagnosis.response.unknowns import Unknowns
+from fitting.diagnosis.several.responses import response_of
 from fitting.dynamics.damping import viscous_damping
 from fitting.effects import CATALOGUE
 from fitting.effects.added_mass import PointMass
 from fitting.effects.amplitude_softening import CoreStrain
+from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws.constant import ConstantModulus
 from fitting.plate.plate import Plate
 from fitting.reduced.domain import domain_of
@@ -145,3 +149,21 @@ def test_a_softened_modulus_is_below_the_law_s_where_strain_is_largest_and_moves
     # Softening goes by strain, the same under laws a step apart: a modulus moves as its law does.
     by_law = modulus.by_law(LAW, k)
     np.testing.assert_allclose(by_law[0], modulus.at(LAW, k), rtol=1e-3)
+
+
+def test_a_pair_of_low_loss_softens_at_its_resonance_as_the_wave_in_its_pads_has_it():
+    law = shear_pair_cases.LAW.with_values(np.array([1.1e6, 8.8e6, 1e-6, 0.6]))
+    pair = shear_pair_cases.pair(0.2533, exact=True)
+    pair = replace(pair, core=replace(pair.core, law=law))
+    still = shear_pair_cases.sweep(pair, noise=0.0)
+    moved = np.abs(still.velocity_m_s - still.commanded_m_s2 / (1j * still.omega)) / still.omega
+    per_strain = 2.0
+    soft = shear_pair_cases.sweep(pair, noise=0.0, softening=per_strain)
+    effect = next(
+        e for e in CATALOGUE["amplitude_softening"].on("shear-pair").variants() if len(e.parameters) == 1
+    )
+    k = per_strain * moved.max() / pair.core.thickness_m * PUBLISHED_G_M_S2 / shear_pair_cases.G_0
+    found = response_of(SmallProblem.of_small(soft, pair), [effect]).velocity(law, np.array([k]))
+    # It moves the readings by as much as they are.
+    assert np.abs(still.velocity_m_s / soft.velocity_m_s - 1).max() > 0.3
+    np.testing.assert_allclose(found, soft.velocity_m_s, rtol=3e-3)
