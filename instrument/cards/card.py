@@ -15,6 +15,11 @@ USUAL_POISSON = 0.49
 """Of a viscoelastic core where nobody states it: nearly incompressible; cards say that it is assumed."""
 _FORMULA_SERVES = 1e-3
 """Relative error of G* up to which a formula is the law: its parameters are written with six digits."""
+_AT_ONE = (
+    "frequencies below hold at that temperature alone: at another one, divide them by its a_T (and multiply "
+    "moduli by its b_T, where there is one)"
+)
+"""Of a law over reduced frequency, in formats that know of no shift."""
 _NOTHING = 1e-6
 """Of the instantaneous modulus: less is none."""
 
@@ -44,7 +49,7 @@ class Card:
         warm = "not known" if law.temperature_c is None else f"{law.temperature_c:.1f} degrees C"
         band, shift = "band", []
         if law.shift is not None:
-            band, shift = "band in reduced frequency f a_T", [f"shift: {law.shift.words}"]
+            band, shift = "band in reduced frequency f a_T", [f"shift: {law.shift.words}", _AT_ONE]
         lines = [
             f"viscorig {version('viscorig')}: complex shear modulus of a viscoelastic core",
             f"source: {law.source}; specimen: {law.specimen}",
@@ -68,7 +73,7 @@ class Card:
         if law.hardly_known:
             lines.append(f"WARNING: {law.hardly_known}")
         assumed = (
-            " (assumed: not stated in the source; --specimen states it)"
+            " (assumed: no file states one; --specimen of a plate or a beam does)"
             if self.poisson_is_assumed
             else " (as stated)"
         )

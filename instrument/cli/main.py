@@ -146,7 +146,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 )  # fmt: skip
 @click.pass_context
 def viscorig(ctx: click.Context) -> None:
-    """Measure damping materials: a core's complex shear modulus from a plate's response."""
+    """Measure damping materials: a core's complex shear modulus from a structure's response."""
     if ctx.invoked_subcommand in _SUMS:
         ctx.with_resource(ended_as_by_a_person(even_ignored=False))
 

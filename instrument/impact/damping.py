@@ -94,7 +94,7 @@ def damping_of_hits(
     """
     good = [j for j in hits if j.accepted]
     if not good:
-        raise BadInput("no good hit: " + "; ".join(f"{j.hit.source}: {j.why}" for j in hits))
+        raise BadInput("no good hit: " + ("; ".join(f"{j.hit.source}: {j.why}" for j in hits) or "no record"))
     good = from_the_blow(good)
     rate = good[0].hit.sample_rate_hz
     alone = [spectra([hit], estimator=estimator, end_value=end_value) for hit in good]
