@@ -54,7 +54,7 @@ class SetAside:
         found = f"{of}{self.glitch.low_hz:.0f} to {self.glitch.high_hz:.0f} Hz is a local disturbance"
         largest = f"(up to {100 * self.glitch.largest:.2g} %), as of a fixture's resonance"
         if self.glitch.at_peak:
-            largest += ", or of pads that slip or soften, which move most there: measure at another level,"
+            largest += " or of pads that slip or soften, which move most there (another level would tell)"
         aside = f"{self.glitch.points} points set aside"
         if not self.glitch.at_end:
             return f"{found} {largest}: {aside}"
