@@ -49,7 +49,7 @@ def test_a_stretch_is_told_with_its_file():
 def test_a_stretch_where_pads_move_most_may_be_of_pads_that_slip():
     words = SetAside(1, Glitch(100.0, 130.0, 0.03, 0.01, 40, at_peak=True)).words(FILES)
     assert (
-        "resonance or of pads that slip or soften, which move most there (another level would tell): 40 points"
+        "resonance or of pads that slip or soften, which move most there (another level would tell): 40"
         in words
     )
 
