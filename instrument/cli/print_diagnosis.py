@@ -26,7 +26,7 @@ from instrument.results.unseen_words import UNSEEN_COLUMNS, UNSEEN_TITLE, unseen
 _MOST_CANDIDATES = 8
 _WIDTH = 100
 _MOST_NEXT = 3
-_MOST_UNSEEN = 5
+_MOST_UNSEEN = 10
 
 
 def print_diagnosis(out: Output, found: DiagnosisResult) -> None:
