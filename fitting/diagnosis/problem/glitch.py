@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 
 from fitting.arrays import Array, Mask
+from fitting.data.levels import are_of
 from fitting.data.noise import groups_of
 from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.diagnosis.problem.smooth_core import unexplained
@@ -67,8 +68,8 @@ def glitches(problem: SmallProblem, law: CoreLaw) -> tuple[Mask, tuple[Glitch, .
     if not sweep.has_phase:
         return aside, ()
     curves = [_looked_at(problem, group, law) for group in groups_of(sweep) if len(group) >= FEWEST]
-    for k, curve in enumerate(curves):
-        others = curves[:k] + curves[k + 1 :]
+    for curve in curves:
+        others = [other for other in curves if not are_of(curve.level_m_s2, np.array(other.level_m_s2))]
         inside = _stretches(curve.frequency_hz, curve.rest)
         if not inside or np.any(inside, axis=0).mean() > _MOST:
             continue
@@ -89,6 +90,7 @@ class _Curve:
     """One curve of a sweep, ascending in frequency. Shapes (points,)."""
 
     at: NDArray[np.intp]
+    level_m_s2: float
     frequency_hz: Array
     rest: Array
     """What no core explains, relative."""
@@ -107,7 +109,8 @@ def _looked_at(problem: SmallProblem, group: NDArray[np.intp], law: CoreLaw) -> 
     at = group[np.argsort(sweep.frequency_hz[group], kind="stable")]
     curve, rational = sweep.take(at), problem.rational.at(at)
     left, G = unexplained(curve, rational, problem.specimen.reads, law)
-    return _Curve(at, curve.frequency_hz, np.abs(left), np.abs(rational.displacement(G)))
+    level = float(np.median(curve.commanded_m_s2))
+    return _Curve(at, level, curve.frequency_hz, np.abs(left), np.abs(rational.displacement(G)))
 
 
 def _stretches(f: Array, rest: Array) -> list[Mask]:

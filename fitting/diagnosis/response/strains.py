@@ -9,8 +9,10 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.problem.every_point import EveryPoint
 from fitting.diagnosis.problem.plate_answer import Asked, StrainedCore
 from fitting.diagnosis.problem.plate_poles import PLAIN
+from fitting.diagnosis.problem.small_problem import FEW
 from fitting.diagnosis.response.core_poles import away_from_poles, compliances
 from fitting.effects.given import Strain
 from fitting.gravity import PUBLISHED_G_M_S2
@@ -68,8 +70,6 @@ class _Table:
 
 Changes = Callable[[], Change]
 A = TypeVar("A", Array, Complex)
-FEW = 10
-"""Motions of a structure, a shear pair's, whose every point is solved for its poles: milliseconds."""
 
 
 class Strains:
@@ -146,11 +146,11 @@ class Strains:
     def _from_poles(self, G: Complex, change: Change, moduli: Sequence[Complex]) -> tuple[FromPoles, Array]:
         """Distance from the poles at the points, and at the nodes of each of the `moduli` in turn.
 
+        Of what is small and solved at every point all poles are known exactly, in milliseconds.
         Shapes (nodes,) of `G` and each modulus, (moduli nodes,).
         """
         dense = self._problem.dense
-        if len(self._plate.load) <= FEW:
-            # Every point is a node: what has all their poles is known exactly.
+        if isinstance(dense, EveryPoint) and len(self._plate.load) <= FEW:
             by_G = compliances(self._plate, change, dense.omega)
             return (
                 lambda softened, gained: away_from_poles(by_G, strained(G, softened, gained)),

@@ -114,12 +114,12 @@ def test_the_narrow_resonance_of_a_rubber_of_low_loss_is_no_glitch(law, guess_pa
     assert glitches(SmallProblem.of_small(s, true), guess)[1] == ()
 
 
-def at_two_levels(low, high):
-    """Sweeps at a tenth and at one g in one, off by what each function makes of them."""
+def at_two_levels(low, high, level=0.981):
+    """Sweeps at a tenth (or another `level`) and at one g in one, off by what each function makes of them."""
     each = [
         replace(s, velocity_m_s=s.velocity_m_s * changed(s.frequency_hz), sweep=np.full(160, k + 1))
         for k, (s, changed) in enumerate(
-            ((sweep(PAIR, level=0.981, noise=NOISE), low), (sweep(PAIR, noise=NOISE, seed=1), high))
+            ((sweep(PAIR, level=level, noise=NOISE), low), (sweep(PAIR, noise=NOISE, seed=1), high))
         )
     ]
     return glitches(SmallProblem.of_small(joined(each), PAIR), GUESS)[1]
@@ -131,6 +131,10 @@ def test_what_one_level_shows_and_another_does_not_is_no_fixture():
 
     assert at_two_levels(nothing, resonance(300.0)) == ()
     assert len(at_two_levels(resonance(300.0), resonance(300.0))) == 2
+
+
+def test_what_one_pass_shows_and_the_next_at_the_same_level_does_not_is_still_set_aside():
+    assert len(at_two_levels(lambda f: np.ones(len(f)), resonance(300.0), level=9.81)) == 1
 
 
 def test_a_stretch_in_which_the_pads_move_most_says_so():
