@@ -41,4 +41,4 @@ fi
 echo "setting up $VENV"
 [ -x "$VENV/bin/python" ] || "$PYTHON" -m venv "$VENV"
 # Python compiles what it uses when it does: half a minute less, most of it for what nobody imports.
-"$VENV/bin/python" -m pip install --quiet --disable-pip-version-check --no-compile --editable '.[dev]'
+"$VENV/bin/python" -m pip install --quiet --quiet --disable-pip-version-check --no-compile --editable '.[dev]'
