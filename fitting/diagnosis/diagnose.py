@@ -188,9 +188,9 @@ def _diagnosis(
     report(_BEFORE_KNOWN)
     after, found = before, tuple[FoundEffect, ...]()
     if accepted is not None:
-        scale = search.temper(accepted)
-        after = stage_of(problem, evidence, accepted.fitted, search.validation(accepted), scale)
-        found = found_effects(accepted.fitted, problem.plate, scale)
+        temper = search.temper(accepted)
+        after = stage_of(problem, evidence, accepted.fitted, search.validation(accepted), temper)
+        found = found_effects(accepted.fitted, problem.plate, temper)
     if judgement.unlisted is not None or judgement.verdict != "unknown":
         after = replace(after, band=mixed_band(problem, search, judgement.weighing(search.none)))
     absent, scored_fits = search.tempered(decided.scored_fits)
@@ -299,18 +299,18 @@ def _candidate(
         cost, left = scored.cost - best, scored.chi2_per_dof
         return Candidate((FoundEffect(UNLISTED, {}),), cost, left, share, law)
     chi2 = scored.fitted.chi2_per_dof if noise_known else float("nan")
-    scale = search.temper(scored)
+    temper = search.temper(scored)
     accepted = judgement.accepted
     if accepted is not None and accepted.names == scored.names:
         # Its sizes are those of the verdict, which may have the last word on them.
-        sized, scale = accepted.fitted, search.temper(accepted)
+        sized, temper = accepted.fitted, search.temper(accepted)
     else:
         sized = scored.fitted
     return Candidate(
-        found_effects(sized, problem.plate, scale),
+        found_effects(sized, problem.plate, temper),
         scored.cost - best,
         chi2,
         judgement.probability.get(scored.names, 0.0),
-        few_of_law(problem, sized, scale),
+        few_of_law(problem, sized, temper),
         dict(scored.checks),
     )

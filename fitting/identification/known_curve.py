@@ -58,15 +58,6 @@ class KnownCurve:
             by_stated=W @ self.by_stated,
         )
 
-    def wider(self, factor: float) -> "KnownCurve":
-        """With so many times its covariance; what tolerances and a prior pass on is no more for that."""
-        more = (factor - 1) * self.covariance
-        return replace(
-            self,
-            covariance=self.covariance + more,
-            of_another_measurement=self.of_another_measurement + more,
-        )
-
     def passed_on(self, names: Sequence[str]) -> Array:
         """By these of its stated numbers. Shape (2 frequencies, names)."""
         return self.by_stated[:, [self.stated.index(name) for name in names]]

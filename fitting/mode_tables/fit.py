@@ -162,16 +162,16 @@ def start_of(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> 
 
 
 def modal_fit_of(
-    begun: BegunModal, fitted: Refitted | None = None, scale: float = 1.0, kin: Kin | None = None
+    begun: BegunModal, fitted: Refitted | None = None, temper: float = 1.0, kin: Kin | None = None
 ) -> ModalFit:
     """What is said of a fit; the one without effects by default. Of its `kin`, where that is given, the law.
 
-    `scale` multiplies the covariance.
+    `temper` is that of `posterior`.
     """
     problem = begun.problem
     fitted = fitted or begun.none
     response = problem.response(fitted.effects)
-    C = scale * posterior(response, begun.evidence, fitted)
+    C = posterior(response, begun.evidence, fitted, temper)
     law, uncertainty = law_with(fitted, C, kin)
     C = C if kin is None else C + kin.wider
     n = len(law.names)

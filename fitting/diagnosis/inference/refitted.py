@@ -71,13 +71,13 @@ class Refitted:
         """The unknowns of one of its effects. Shape (parameters,)."""
         return Unknowns(self.stated, self.effects).of(self.effects.index(effect), self.u)
 
-    def unknown_errors(self, scale: float = 1.0) -> Array:
-        """Standard errors of `u` as they are fitted, of a covariance `scale` times as large. Shape of `u`.
+    def unknown_errors(self, temper: float = 1.0) -> Array:
+        """Standard errors of `u` as they are fitted, of `tempered_covariance`. Shape of `u`.
 
         NaN where a number is not fitted; of the logarithm where it is fitted in that.
         """
         found = np.full(len(self.u), np.nan)
-        variance = np.diag(scale * self.covariance)[len(self.law.names) :]
+        variance = np.diag(self.tempered_covariance(temper))[len(self.law.names) :]
         found[self.free] = np.sqrt(np.maximum(variance, 0))
         return found
 
@@ -118,7 +118,14 @@ class Refitted:
         is bounded by the ranges that are searched (`CoreLaw.open_widths`). Shape (columns, columns) of
         `jacobian`.
         """
-        J, kept = self.weighted()
+        return self.tempered_covariance(1.0)
+
+    def tempered_covariance(self, temper: float) -> Array:
+        """`covariance` where readings say so much less than their noise has it (`predictive.temper`).
+
+        What is known without them, of plate, law and effects, says what it says. Shape of `covariance`.
+        """
+        J, kept = self.weighted(temper)
         found = np.zeros((len(kept), len(kept)))
         if not kept.any():
             return found
@@ -129,8 +136,10 @@ class Refitted:
         found[np.ix_(kept, kept)] = root @ root.T
         return found
 
-    def weighted(self) -> tuple[Array, Mask]:
+    def weighted(self, temper: float = 1.0) -> tuple[Array, Mask]:
         """The Jacobian of what may move, its rows of unit variance, and which columns those are.
+
+        `temper` as `tempered_covariance` takes it.
 
         Below the rows of `residuals` stand those of the ranges that are searched, one a parameter. Shapes
         (rows, kept) and (columns,).
@@ -142,6 +151,7 @@ class Refitted:
         J = self.jacobian[:, kept]
         # An unknown noise is the readings'; a misfit is everyone's.
         J[slice(None) if self.noise_known else slice(self.data)] /= np.sqrt(scale)
+        J[: self.data] /= np.sqrt(temper)
         widths = self.law.open_widths
         bounds = np.zeros((len(widths), self.jacobian.shape[1]))
         bounds[:, : len(widths)] = np.diag(1 / widths)

@@ -30,12 +30,11 @@ FEW = 9
 
 
 def stage_of(
-    problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted, validation: Validation, scale: float
+    problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted, validation: Validation, temper: float
 ) -> Stage:
-    """`validation` is what the fit says of data it has not seen; `scale` multiplies its covariance."""
+    """`validation` is what the fit says of data it has not seen; `temper` is that of `posterior`."""
     law = fitted.law
-    as_fitted = posterior(response_of(problem, fitted.effects), evidence, fitted)
-    C = scale * as_fitted
+    C = posterior(response_of(problem, fitted.effects), evidence, fitted, temper)
     uncertainty = _of_law(fitted, C)
     reached = uncertainty.at_bound
     plain = law.plain
@@ -48,9 +47,7 @@ def stage_of(
             name: float("nan") if name in reached else float(e)
             for name, e in zip(plain.names, errors, strict=True)
         },
-        band=replace(
-            law_band(problem.sweep, law, uncertainty), known=_known(problem, fitted, as_fitted, scale)
-        ),
+        band=replace(law_band(problem.sweep, law, uncertainty), known=_known(problem, fitted, C)),
         predicted_m_s=fitted.velocity_m_s,
         difference_percent=differences_percent(problem.sweep, fitted.velocity_m_s),
         whitened=whitened,
@@ -73,11 +70,9 @@ def _of_law(fitted: Refitted, covariance: Array) -> Uncertainty:
     return Uncertainty(by_law, reached, fitted.chi2_per_dof)
 
 
-def _known(problem: DiagnosisProblem, fitted: Refitted, covariance: Array, scale: float) -> KnownCurve | None:
-    """`covariance` as fitted, `scale` times of which is what is known."""
+def _known(problem: DiagnosisProblem, fitted: Refitted, covariance: Array) -> KnownCurve | None:
     names = [one.name for one in adjusted_of(problem, fitted, covariance)]
-    known = known_curve(fitted.law, covariance, names, *sweep_range(problem.sweep))
-    return known.wider(scale) if known is not None else None
+    return known_curve(fitted.law, covariance, names, *sweep_range(problem.sweep))
 
 
 def adjusted_of(problem: DiagnosisProblem, fitted: Refitted, covariance: Array) -> tuple[Adjusted, ...]:
@@ -87,9 +82,9 @@ def adjusted_of(problem: DiagnosisProblem, fitted: Refitted, covariance: Array) 
     return problem.adjusted(fitted.z, errors)
 
 
-def few_of_law(problem: DiagnosisProblem, fitted: Refitted, scale: float) -> LawBand:
-    """The law of a fit at a few frequencies."""
-    uncertainty = _of_law(fitted, scale * fitted.covariance)
+def few_of_law(problem: DiagnosisProblem, fitted: Refitted, temper: float) -> LawBand:
+    """The law of a fit at a few frequencies; `temper` is that of `Refitted.tempered_covariance`."""
+    uncertainty = _of_law(fitted, fitted.tempered_covariance(temper))
     return law_band(problem.sweep, fitted.law, uncertainty, points=FEW)
 
 
@@ -105,17 +100,17 @@ def mixed_band(
     bands, shares = [], []
     posteriors: dict[ScoredFit, Array] = {}
     for scored, kin, share in each_of(group):
-        fitted, scale = scored.fitted, search.temper(scored)
+        fitted = scored.fitted
         if scored not in posteriors:
             response = response_of(problem, fitted.effects)
-            posteriors[scored] = posterior(response, search.evidence, fitted)
+            posteriors[scored] = posterior(response, search.evidence, fitted, search.temper(scored))
         C, law = posteriors[scored], fitted.law
         if kin is not None:
-            C, law = C + kin.wider / scale, kin.law(fitted)
+            C, law = C + kin.wider, kin.law(fitted)
         at = replace(fitted, law=law)
         points = {"points": FEW} if few else {}
-        band = law_band(problem.sweep, law, _of_law(at, scale * C), **points)
-        bands.append(replace(band, known=_known(problem, at, C, scale)))
+        band = law_band(problem.sweep, law, _of_law(at, C), **points)
+        bands.append(replace(band, known=_known(problem, at, C)))
         shares.append(share)
     return mixture_of(bands, np.array(shares))
 
@@ -148,10 +143,10 @@ def mixture_of(bands: Sequence[LawBand], shares: Array) -> LawBand:
 
 
 def found_effects(
-    fitted: Refitted, plate: EnrichedReducedPlate, scale: float = 1.0
+    fitted: Refitted, plate: EnrichedReducedPlate, temper: float = 1.0
 ) -> tuple[FoundEffect, ...]:
-    """The effects of a fit with their sizes and standard errors; `scale` multiplies the covariance."""
-    errors, found = fitted.unknown_errors(scale), []
+    """The effects of a fit with sizes and standard errors; `temper` is that of `tempered_covariance`."""
+    errors, found = fitted.unknown_errors(temper), []
     for effect, part in fitted.each():
         lower, upper = effect.limits(plate)
         parameters = {}
@@ -166,7 +161,7 @@ def found_effects(
             parameters[q.key] = ParameterEstimate(value, error, q.unit)
         if effect.replaces_law:
             law = fitted.law.plain
-            of_law = np.sqrt(np.diag(scale * fitted.covariance)[: len(law.names)]) * law.values
+            of_law = np.sqrt(np.diag(fitted.tempered_covariance(temper))[: len(law.names)]) * law.values
             for name, value, error in zip(law.names, law.values, of_law, strict=True):
                 parameters[name] = ParameterEstimate(float(value), float(error), _unit(name))
         found.append(FoundEffect(effect.name, parameters))

@@ -64,3 +64,18 @@ def test_each_effect_has_its_unknowns_behind_the_stated_numbers_and_errors_where
     assert np.isnan(errors).tolist() == (~free).tolist()
     assert errors[1] == pytest.approx(errors[0] / 4)
     np.testing.assert_allclose(fitted.unknown_errors(4.0), 2 * errors)
+
+
+def test_what_readings_say_less_sharply_is_no_doubt_about_what_is_stated():
+    """A formula that may be wrong widens what comes from readings; a tolerance is as wide as it is stated."""
+    law = FractionalZener(1e5, 1e9, 1e-5, 0.5)
+    # Four numbers of the law that readings alone know, one stated number that they say nothing of.
+    J = np.zeros((9, 5))
+    J[:8, :4] = np.vstack([np.eye(4), np.eye(4)])
+    J[8, 4] = 1.0
+    fitted = Refitted((), law, np.zeros(1), np.ones(4), np.zeros(9), J, 8, np.ones(1, bool), 1, True)
+    plain, wide = (np.sqrt(np.diag(fitted.tempered_covariance(t))) for t in (1.0, 100.0))
+    np.testing.assert_array_equal(plain, np.sqrt(np.diag(fitted.covariance)))
+    assert wide[4] == pytest.approx(1.0)
+    assert plain[0] < wide[0] <= 10 * plain[0]
+    assert fitted.unknown_errors(100.0)[0] == pytest.approx(1.0)

@@ -103,7 +103,7 @@ def test_effects_are_told_with_errors_unless_they_end_at_a_limit():
         stated=0,
         effects=(gain_error, tether),
     )
-    first, second = found_effects(fitted, plate, scale=4.0)
+    first, second = found_effects(fitted, plate, temper=4.0)
     # An error wider than where it may be at all says nothing either.
     wide = FittedByHand(**{**vars(fitted), "covariance": np.diag(np.append(1.0, (1e4 * errors) ** 2))})
     assert np.isnan(found_effects(wide, plate)[1].parameters["x"].standard_error)
