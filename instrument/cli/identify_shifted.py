@@ -11,6 +11,7 @@ from fitting.mode_tables.table import ModalTable
 from fitting.structures import AnySpecimen
 from instrument.cli.identify_asked import Asked
 from instrument.cli.output import Output
+from instrument.cli.print_shifted import print_shifted
 from instrument.cli.print_uncertainty import print_in_depth
 from instrument.cli.reading import read_tables_at, sweeps_at
 from instrument.errors import BadInput
@@ -26,11 +27,9 @@ from instrument.models.members import AtTemperature
 from instrument.models.temperatures import Shifted
 from instrument.models.temperatures import identify_shifted as identify_at_temperatures
 from instrument.progress import bar
-from instrument.results.numbers import to_error, with_error
 from instrument.results.shifted_from import shifted_from
 from instrument.results.uncertainty_facts import by_profile, in_depth_facts
 
-_ROWS = 9
 _PROFILED = 5
 """Reduced frequencies at which intervals are looked for: each is a dozen fits of all temperatures."""
 
@@ -116,7 +115,7 @@ def _tell(out: Output, found: Shifted, every: Sequence[AtTemperature], asked: As
     if found.verdict.simple is False:
         raise OutsideModel(found.verdict.words + _if_mounted_anew(every))
     result = shifted_from(found, every)
-    _print(out, found, every)
+    print_shifted(out, result, law_stands=found.verdict.law_stands)
     if asked.depths:
         b = found.band.frequency_hz
         looked = by_profile(found.fit.quantities(np.geomspace(b[0], b[-1], _PROFILED)), bar)
@@ -133,58 +132,3 @@ def _if_mounted_anew(every: Sequence[AtTemperature]) -> str:
         "; the specimen is taken to have stayed where it was: if it was mounted anew at each temperature, "
         "state it for each file (--specimen as often, copies of its file under other names)"
     )
-
-
-def _print(out: Output, found: Shifted, every_one: Sequence[AtTemperature]) -> None:
-    fit, b = found.fit, found.band
-    rows = [
-        [n, to_error(p, e), f"{e:.2g}"]
-        for n, p, e in zip(fit.shift.names, fit.parameters, fit.parameter_errors, strict=True)
-    ]
-    out.table(f"shift: {fit.shift.kind}", ["parameter", "value", "standard error"], rows)
-    rows = [
-        [
-            _names([every_one[j].name for j in its]),
-            f"{every_one[k].temperature_c:g}",
-            f"{fit.log_shift[k]:+.4f}",
-            f"{fit.log_shift_errors[k]:.4f}",
-            f"{fit.log_vertical[k]:+.4f}",
-        ]
-        for k, its in _alike(every_one).items()
-    ]
-    out.table("shift factors", ["file", "temperature/degC", "ln a_T", "standard error", "ln b_T"], rows)
-    every = max(1, len(b.frequency_hz) // _ROWS)
-    rows = [
-        [
-            f"{b.frequency_hz[k]:.4g}",
-            with_error(b.storage_modulus_pa[k], b.storage_modulus_standard_error_pa[k], 1e-6, "+-"),
-            with_error(b.loss_factor[k], b.loss_factor_standard_error[k], sign="+-"),
-        ]
-        for k in range(0, len(b.frequency_hz), every)
-    ]
-    out.table(
-        f"the law at {fit.shift.reference_c:g} degC, +- one standard error"
-        + ("" if found.verdict.law_stands else " (not to be used, see below)"),
-        ["reduced frequency/Hz", "G'/MPa", "loss factor"],
-        rows,
-    )
-    out.say(found.verdict.words)
-    for warning in found.warnings:
-        out.say(f"note: {warning}")
-
-
-def _alike(every: Sequence[AtTemperature]) -> dict[int, list[int]]:
-    """Members by the first one of each stated temperature, in the order given; tables from cold to warm."""
-    first: dict[float, int] = {}
-    found: dict[int, list[int]] = {}
-    order = range(len(every))
-    if every and isinstance(every[0].data, ModalTable):
-        order = sorted(order, key=lambda k: every[k].temperature_c)  # type: ignore[assignment]
-    for k in order:
-        found.setdefault(first.setdefault(every[k].temperature_c, k), []).append(k)
-    return found
-
-
-def _names(names: Sequence[str]) -> str:
-    own = list(dict.fromkeys(names))
-    return own[0] if len(own) == 1 else f"{own[0]} and {len(own) - 1} more"

@@ -21,6 +21,8 @@ class ShiftAt(Result):
     vertical: Number
     """Factor on G*; 1 where none was asked for."""
     vertical_standard_error: Number
+    rms_percent: Number | None = None
+    """Of the differences in amplitude between a sweep and the one law; None of a table of modes."""
 
 
 class ModeAt(Result):

@@ -4,7 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from fitting.identification.result import differences_percent
+from fitting.identification.validation import rms
 from fitting.mode_tables.table import ModalTable
+from fitting.sweep import Sweep
 from fitting.temperature.causes import Cause
 from instrument.facts.diagnosis import EffectFound
 from instrument.facts.shifted import ModeAt, ShiftAt, ShiftedResult
@@ -32,6 +35,7 @@ def shifted_from(found: Shifted, sweeps: Sequence[AtTemperature]) -> ShiftedResu
                 log10_shift_standard_error=fit.log_shift_errors[k] / np.log(10),
                 vertical=np.exp(fit.log_vertical[k]),
                 vertical_standard_error=np.exp(fit.log_vertical[k]) * fit.log_vertical_errors[k],
+                rms_percent=_rms_percent(found, k) if isinstance(one.data, Sweep) else None,
             )
             for k, one in enumerate(sweeps)
         ),
@@ -52,6 +56,13 @@ def shifted_from(found: Shifted, sweeps: Sequence[AtTemperature]) -> ShiftedResu
         warnings=found.warnings,
         seconds=found.seconds,
     )
+
+
+def _rms_percent(found: Shifted, k: int) -> float:
+    """What the one law leaves of the k-th sweep's amplitudes."""
+    stops = np.cumsum(found.fit.joined.lengths)
+    read = np.split(found.fit.one.velocity_m_s, stops[:-1])[k]
+    return rms(differences_percent(found.alone[k].begun.problem.sweep, read))
 
 
 def _modes(found: Shifted, every: Sequence[AtTemperature]) -> tuple[ModeAt, ...]:

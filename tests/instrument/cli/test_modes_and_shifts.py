@@ -202,8 +202,8 @@ def test_shifts_and_law_are_told_and_written(capsys, zn1, found, tmp_path):
     assert asked == [(["10.csv", "20.csv", "30.csv"], "wlf", 20.0, True, None)]
     said = capsys.readouterr().out
     rows = {line.split()[0]: line.split()[1:] for line in said.splitlines() if line.strip()}
-    assert rows["20.csv"] == ["20", "+0.0000", "0.0000", "+0.0000"]
-    assert float(rows["10.csv"][1]) == pytest.approx(1.5, abs=0.02)
+    assert rows["20.csv"] == ["20", "+0.0000", "0.0000", "1"]
+    assert float(rows["10.csv"][1]) == pytest.approx(1.5 / np.log(10), abs=0.01)
     assert "one law serves" in said
     written = json.loads((tmp_path / "a.json").read_text())
     assert [one["name"] for one in written["temperatures"]] == ["10.csv", "20.csv", "30.csv"]

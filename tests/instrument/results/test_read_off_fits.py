@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from beam_tables import BEAM, FACE, LAW, read
 from result_cases import identification
-from shear_pair_temperatures import LOG_A, REFERENCE, T, alone, fitted, shifted
+from shear_pair_cases import G_0, transmissibility
+from shear_pair_temperatures import LOG_A, PAIR, REFERENCE, T, alone, fitted, shifted
 
 from fitting.diagnosis.verdict.result import FoundEffect, ParameterEstimate
 from fitting.identification.pointwise import PointwiseLaw
@@ -102,6 +103,16 @@ def test_shifts_are_decades_with_their_errors_in_the_order_of_the_files():
     assert (result.p_value, result.wicket_percent, result.words) == (0.4, 1.2, "simple")
     assert result.chi2 == fit.chi2 > result.chi2_each_alone
     assert result.common_cause is None
+
+
+def test_what_one_law_leaves_of_a_sweep_is_of_its_own_amplitudes():
+    fit, result = at_temperatures()
+    sweeps = [m.sweep for m in fit.joined.problem.members]
+    law = [fit.joint.at(k) for k in range(3)]
+    for one, sweep, own in zip(result.temperatures, sweeps, law, strict=True):
+        T_mass = transmissibility(PAIR, sweep.frequency_hz, own.modulus(sweep.omega))
+        off = np.abs(T_mass * G_0 / sweep.omega / sweep.velocity_m_s) - 1
+        assert one.rms_percent == pytest.approx(100 * np.sqrt(np.mean(off**2)), rel=0.01)
 
 
 def test_a_vertical_shift_is_a_factor_with_its_error():
