@@ -10,8 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.sweep import Sweep as Points
 from fitting.sweep import segments_by_gap
-from instrument.files.sweep_file import read_sweep
+from instrument.errors import BadInput
+from instrument.files.sweep_file import words_of_other_reading
 from instrument.interchange.base_frf import is_frf_csv, sweep_of_foreign, sweep_of_frf_csv
+from instrument.interchange.given import file_of_one_mounting
 from instrument.interchange.readers import is_foreign
 from instrument.stream.jsonable import to_jsonable
 from viscorig.checked import numbers
@@ -98,16 +100,21 @@ class Sweep(Shown, Points):
 
 
 def load_sweep(path: str | Path, specimen: Specimen) -> Sweep:
-    """Read a sweep (.csv), or FRFs over the base or the force (.csv, .uff, .unv, .mat). Raises `BadInput`.
+    """Read a sweep (.csv), or FRFs over the base or the force (.csv, .uff, .unv, .mat).
 
-    The levels of a file are multiples of the specimen's base acceleration.
+    The levels of a file are multiples of the specimen's base acceleration. Raises `BadInput`, also where the
+    file says itself that its velocities are absolute or relative, and the specimen otherwise.
     """
     path, level, drive = Path(path), specimen.model.drive_amplitude, specimen.model.drive
-    if is_foreign(path):
+    if is_foreign(path) and drive == "force":
         return as_sweep(sweep_of_foreign(path, level, drive))
-    if is_frf_csv(path):
+    if not is_foreign(path) and is_frf_csv(path):
         return as_sweep(sweep_of_frf_csv(path, level))
-    return as_sweep(read_sweep(path).sweep(level, drive))
+    file = file_of_one_mounting(path)
+    doubt = words_of_other_reading(file.reads, specimen.model.reads) if file.reads else ""
+    if doubt:
+        raise BadInput(f"{path}: {doubt}")
+    return as_sweep(file.sweep(level, drive))
 
 
 def as_sweep(points: Points) -> Sweep:

@@ -154,6 +154,14 @@ def reading_said(lines: Iterable[str]) -> Reading | None:
     return cast(Reading, found.pop()) if len(found) == 1 else None
 
 
+def words_of_other_reading(said: str, stated: Reading) -> str:
+    """For people, where a file says itself what its laser sees, and the specimen another; else empty."""
+    if said == stated:
+        return ""
+    frame = "absolute" if said == "absolute" else "relative to the clamp"
+    return f'it says that velocities are {frame}: expected reads = "{said}" in [pickup]'
+
+
 def sweep_of_columns(
     path: Path, columns: dict[str, Array], reads: Reading | None = None, lines: Sequence[int] = ()
 ) -> SweepFile:

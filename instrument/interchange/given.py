@@ -15,7 +15,7 @@ from instrument.facts.identification import IdentificationResult
 from instrument.facts.session_result import SessionResult
 from instrument.files.hammer_file import HammerModes, read_hammer
 from instrument.files.structure_file import read_structure
-from instrument.files.sweep_file import read_sweep
+from instrument.files.sweep_file import SweepFile, read_sweep
 from instrument.interchange.base_frf import file_of_foreign, is_frf_csv, sweep_of_foreign, sweep_of_frf_csv
 from instrument.interchange.files_of import files_of
 from instrument.interchange.identified import session_modes, session_sweep
@@ -125,17 +125,7 @@ def _of_sweep(data: Path, specimen: Path | None) -> Given:
         over = "the base's acceleration" if drive == "base" else "the force"
         said = f"an FRF: taken as the pickup over {over}"
         return Given(read, sweep_of_frf_csv(data, level), None, remark=said)
-    file = file_of_foreign(data) if foreign else read_sweep(data)
-    if any(cell.strip(" .0") for cell in file.unknown.get("mounting", [])):
-        raise BadInput(
-            f"{data}: column mounting: the plate was clamped anew for some rows, expected a file for each "
-            "mounting (or the session itself)"
-        )
-    if any(cell.strip(" .0") for cell in file.unknown.get("mass_kg", [])):
-        raise BadInput(
-            f"{data}: column mass_kg: a known mass was on the plate in some rows, expected a file for each, "
-            "its specimen with [[mass]] (or the session itself)"
-        )
+    file = file_of_one_mounting(data)
     sweep, warm, ends = file.sweep(level, drive), file.temperature_c, file.temperature_range_c
     off = level_remark(data, sweep, level, has_levels="level_g" in file.columns) if drive == "base" else ""
     return Given(
@@ -148,6 +138,25 @@ def _of_sweep(data: Path, specimen: Path | None) -> Given:
         temperature_c=warm,
         temperature_range_c=ends,
     )
+
+
+def file_of_one_mounting(data: Path) -> SweepFile:
+    """The rows of a sweep, ours or another program's.
+
+    Raises `BadInput`, also where the specimen was clamped anew or carried a known mass for some of them.
+    """
+    file = file_of_foreign(data) if is_foreign(data) else read_sweep(data)
+    if any(cell.strip(" .0") for cell in file.unknown.get("mounting", [])):
+        raise BadInput(
+            f"{data}: column mounting: the plate was clamped anew for some rows, expected a file for each "
+            "mounting (or the session itself)"
+        )
+    if any(cell.strip(" .0") for cell in file.unknown.get("mass_kg", [])):
+        raise BadInput(
+            f"{data}: column mass_kg: a known mass was on the plate in some rows, expected a file for each, "
+            "its specimen with [[mass]] (or the session itself)"
+        )
+    return file
 
 
 def at_its_spot(data: Path | str, read: AnySpecimen, sweep: Sweep) -> tuple[AnySpecimen, Sweep]:

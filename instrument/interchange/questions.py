@@ -15,6 +15,7 @@ from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen, ShearPair
 from instrument.errors import BadInput
 from instrument.files.plausible import INSIST
+from instrument.files.sweep_file import words_of_other_reading
 from instrument.interchange.given import Given
 from instrument.models.modal_look import modal_doubt
 from instrument.models.modal_mistakes import table_doubt
@@ -66,11 +67,7 @@ def question_data(
 
 
 def _otherwise_read(given: Given) -> str:
-    """That a file says itself what its laser sees, and the specimen something else; empty otherwise."""
-    if not given.reads or given.reads == given.specimen.reads:
-        return ""
-    frame = "absolute" if given.reads == "absolute" else "relative to the clamp"
-    return f'it says that velocities are {frame}: expected reads = "{given.reads}" in [pickup]'
+    return words_of_other_reading(given.reads, given.specimen.reads) if given.reads else ""
 
 
 def question_modes(

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from conftest import DATA
 from impact_cases import RATE, clean_hit
+from uff_files import ratio_set, write_sets
 
 import viscorig as vr
 from instrument.files.specimen_file import read_specimen
@@ -102,6 +103,33 @@ def test_a_missing_file_is_named(plate):
         vr.load_specimen("nowhere.toml")
     with refused(r"nowhere\.csv"):
         vr.load_sweep("nowhere.csv", plate)
+
+
+def absolute(path):
+    """Two lines of what an export of a session says is an absolute velocity."""
+    f, v = np.array([10.0, 11.0]), np.array([0.1 + 0.2j, 0.1 + 0.3j])
+    if path.suffix == ".uff":
+        write_sets(path, ratio_set(f, v, 11, 12) | {"id1": "absolute velocity over base acceleration"})
+    else:
+        rows = [f"{a:g},{b.real:g},{b.imag:g}" for a, b in zip(f, v, strict=True)]
+        columns = "frequency_hz,velocity_re_m_s,velocity_im_m_s"
+        path.write_text("\n".join(["# velocity is absolute: as exported", columns, *rows]))
+    return path
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.uff"])
+def test_a_file_that_says_otherwise_than_its_specimen_what_the_laser_sees_is_refused(plate, tmp_path, name):
+    path = absolute(tmp_path / name)
+    with refused(rf'{name}: .*velocities are absolute: expected reads = "absolute" in \[pickup\]'):
+        vr.load_sweep(path, plate)
+    assert len(vr.load_sweep(path, plate.but(pickup={"reads": "absolute"}))) == 2
+
+
+def test_rows_of_several_mountings_are_refused_as_the_command_does(plate, tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text("frequency_hz,velocity_m_s,mounting\n10,0.1,0\n11,0.2,1\n")
+    with refused("column mounting: the plate was clamped anew for some rows"):
+        vr.load_sweep(path, plate)
 
 
 def test_hits_of_arrays_give_the_poles_behind_them():
