@@ -39,7 +39,8 @@ from instrument.results.session_result import Conditions, result_of
     "--resamples",
     type=click.IntRange(0, 1000),
     help="Repeat the search on so many sweeps drawn without any effect (p-value), and with segments held "
-    "out. For one sweep of a plate at one spot, and always done there for 30 points or fewer; 0 for never.",
+    "out. For one sweep of a plate at one spot, and always done there for 30 points or fewer; 0 for never. "
+    "Not with --accept: nothing is searched for then.",
 )
 @figures_option("Save residual, evidence and law as PNG.")
 @json_option
@@ -62,6 +63,8 @@ def diagnose(
     (.csv, .uff, .unv, .mat), or a table of modes (.csv: mode, frequency_hz, loss_factor). Several are one
     experiment: an effect common to all is named once.
     """
+    if resamples and accept:
+        raise click.UsageError("--resamples with --accept: no search to repeat, expected one of them")
     out = Output(json_path)
     refuse_repeats(data)
     if are_tables(data, specimen):

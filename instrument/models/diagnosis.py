@@ -71,6 +71,8 @@ def diagnose(
     both = sorted(set(without) & set(accept or ()))
     if both:
         raise BadInput(f"effect {both[0]!r} both accepted and left out, expected one of them")
+    if resamples and accept is not None:
+        raise BadInput("resamples with accepted effects: no search to repeat, expected one of them")
     plate = lone_plate(files)
     if resamples is not None and plate is None:
         raise BadInput("resamples: expected one sweep of a plate at one spot")

@@ -165,6 +165,15 @@ def test_repeats_of_the_search_are_refused_with_several_files(capsys, coarse, tm
     assert err.count("\n") == 1
 
 
+def test_repeats_of_the_search_are_refused_where_nothing_is_searched_for(capsys, given):
+    words = ("diagnose", TABLE5, "--specimen", ZN1, "--accept", "spot_offset", "--resamples")
+    status, _, err = call(capsys, *words, "5")
+    assert (status, err.count("\n")) == (2, 1)
+    assert "--resamples with --accept: no search to repeat" in err
+    status, _, err = call(capsys, *words, "0")
+    assert status == 0, err
+
+
 def test_a_sweep_keeps_its_times_and_a_hammer_test_takes_part(capsys, given, tmp_path):
     path = tmp_path / "hammer.json"
     path.write_text(json.dumps({"modes": [{"frequency_hz": 17.7, "damping_ratio": 0.003}]}))

@@ -263,6 +263,8 @@ def test_unknown_names_and_bare_plates_are_refused():
     for given in ([File(sweep, plate_of_the_rig())], 2 * [File(sweep, plate_of_the_rig())]):
         with pytest.raises(BadInput, match="both accepted and left out"):
             diagnose(given, accept=["core_law"], without=["core_law"])
+    with pytest.raises(BadInput, match="resamples with accepted effects: no search to repeat"):
+        diagnose([File(sweep, plate_of_the_rig())], accept=["core_law"], resamples=2)
     with pytest.raises(BadInput, match="resamples: expected one sweep of a plate at one spot"):
         diagnose(given, resamples=2)
     with pytest.raises(OutsideModel, match="no core to diagnose"):
