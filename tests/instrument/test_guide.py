@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from instrument.files.sweep_file import read_sweep
+
 ROOT = Path(__file__).parents[2]
 GUIDE = ROOT / "docs" / "guide"
 ROOMS = ("drivers", "fitting", "instrument", "gui")
@@ -31,6 +33,17 @@ def test_the_first_result_is_reached_by_the_guides_commands_to_the_letter(tmp_pa
         assert ended.returncode == 0, f"{line}\n{ended.stdout[-2000:]}{ended.stderr[-2000:]}"
     for name in ("report.html", "core.bdf", "data"):
         assert (tmp_path / name).exists()
+
+
+def test_the_guide_s_line_gives_every_row_of_a_sweep_its_temperature(tmp_path):
+    page = (GUIDE / "first-result.md").read_text(encoding="utf-8")
+    (line,) = re.findall(r"^ +(awk .*)$", page, re.MULTILINE)
+    rows = ["# from the laboratory", "frequency_hz,velocity_m_s", "10,0.1", "11,0.2"]
+    (tmp_path / "05.csv").write_text("\n".join([*rows, ""]))
+    subprocess.run(line, shell=True, cwd=tmp_path, check=True)
+    found = read_sweep(tmp_path / "at-05.csv")
+    assert found.temperature_range_c == (5.2, 5.2)
+    assert found.columns["frequency_hz"].tolist() == [10.0, 11.0]
 
 
 def test_the_messages_explained_are_the_programs_own():
