@@ -7,7 +7,7 @@ from fitting.mode_tables.fit import modal_fit_of
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.cli.reading import read_tables
-from instrument.interchange.questions import question_modes
+from instrument.interchange.questions import question_modes, question_numbers
 from instrument.models.modal import diagnose_tables
 from instrument.planning.unseen import with_unseen_in_tables
 from instrument.progress import bar
@@ -22,6 +22,8 @@ def diagnose_modes(
     What no core comes near is refused unless someone insists.
     """
     tables, read = read_tables(data, specimens, insist=insist)
+    if not insist:
+        question_numbers(tables, read, data)
     found = diagnose_tables(tables, read, without, bar)
     if not insist:
         question_modes(tables, modal_fit_of(found.found.begun), data, read, bar)

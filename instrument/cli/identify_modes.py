@@ -11,7 +11,7 @@ from instrument.cli.print_modes import print_formulas, print_modal_law, print_mo
 from instrument.cli.print_uncertainty import print_in_depth
 from instrument.cli.reading import read_tables
 from instrument.files.modal_table import read_modal_table
-from instrument.interchange.questions import question_modes
+from instrument.interchange.questions import question_modes, question_numbers
 from instrument.models.modal import identify_tables
 from instrument.progress import bar
 from instrument.results.modal_from import modal_from
@@ -35,6 +35,8 @@ def identify_modes(
     tables, read = read_tables(data, specimens, insist=insist)
     if bare is not None and not all(isinstance(s, Beam) for s in read):
         raise click.UsageError(f"--bare with a {read[0].kind}: expected a beam")
+    if not insist:
+        question_numbers(tables, read, data)
     found = identify_tables(tables, read, bar, read_modal_table(bare) if bare is not None else None)
     if not insist:
         question_modes(tables, found.fit, data, read, bar)

@@ -19,6 +19,7 @@ from instrument.files.hammer_file import HammerModes
 from instrument.interchange.given import Given
 from instrument.interchange.questions import (
     question_modes_at,
+    question_numbers,
     question_reference,
     question_shift,
     question_tables,
@@ -77,6 +78,7 @@ def identify_tables_shifted(
     tables = [one.data for one in every if isinstance(one.data, ModalTable)]
     if not insist:
         question_tables(tables, data)
+        question_numbers(tables, [stated[one.specimen - 1] for one in every], data)
         question_reference(asked.reference_c, [one.temperature_c for one in every], data)
     found = _fitted(out, every, stated, asked)
     if not insist:

@@ -19,6 +19,7 @@ from instrument.files.sweep_file import words_of_other_reading
 from instrument.interchange.given import Given
 from instrument.models.modal_look import modal_doubt
 from instrument.models.modal_mistakes import table_doubt
+from instrument.models.mode_numbers import numbers_doubt
 from instrument.models.quick_look import data_doubt
 from instrument.models.temperatures import Shifted
 from instrument.progress import Progress, quiet
@@ -96,6 +97,16 @@ def question_tables(tables: Sequence[ModalTable], paths: Sequence[Path]) -> None
     """Ask about tables by themselves: kelvin, percent, errors too small. Raises `BadInput`."""
     warmest = [float(t.temperature_c.max()) for t in tables if t.temperature_c is not None]
     _ask(kelvin_doubt(max(warmest, default=None)) or _percent(tables) or _too_well_known(tables), paths)
+
+
+def question_numbers(
+    tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen], paths: Sequence[Path]
+) -> None:
+    """Ask about mode numbers that are all one off, before any fit; each table with its specimen.
+
+    Raises `BadInput`.
+    """
+    _ask(numbers_doubt(tables, specimens), paths)
 
 
 def question_modes_at(tables: Sequence[ModalTable], predicted_hz: Array, paths: Sequence[Path]) -> None:

@@ -150,6 +150,20 @@ def test_intervals_of_a_law_of_modes_are_told_where_they_are_asked_for(capsys, q
     assert high - g["value"] == pytest.approx(half, rel=0.1)
 
 
+@pytest.mark.parametrize("command", [diagnosing, identifying])
+def test_mode_numbers_that_are_all_one_off_are_asked_about_before_any_fit(monkeypatch, command):
+    off = replace(TABLE, mode=TABLE.mode + 1)
+    monkeypatch.setattr(command, "read_tables", lambda *_, **__: ([off], [BEAM]))
+    monkeypatch.setattr(command, command.__name__.rpartition(".")[2].replace("_modes", "_tables"), None)
+    call, more = (
+        (diagnosing.diagnose_modes, {"without": frozenset()})
+        if command is diagnosing
+        else (identifying.identify_modes, {})
+    )
+    with pytest.raises(BadInput, match=r"a\.csv: mode numbers seem shifted by one"):
+        call(Output(None), [FILE], [Path("beam.toml")], insist=False, **more)
+
+
 # Several temperatures
 
 
