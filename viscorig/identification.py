@@ -9,6 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from instrument.facts.identification import IdentificationResult
 from instrument.results.fit_file import found_law
+from instrument.results.law_words import LAW_COLUMNS, a_few, aligned, law_cells
+from instrument.results.numbers import with_error
 from viscorig.facts import Facts
 from viscorig.shown import Columns, columns
 from viscorig.specimen import Specimen
@@ -76,10 +78,18 @@ class Identification(Facts[IdentificationResult]):
 
     def lines(self) -> list[str]:
         """Law, parameters, what is left, warnings."""
-        errors = self.standard_errors
-        found = ", ".join(f"{k} = {v:.4g}{_error(errors[k])}" for k, v in self.parameters.items())
-        left = f"rms {self.rms_percent:.3g} %, largest {self.result.max_percent:.3g} %"
-        return [f"{self.result.law_kind}: {found}", left, *self.warnings]
+        errors = self.result.standard_errors
+        found = ", ".join(f"{k} = {with_error(v, errors[k])}" for k, v in self.parameters.items())
+        left = f"rms {self.rms_percent:.2f} %, largest {self.result.max_percent:.2f} %"
+        notes = [f"note: {said}" for said in self.warnings]
+        return [f"{self.result.law_kind}: {found}", f"difference in amplitude: {left}", *notes]
+
+    def __str__(self) -> str:
+        """As the command prints it: with G' and the loss factor at a few frequencies of the band."""
+        heading, *rest = self.lines()
+        rows = law_cells(a_few(self.result.law), sign="±")
+        title = "the law in the measured band, ± one standard error (noise, model error, tolerances)"
+        return "\n".join([heading, title, *aligned(LAW_COLUMNS, rows), *rest])
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """G' and, on an axis of its own, the loss factor over frequency, with 95 % bands; the axes."""
@@ -95,7 +105,3 @@ class Identification(Facts[IdentificationResult]):
         ax = plot_amplitude(ax, f, self.points["measured_m_s"], "o", "measured")
         plot_set_aside(ax, self.result.points_set_aside)
         return plot_amplitude(ax, f, self.points["predicted_m_s"], "x", "fitted")
-
-
-def _error(error: float | None) -> str:
-    return f" ± {error:.2g}" if error is not None else ""

@@ -10,7 +10,9 @@ from instrument.cli.output import Output
 from instrument.models.identification import Identified
 from instrument.results.adjusted_words import COLUMNS, adjusted_rows, more_adjusted
 from instrument.results.error_words import is_below_floor, percent_words
-from instrument.results.numbers import error_beside, to_error, with_error
+from instrument.results.law_words import LAW_COLUMNS, a_few, law_cells
+from instrument.results.numbers import error_beside, to_error
+from instrument.results.rows_from import law_rows_from
 
 _MOST_ROWS = 30
 
@@ -63,21 +65,10 @@ def _relative(error: float, value: float) -> str:
 
 
 def _print_band(out: Output, r: Identification) -> None:
-    b = r.band
-    every = max(1, len(b.frequency_hz) // 6)
-    shown = sorted({*range(0, len(b.frequency_hz), every), len(b.frequency_hz) - 1})
-    rows = [
-        [
-            f"{b.frequency_hz[k]:.1f}",
-            with_error(b.storage_modulus_pa[k], b.storage_modulus_standard_error_pa[k], 1e-6, "+-"),
-            with_error(b.loss_factor[k], b.loss_factor_standard_error[k], sign="+-"),
-        ]
-        for k in shown
-    ]
     out.table(
         "the law in the measured band, +- one standard error (noise, model error, tolerances)",
-        ["frequency/Hz", "G'/MPa", "loss factor"],
-        rows,
+        list(LAW_COLUMNS),
+        law_cells(a_few(law_rows_from(r.band))),
     )
 
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from instrument.cli.output import Output
 from instrument.facts.modal import FormulaRow, ModeFitted
 from instrument.facts.rows import LawRow
-from instrument.results.numbers import with_error
+from instrument.results.law_words import LAW_COLUMNS, law_cells
 
 _ROWS = 6
 
@@ -27,17 +27,8 @@ def print_modes(out: Output, modes: Sequence[ModeFitted]) -> None:
 
 def print_modal_law(out: Output, law: Sequence[LawRow]) -> None:
     """A few rows of it."""
-    every = law[:: max(1, len(law) // _ROWS)]
-    rows = [
-        [
-            f"{r.frequency_hz:.1f}",
-            with_error(r.storage_modulus_pa, r.storage_modulus_standard_error_pa, 1e-6, "+-"),
-            with_error(r.loss_factor, r.loss_factor_standard_error, sign="+-"),
-        ]
-        for r in every
-    ]
     title = "the law over the modes, +- one standard error (tables, tolerances)"
-    out.table(title, ["frequency/Hz", "G'/MPa", "loss factor"], rows)
+    out.table(title, list(LAW_COLUMNS), law_cells(law[:: max(1, len(law) // _ROWS)]))
 
 
 def print_formulas(out: Output, rows: Sequence[FormulaRow]) -> None:

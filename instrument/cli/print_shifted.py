@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from instrument.cli.output import Output
 from instrument.facts.shifted import ModeAt, ShiftAt, ShiftedResult
+from instrument.results.law_words import LAW_COLUMNS, law_cells
 from instrument.results.numbers import format_number, to_error, with_error
 
 _ROWS = 9
@@ -85,13 +86,6 @@ def _modes(out: Output, modes: Sequence[ModeAt]) -> None:
 
 def _law(out: Output, result: ShiftedResult, unusable: str) -> None:
     every = max(1, len(result.law) // _ROWS)
-    rows = [
-        [
-            f"{row.frequency_hz:.4g}",
-            with_error(row.storage_modulus_pa, row.storage_modulus_standard_error_pa, 1e-6, "+-"),
-            with_error(row.loss_factor, row.loss_factor_standard_error, sign="+-"),
-        ]
-        for row in result.law[::every]
-    ]
     title = f"the law at {result.reference_c:g} degC, +- one standard error{unusable}"
-    out.table(title, ["reduced frequency/Hz", "G'/MPa", "loss factor"], rows)
+    columns = [f"reduced {LAW_COLUMNS[0]}", *LAW_COLUMNS[1:]]
+    out.table(title, columns, law_cells(result.law[::every], ".4g"))

@@ -162,9 +162,25 @@ def test_it_is_a_function_of_frequency_beyond_the_band_too(identified):
 
 def test_it_says_law_parameters_with_errors_and_what_is_left(identified):
     first, left, warning = identified.lines()
-    assert first.startswith("fractional-zener: g0_pa = 2.7e+05 ± 8.1e+03, ")
+    assert first.startswith("fractional-zener: g0_pa = 270000 ± 8100, ")
     assert first.endswith("alpha = 0.83")
-    assert (left, warning) == ("rms 1.25 %, largest 2.5 %", "look")
+    assert (left, warning) == ("difference in amplitude: rms 1.25 %, largest 2.50 %", "note: look")
+
+
+def test_it_prints_modulus_and_loss_factor_at_a_few_frequencies_with_their_errors(identified):
+    said = str(identified).splitlines()
+    assert said[2].split() == ["frequency/Hz", "G'/MPa", "loss", "factor"]
+    rows = said[3:-2]
+    assert 6 <= len(rows) <= 8
+    law = identified.result.law
+    for row, known in ((rows[0], law[0]), (rows[-1], law[-1])):
+        f, G, plus, G_error, eta, _, eta_error = row.split()
+        assert (float(f), plus) == (pytest.approx(known.frequency_hz, abs=0.05), "±")
+        assert float(G) == pytest.approx(1e-6 * known.storage_modulus_pa, rel=0.05)
+        assert float(G_error) == pytest.approx(1e-6 * known.storage_modulus_standard_error_pa, rel=0.1)
+        assert float(eta) == pytest.approx(known.loss_factor, rel=0.05)
+        assert float(eta_error) == pytest.approx(known.loss_factor_standard_error, rel=0.1)
+    assert said[-1] == "note: look"
 
 
 def test_measured_and_fitted_amplitudes_are_drawn_in_the_order_of_frequency(identified):
