@@ -7,7 +7,7 @@ from fitting.sweep import Sweep
 from instrument.errors import BadInput
 from instrument.files.hammer_file import HammerModes, accepted_modes
 from instrument.files.toml import one_line
-from instrument.models.files import File
+from instrument.interchange.files_of import files_of
 from instrument.models.identification import Identified, identify
 from instrument.progress import Progress, quiet
 from instrument.session.contents import Contents
@@ -15,11 +15,15 @@ from instrument.session.points import sweep_of
 
 
 def identify_session(contents: Contents, progress: Progress = quiet) -> Identified:
-    """Identify all points as the live identification does, jointly with the session's hammer test.
+    """Identify all points as `viscorig identify` does, jointly with the session's hammer test.
+
+    What was read with a known mass, clamped anew, at another spot or struck is a file of its own under the
+    law.
 
     Raises `BadInput` without points, `FittingError` where these points carry no law.
     """
-    modes, files = session_modes(contents), [File(session_sweep(contents), contents.specimen)]
+    modes, sweep = session_modes(contents), session_sweep(contents)
+    files = files_of(sweep, contents.measured, contents.specimen, contents.struck)
     return identify(files, progress=progress, hammer=modes)
 
 

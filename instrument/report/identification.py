@@ -236,6 +236,8 @@ def _live(contents: Contents, r: Identification) -> Sentence:
     points = len(live.result.points) + len(live.result.points_set_aside)
     if points != len(contents.points):
         return Sentence(f"The run's own last fit had {points} of {len(contents.points)} points.", "note")
+    if contents.struck:
+        return Sentence("The run's own last fit was without the spectra of the struck plate.", "note")
     recorded = live.result.parameters
     worst = max(abs(recorded[n] / v - 1) for n, v in zip(r.law.names, r.law.values, strict=True))
     if worst <= _SAME:

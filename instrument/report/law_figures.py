@@ -52,8 +52,8 @@ def law_figure(fit: Identified, name: str = "identified") -> Figure:
 
 
 def residual_figures(segments: list[Measured], fitted: ReportedFit) -> list[Figure]:
-    """Model less measurement, amplitude above phase, a column a segment."""
-    return [_residuals(row, fitted) for row in in_rows(segments)]
+    """Model less measurement, amplitude above phase, a column a segment; of the plate as it is stated."""
+    return [_residuals(row, fitted) for row in in_rows([m for m in segments if not m.elsewhere])]
 
 
 def _residuals(segments: Sequence[Measured], fitted: ReportedFit) -> Figure:

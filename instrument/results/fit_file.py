@@ -28,6 +28,15 @@ _FREQUENCY_OFF = 1e-3
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 
 
+def is_of_first(name: str) -> bool:
+    """Whether a number found is that of the first file, at its first spot: `gain` and `gain [1]`."""
+    whose = name.partition(" [")[2].removesuffix("]").split(", ")
+    files = [part for part in whose if part.isdecimal()]
+    return (not files or "1" in files) and not any(
+        part.startswith("pickup ") and part != "pickup 0" for part in whose
+    )
+
+
 class _Adjusted(BaseModel):
     """A stated number as the fit has it, in the units of the file."""
 
@@ -139,8 +148,8 @@ class FoundLaw(BaseModel):
 
     @property
     def of_specimen(self) -> list[_Adjusted]:
-        """Stated numbers alone: where narrow resonances lie is the data's."""
-        return [one for one in self.adjusted if kind_of(one.name) not in OF_NARROW]
+        """Stated numbers, of several files the first one's: where narrow resonances lie is the data's."""
+        return [one for one in self.adjusted if kind_of(one.name) not in OF_NARROW and is_of_first(one.name)]
 
     def plate(self, specimen: PlateSpecimen) -> FittedPlate:
         """The specimen's plate as it was found. Raises `BadInput` where that cannot be."""

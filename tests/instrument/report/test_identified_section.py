@@ -1,5 +1,6 @@
 """What a page says of an identification, of a session and a fit made by hand."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -75,9 +76,9 @@ def reported(result, bare=None, specimen=PLATE, aside=0):
     )
 
 
-def contents(*, live=None, diagnosis=None, points=()):
-    """Of a session: what the run itself had found, and its points."""
-    return SimpleNamespace(fit=live, diagnosis=diagnosis, points=points, measured=points)
+def contents(*, live=None, diagnosis=None, points=(), struck=()):
+    """Of a session: what the run itself had found, its points, spectra of the struck plate."""
+    return SimpleNamespace(fit=live, diagnosis=diagnosis, points=points, measured=points, struck=struck)
 
 
 def live(parameters, points=0):
@@ -161,6 +162,12 @@ VALUES = dict(zip(TABLE_4.names, TABLE_4.values.tolist(), strict=True))
 )
 def test_the_page_s_law_is_compared_with_the_run_s_own(run, points, said):
     assert section(found(), live=run, points=points * (None,))[2][-1] == said
+
+
+def test_a_run_that_struck_the_plate_fitted_without_these_spectra():
+    run = live({**VALUES, "alpha": 1.03 * VALUES["alpha"]})
+    said = section(found(), live=run, struck=["spectrum"])[2][-1]
+    assert said == "The run's own last fit was without the spectra of the struck plate."
 
 
 @pytest.mark.parametrize(
@@ -248,6 +255,15 @@ def test_a_residual_is_the_model_less_what_was_measured_beside_the_noise():
     assert (noise.min(), noise.max()) == pytest.approx((-4.0, 4.0))
     assert len(residual_figures(5 * [measured], model)) == 2
     assert residual_figures([], model) == []
+
+
+def test_what_was_read_elsewhere_has_no_residual_of_the_plate_as_stated():
+    f = np.array([20.0, 30.0])
+    measured = Measured(1, f, np.array([1.0, 1.0j]), np.array([0.01, 0.02]), (), np.ones(2, bool))
+    model = SimpleNamespace(over_base=lambda at: np.full(len(at), 1.1 + 0j))
+    with_mass = replace(measured, elsewhere="5 g at 280, 100 mm")
+    (figure,) = residual_figures([measured, with_mass], model)
+    assert len(figure.axes) == 2
 
 
 def test_what_is_set_aside_has_no_residual_and_is_marked_at_the_foot():
