@@ -9,9 +9,9 @@ from pathlib import Path
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
 
-from gui.settings import Settings
-from gui.splash import splash
-from gui.theme import Appearance
+from gui.frame.settings import Settings
+from gui.frame.splash import splash
+from gui.style.theme import Appearance
 from instrument.errors import BadInput
 
 
@@ -26,8 +26,8 @@ def run(session: Path | None) -> int:
     first.show()
     application.processEvents()
     # The window brings everything that computes along: most of a start is loading it.
-    from gui.garbage import Collector
-    from gui.window import Window
+    from gui.background.garbage import Collector
+    from gui.frame.window import Window
 
     window = Window(appearance, settings)
     # Python sees a signal between two turns of the window's timer.

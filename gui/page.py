@@ -6,7 +6,7 @@ from typing import ClassVar
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QWidget
 
-from gui.controller import AppController
+from gui.actions.controller import AppController
 from gui.state import SessionState, Topic
 
 

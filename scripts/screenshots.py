@@ -33,13 +33,13 @@ from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QApplication, QWidget
 from shiboken6 import isValid
 
-from gui import printing
-from gui.background_task import BackgroundCommand, BackgroundTask
-from gui.controller import AppController
+from gui.actions import printing
+from gui.actions.controller import AppController
+from gui.background.task import BackgroundCommand, BackgroundTask
+from gui.frame.settings import Settings
+from gui.frame.window import Window
 from gui.pages.run import RunPage
-from gui.settings import Settings
-from gui.theme import Appearance
-from gui.window import Window
+from gui.style.theme import Appearance
 from instrument.simulated_case import case_file
 
 SCREENS = {"1366x768": (1366, 768, "1"), "2560x1440-scale-2": (1280, 720, "2")}

@@ -24,9 +24,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from gui.notice import Notice
+from gui.frame.notice import Notice
+from gui.frame.window import Window
 from gui.plots import Plot
-from gui.window import Window
 
 _SLACK_PX = 1
 _TAG = re.compile(r"<[a-z]|&\w+;")

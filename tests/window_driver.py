@@ -16,10 +16,10 @@ from pathlib import Path
 from PySide6.QtCore import QPoint, QSettings, Qt, QTimer
 from PySide6.QtWidgets import QApplication, QFileDialog, QWidget
 
-from gui.garbage import Collector
-from gui.settings import Settings
-from gui.theme import Appearance
-from gui.window import Window
+from gui.background.garbage import Collector
+from gui.frame.settings import Settings
+from gui.frame.window import Window
+from gui.style.theme import Appearance
 
 PATIENCE_S = 120.0
 LOOKS_MS = 10

@@ -6,7 +6,7 @@ from time import monotonic
 
 from PySide6.QtCore import QObject, Signal
 
-from gui.background_task import BackgroundTask, Progress
+from gui.background.task import BackgroundTask, Progress
 from gui.feeds.feed import Feed, Turn
 from gui.state import SessionState
 from instrument.engine import Engine, Order, Stopped

@@ -5,7 +5,7 @@ from collections import deque
 from dataclasses import dataclass
 from pathlib import Path
 
-from gui.background_task import said_of_fault
+from gui.background.task import said_of_fault
 from gui.feeds.session_index import SessionIndex
 from gui.state import SessionState
 from instrument.session.storage import SessionFile

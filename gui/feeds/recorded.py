@@ -5,7 +5,7 @@ from time import monotonic
 
 from PySide6.QtCore import QObject, Signal
 
-from gui.background_task import BackgroundCommand
+from gui.background.task import BackgroundCommand
 from gui.feeds.feed import Feed, Turn
 from gui.feeds.reader import Failed, Item, Jumped, Loaded, Read, Reader
 from gui.feeds.session_index import SessionIndex

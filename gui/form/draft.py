@@ -14,7 +14,7 @@ from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT, Item
 
 from fitting.errors import OutsideModel
-from gui.file_stamp import Stamp, stamp_of
+from gui.files.file_stamp import Stamp, stamp_of
 from gui.form.fields import Field, FormSection, Kind, Place, form_of, shown
 from instrument.errors import BadInput, system_words
 from instrument.files.law_table import with_rows

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from gui.file_stamp import Stamp, stamp_of
+from gui.files.file_stamp import Stamp, stamp_of
 from gui.form.draft import Draft
 from gui.form.fields import FILES, Field
 from instrument.errors import BadInput

@@ -9,13 +9,13 @@ from PySide6.QtCore import QEvent, QSignalBlocker, Qt, QTimer, Signal
 from PySide6.QtGui import QBrush
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QHeaderView, QLineEdit, QTreeWidgetItem, QWidget
 
-from gui.asking import ask_open
 from gui.form.draft import Draft
 from gui.form.fields import FILES, Field, FormSection, Place, device_fields, law_fields
 from gui.form.keys import KeyedRows
 from gui.form.rows import FAULT, NAME, UNIT, VALUE, Editor
-from gui.theme import current_theme
-from gui.widgets import tool
+from gui.style.theme import current_theme
+from gui.widgets.asking import ask_open
+from gui.widgets.basic import tool
 from instrument.files.acceleration import said_beside
 
 _OPEN = (

@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QApplication, QComboBox, QStyleOptionViewItem, QWi
 
 from gui.form.fields import Place
 from gui.form.rows import NAME, VALUE, Editor, FormRows
-from gui.theme import current_theme
+from gui.style.theme import current_theme
 
 
 class KeyedRows(FormRows):

@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QMenu
 
 from fitting.arrays import Array
-from gui.theme import Theme, current_theme
+from gui.style.theme import Theme, current_theme
 
 Kind = Literal["", "delta", "harmonic"]
 _HARMONICS = 10

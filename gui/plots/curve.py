@@ -8,8 +8,8 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 
 from fitting.arrays import Array
-from gui.short_name import short_name
-from gui.theme import Role, current_theme
+from gui.files.short_name import short_name
+from gui.style.theme import Role, current_theme
 
 Symbol = Literal["o", "s", "t", "t1", "d", "+", "x", "star"]
 Kind = Literal["line", "points", "band", "trace"]

@@ -15,7 +15,7 @@ from PySide6.QtGui import QAction, QImage, QPainter
 from PySide6.QtSvg import QSvgGenerator
 from PySide6.QtWidgets import QMenu
 
-from gui.asking import ask_save, tell
+from gui.widgets.asking import ask_save, tell
 from instrument.errors import system_words
 
 _PNG_SCALE = 2.0

@@ -9,7 +9,7 @@ import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
 
-from gui.theme import Role, current_theme
+from gui.style.theme import Role, current_theme
 
 LABEL_AT = 0.08
 """Of the way up a vertical line."""

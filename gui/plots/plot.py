@@ -23,7 +23,7 @@ from gui.plots.log_axis import LogAxis
 from gui.plots.marks import LABEL_AT, Marks
 from gui.plots.readout import Readout
 from gui.plots.view import View
-from gui.theme import Role, current_theme
+from gui.style.theme import Role, current_theme
 
 _LEGEND_ALPHA = 0.6
 """Of the ground behind the legend."""

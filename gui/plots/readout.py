@@ -5,7 +5,7 @@ from typing import Any
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QObject, QPointF, Qt
 
-from gui.theme import Theme, current_theme
+from gui.style.theme import Theme, current_theme
 
 _TURNS_1_S = 30
 

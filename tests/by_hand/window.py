@@ -27,11 +27,11 @@ import numpy as np
 from PySide6.QtCore import QCoreApplication, QEvent, QSettings, Qt, QTimer, qInstallMessageHandler
 from PySide6.QtWidgets import QApplication
 
-from gui.garbage import Collector
+from gui.background.garbage import Collector
+from gui.frame.settings import Settings
+from gui.frame.window import Window
 from gui.plots import Plot
-from gui.settings import Settings
-from gui.theme import Appearance
-from gui.window import Window
+from gui.style.theme import Appearance
 from instrument.engine import Order
 from instrument.simulated_case import write_case
 

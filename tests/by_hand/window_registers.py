@@ -21,10 +21,10 @@ from PySide6.QtCore import QSettings, qInstallMessageHandler
 from PySide6.QtWidgets import QApplication
 from register_runs import HAPPENINGS, one_run
 
-from gui.garbage import Collector
-from gui.settings import Settings
-from gui.theme import Appearance
-from gui.window import Window
+from gui.background.garbage import Collector
+from gui.frame.settings import Settings
+from gui.frame.window import Window
+from gui.style.theme import Appearance
 
 WITHIN_S = 0.5
 

@@ -26,12 +26,12 @@ from PySide6.QtCore import QSettings, Qt, QTimer, qInstallMessageHandler
 from PySide6.QtWidgets import QApplication, QComboBox, QLineEdit, QWidget
 from window_runs import run_until_driven
 
-from gui.background_task import BackgroundCommand
-from gui.controller import AppController
-from gui.garbage import Collector
-from gui.settings import Settings
-from gui.theme import Appearance
-from gui.window import Window
+from gui.actions.controller import AppController
+from gui.background.garbage import Collector
+from gui.background.task import BackgroundCommand
+from gui.frame.settings import Settings
+from gui.frame.window import Window
+from gui.style.theme import Appearance
 from instrument.simulated_case import write_case
 
 WITHIN_S = 0.5

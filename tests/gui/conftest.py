@@ -11,12 +11,13 @@ from session_cases import whole_session
 from warm_commands import WarmProcess
 
 from fitting.plugins import Registry
-from gui import background_task, page_set
-from gui.garbage import Collector
+from gui.background import task
+from gui.background.garbage import Collector
+from gui.frame import page_set
+from gui.frame.settings import Settings
+from gui.frame.window import Window
 from gui.pages import PAGES
-from gui.settings import Settings
-from gui.theme import Appearance
-from gui.window import Window
+from gui.style.theme import Appearance
 
 PATIENCE_MS = 120_000
 """Of a wait that would fail the test: a machine with other work to do is slow, and shows nothing by it."""
@@ -58,7 +59,7 @@ def rubbish_dies_in_the_main_thread(qapp):
 def warm_commands(forking):
     """The window's commands begin at once; with `cold` as a user's do."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(background_task, "QProcess", WarmProcess)
+        patch.setattr(task, "QProcess", WarmProcess)
         yield
 
 

@@ -7,7 +7,8 @@ from types import SimpleNamespace
 import pytest
 from PySide6.QtWidgets import QWidget
 
-from gui import application, command, export
+from gui import application, command
+from gui.actions import export
 from instrument.errors import BadInput
 from instrument.facts.written import ExportResult
 

@@ -12,7 +12,7 @@ from by_hand.window import (
     turn,
 )
 
-from gui.window import Window
+from gui.frame.window import Window
 
 MESH = "[mesh]\nelements_x = 8\nelements_y = 5\n"
 

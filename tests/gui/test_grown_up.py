@@ -7,7 +7,7 @@ import pytest
 from PySide6.QtCore import QPoint, QRect
 from PySide6.QtWidgets import QAbstractButton
 
-from gui.channels import ClipLights, role_of, words_of
+from gui.bars.channels import ClipLights, role_of, words_of
 from gui.state.readings import Readings
 from instrument.stream.raw import AcquisitionBegan, BlockAcquired
 

@@ -4,15 +4,15 @@ import pytest
 from layout_faults import layout_faults, places
 from PySide6.QtWidgets import QApplication, QCheckBox, QComboBox, QLabel, QLineEdit, QWidget
 
-from gui.background_task import BackgroundCommand, BackgroundTask
-from gui.icons import NAMES, icon
-from gui.tables import Cell, ReadTable
-from gui.theme import DARK, LIGHT, Appearance
+from gui.background.task import BackgroundCommand, BackgroundTask
+from gui.style.icons import NAMES, icon
+from gui.style.theme import DARK, LIGHT, Appearance
+from gui.widgets.tables import Cell, ReadTable
 
 ON = ("window", "base", "button", "note")
 READ = ("text", "faint", "data", "model", "second", "third", "fourth", "good", "fair", "bad")
 TICK = "#3d8fc4"
-"""Of gui/tick.svg."""
+"""Of gui/style/tick.svg."""
 LEAST_CONTRAST = 4.5
 """Of text, WCAG 2.2, 1.4.3."""
 

@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from window_runs import run_until_driven
 
-from gui.gauge import Gauge
+from gui.bars.gauge import Gauge
 from gui.state.readings import FRESH_S
 
 PATIENCE_MS = 60_000
@@ -120,7 +120,7 @@ def test_a_click_on_the_scrubber_goes_there(qtbot, opened):
 
 
 def test_compare_lays_another_session_beside_this_one(qtbot, opened, monkeypatch, session_path):
-    monkeypatch.setattr("gui.window.ask_open_many", lambda *asked: asked[-1](session_path))
+    monkeypatch.setattr("gui.frame.window.ask_open_many", lambda *asked: asked[-1](session_path))
     material = next(p for p in opened.pages if p.title == "Material")
     read = []
     monkeypatch.setattr(material.comparison, "read", read.append)

@@ -9,22 +9,22 @@ from PySide6.QtGui import QKeyEvent, QShowEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QDialog, QLabel, QMainWindow, QPushButton, QWidget
 
-from gui.controller import AppController
+from gui.actions.controller import AppController
+from gui.bars.replay_bar import ReplayBar, Scrubber
+from gui.bars.run_gauges import state_color
+from gui.bars.stop_button import StopButton
+from gui.bars.top_bar import TopBar, duration
 from gui.feeds import feed
-from gui.log_pane import LogPane
-from gui.mark import Mark
+from gui.frame.log_pane import LogPane
+from gui.frame.stop_guard import StopGuard
 from gui.page import Page
-from gui.replay_bar import ReplayBar, Scrubber
-from gui.run_gauges import state_color
 from gui.state.log import Log
 from gui.state.run import WORDS
-from gui.stop_button import StopButton
-from gui.stop_guard import StopGuard
-from gui.style_sheet import PRIMARY, style_sheet
-from gui.tables import Cell, ReadTable
-from gui.theme import DARK, LIGHT, Appearance, current_theme
-from gui.top_bar import TopBar, duration
-from gui.widgets import button, hint, tool
+from gui.style.style_sheet import PRIMARY, style_sheet
+from gui.style.theme import DARK, LIGHT, Appearance, current_theme
+from gui.widgets.basic import button, hint, tool
+from gui.widgets.mark import Mark
+from gui.widgets.tables import Cell, ReadTable
 
 NO_KEY = Qt.KeyboardModifier.NoModifier
 

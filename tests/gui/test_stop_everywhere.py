@@ -11,9 +11,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QLineEdit, QMessageBox
 from window_runs import run_until_driven
 
-from gui.background_task import BackgroundCommand
-from gui.controller import AppController
-from gui.run_commands import RunCommands
+from gui.actions.controller import AppController
+from gui.actions.run_commands import RunCommands
+from gui.background.task import BackgroundCommand
 
 WITHIN_S = 0.5
 
@@ -58,7 +58,7 @@ def stopped_from(window, dialog, stops) -> list[str]:
 
 
 def test_every_dialog_there_is_leaves_the_stop_key_and_the_button_alive(qtbot, busy, stops, monkeypatch):
-    monkeypatch.setattr("gui.printing.has_printer", lambda: True)
+    monkeypatch.setattr("gui.actions.printing.has_printer", lambda: True)
     seen: dict[str, list[str]] = {}
 
     ours = []

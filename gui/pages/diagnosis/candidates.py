@@ -13,9 +13,9 @@ from gui.pages.diagnosis.ranking import (
     group_words,
     ranked,
 )
-from gui.tables import Cell, ReadTable
-from gui.theme import Role
-from gui.widgets import button
+from gui.style.theme import Role
+from gui.widgets.basic import button
+from gui.widgets.tables import Cell, ReadTable
 from instrument.facts.diagnosis import DiagnosisResult
 
 _COLUMNS = {

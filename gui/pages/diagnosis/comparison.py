@@ -6,8 +6,8 @@ from PySide6.QtWidgets import QLabel, QSplitter, QVBoxLayout, QWidget
 from gui.pages.diagnosis.stages import ComparedMeasure, compared, laws, references_hz
 from gui.pages.law.curve import At
 from gui.pages.law.plots import LawLine, LawPlots
-from gui.tables import Cell, ReadTable
-from gui.theme import Role
+from gui.style.theme import Role
+from gui.widgets.tables import Cell, ReadTable
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import UNRELIABLE, with_verdict
 from instrument.results.numbers import format_number, with_error

@@ -7,9 +7,9 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from fitting.identification.result import doubts_of
-from gui.mark import Mark
-from gui.rediagnosis import ShownDiagnosis
-from gui.theme import Role, current_theme
+from gui.actions.rediagnosis import ShownDiagnosis
+from gui.style.theme import Role, current_theme
+from gui.widgets.mark import Mark
 from instrument.results.diagnosis_words import verdict_line
 from instrument.results.typeset import capitalised, note, typeset
 

@@ -4,8 +4,8 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from fitting.structures import AnySpecimen
 from gui.pages.run.structure_view import StructureView
-from gui.tables import Cell, ReadTable
-from gui.widgets import hint
+from gui.widgets.basic import hint
+from gui.widgets.tables import Cell, ReadTable
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.follow_up import FollowUp
 from instrument.results.next_words import NEXT_COLUMNS, next_row, separated_words

@@ -16,8 +16,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from gui.asking import ask_open
-from gui.controller import AppController
+from gui.actions.controller import AppController
+from gui.actions.rediagnosis import DiagnosisAsked, ShownDiagnosis
+from gui.files.short_name import short_name
 from gui.page import Page
 from gui.pages.diagnosis.candidates import Candidates
 from gui.pages.diagnosis.comparison import HeldOutBars, LawChange
@@ -25,11 +26,10 @@ from gui.pages.diagnosis.finding import Finding
 from gui.pages.diagnosis.next_table import NextTable
 from gui.pages.diagnosis.residual_plots import ResidualPlots
 from gui.pages.diagnosis.unseen_table import UnseenTable
-from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
-from gui.short_name import short_name
 from gui.state import SessionState
-from gui.widgets import button, hint
-from gui.work_bar import WorkBar
+from gui.widgets.asking import ask_open
+from gui.widgets.basic import button, hint
+from gui.widgets.work_bar import WorkBar
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import set_aside_words
 from instrument.results.followed import followed_lines, followed_of

@@ -7,7 +7,7 @@ from typing import Literal
 from fitting.diagnosis.verdict.kin import UNLISTED
 from fitting.digits import times
 from fitting.effects import CATALOGUE
-from gui.rediagnosis import effects_of
+from gui.actions.rediagnosis import effects_of
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import log_odds, parameter_words, probability_words
 from instrument.results.standing import Standing, standing

@@ -17,12 +17,12 @@ from PySide6.QtWidgets import (
 )
 
 from fitting.digits import two_digits
-from gui.elided import ElidedLabel
 from gui.pages.diagnosis.residual import NAMES, Panel, limit, panel, quantities, segments
 from gui.plots import Axis, Plot
 from gui.plots.curve import Symbol
-from gui.theme import Role, current_theme
-from gui.widgets import hint
+from gui.style.theme import Role, current_theme
+from gui.widgets.basic import hint
+from gui.widgets.elided import ElidedLabel
 from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageName
 from instrument.results.diagnosis_words import percent_of, segment_place
 from instrument.results.numbers import format_number

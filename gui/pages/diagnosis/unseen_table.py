@@ -2,8 +2,8 @@
 
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from gui.tables import Cell, ReadTable
-from gui.widgets import hint
+from gui.widgets.basic import hint
+from gui.widgets.tables import Cell, ReadTable
 from instrument.facts.diagnosis import DiagnosisResult, UnseenEffect
 from instrument.results.typeset import heading, typeset
 from instrument.results.unseen_words import UNSEEN_COLUMNS, unseen_row

@@ -7,7 +7,7 @@ from typing import Any
 from PySide6.QtCore import QObject, Signal
 
 from fitting.specimen import PlateSpecimen
-from gui.background_task import BackgroundTask, Progress
+from gui.background.task import BackgroundTask, Progress
 from gui.pages.hammer.findings import Averaged, Hits, Sight, modes_of
 from gui.pages.hammer.records_beside import frfs_of_records
 from instrument.hammer_test.expected import expected_modes_hz

@@ -13,7 +13,7 @@ from fitting.modal.frf import Frf
 from gui.pages.hammer.findings import Averaged, ModesFound
 from gui.pages.hammer.traces import Lines, Surroundings, accelerance
 from gui.plots import Axis, Plot
-from gui.theme import Role
+from gui.style.theme import Role
 from instrument.impact.curves import HalfPowerMarks
 from instrument.impact.spectra import Spectra
 

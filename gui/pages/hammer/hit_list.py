@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidg
 
 from gui.pages.hammer.table import ChoiceTable
 from gui.pages.hammer.words import HIT_COLUMNS, HitRow
-from gui.widgets import button
+from gui.widgets.basic import button
 
 _USUAL = 7
 """Hits of a test."""

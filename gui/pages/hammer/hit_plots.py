@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 from gui.pages.hammer.findings import Averaged, HitSeen
 from gui.pages.hammer.traces import Traces
 from gui.plots import Axis, Plot
-from gui.theme import Role
+from gui.style.theme import Role
 from instrument.files.acceleration import AccelerationUnit, acceleration_unit
 from instrument.impact.spectra import Spectra
 

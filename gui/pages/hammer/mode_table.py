@@ -6,8 +6,8 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from gui.pages.hammer.mode_words import MODE_COLUMNS, ModeRow
 from gui.pages.hammer.table import ChoiceTable
-from gui.theme import Role, current_theme
-from gui.widgets import button, hint
+from gui.style.theme import Role, current_theme
+from gui.widgets.basic import button, hint
 
 _USUAL = 8
 """Modes in the band."""

@@ -9,7 +9,7 @@ from fitting.arrays import Array
 from fitting.digits import two_digits
 from fitting.modal.frf import Refusal
 from gui.pages.hammer.findings import ModesFound
-from gui.tables import Cell, Row
+from gui.widgets.tables import Cell, Row
 from instrument.facts.damping import METHODS, DampingResult, Method, ModeFound, RatioFound
 from instrument.impact.mode import Mode
 from instrument.impact.scatter import Scatter

@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QSplitter, QStackedLayout, QVBoxLayout, QWidget
 
 from fitting.arrays import Array
 from fitting.modal.frf import Frf
-from gui.controller import AppController
+from gui.actions.controller import AppController
 from gui.page import Page
 from gui.pages.hammer.bench import Bench
 from gui.pages.hammer.choice import WhatIf, overruled, standing_of
@@ -18,7 +18,7 @@ from gui.pages.hammer.mode_table import ModeTable
 from gui.pages.hammer.mode_words import advice_of, agree, mode_rows, number_of
 from gui.pages.hammer.words import hit_rows, prompt_of, source_of, treated_words
 from gui.state import SessionState
-from gui.widgets import hint
+from gui.widgets.basic import hint
 from instrument.engine import Engine
 from instrument.session.contents import RecordedHit
 

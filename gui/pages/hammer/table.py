@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QSignalBlocker, QSize, Signal
 
-from gui.tables import ReadTable, Row
+from gui.widgets.tables import ReadTable, Row
 
 
 class ChoiceTable(ReadTable):

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from gui.pages.hammer.choice import WhatIf
 from gui.pages.hammer.findings import Averaged
 from gui.state.run import Run
-from gui.tables import Cell, Row
-from gui.theme import Role
+from gui.style.theme import Role
+from gui.widgets.tables import Cell, Row
 from instrument.session.contents import RecordedHit
 from instrument.stream.derived import StruckFound
 

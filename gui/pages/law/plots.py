@@ -13,7 +13,7 @@ from gui.pages.law.curve import LawCurve
 from gui.plots import Axis, Plot
 from gui.plots.corner import emptiest_corner
 from gui.plots.legend_lines import break_names
-from gui.theme import Role
+from gui.style.theme import Role
 
 _BANDS = {"± 1 standard error": 1.0, "95 % (± 1.96 standard errors)": Z_95}
 

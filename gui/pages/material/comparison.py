@@ -6,14 +6,14 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QVBoxLayout, QWidget
 
-from gui.asking import ask_open_many
-from gui.background_task import BackgroundTask, Progress
+from gui.background.task import BackgroundTask, Progress
+from gui.files.short_name import short_name
 from gui.pages.law.plots import LawLine
 from gui.pages.material.compared import PAPER, ComparedLaw, paper_law, recorded_laws
-from gui.short_name import short_name
-from gui.tables import Cell, ReadTable
-from gui.theme import Role
-from gui.widgets import button, hint
+from gui.style.theme import Role
+from gui.widgets.asking import ask_open_many
+from gui.widgets.basic import button, hint
+from gui.widgets.tables import Cell, ReadTable
 from instrument.interchange.given import SESSION_ENDINGS
 
 _LOOKS: tuple[tuple[Role, bool], ...] = (

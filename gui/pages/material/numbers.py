@@ -9,8 +9,8 @@ import numpy as np
 from fitting.digits import two_digits
 from fitting.identification.uncertainty import limits_reached
 from fitting.laws import CoreLaw
+from gui.actions.together import Fitted
 from gui.pages.law.curve import At, LawCurve, places_hz
-from gui.together import Fitted
 from instrument.facts.diagnosis import StageFitted
 from instrument.results.numbers import format_number, with_error
 from instrument.stream.derived import FitUpdated

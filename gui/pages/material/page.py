@@ -7,8 +7,9 @@ from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSplitter, QTabWidget, QTextBrowser, QVBoxLayout
 
 from fitting.identification.result import doubts_of
-from gui.controller import AppController
-from gui.mark import Mark
+from gui.actions.controller import AppController
+from gui.actions.rediagnosis import ShownDiagnosis
+from gui.actions.together import Fitted
 from gui.page import Page
 from gui.pages.law.curve import LawCurve, joined, resonances_hz
 from gui.pages.law.plots import LawLine, LawPlots
@@ -17,9 +18,8 @@ from gui.pages.material.numbers import headline, parameters, places
 from gui.pages.material.tables import Correlations, Parameters, Places
 from gui.pages.together.numbers import count_of
 from gui.pages.together.numbers import headline as headline_together
-from gui.rediagnosis import ShownDiagnosis
 from gui.state import SessionState
-from gui.together import Fitted
+from gui.widgets.mark import Mark
 from instrument.facts.diagnosis import StageFitted
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.session_result import SessionResult

@@ -4,12 +4,12 @@ from math import isfinite
 
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
+from gui.actions.together import Fitted
 from gui.pages.law.curve import At
 from gui.pages.material.numbers import STRONG, Parameter, Place, correlation_rows, labelled
-from gui.tables import Cell, ReadTable
-from gui.theme import Role
-from gui.together import Fitted
-from gui.widgets import hint
+from gui.style.theme import Role
+from gui.widgets.basic import hint
+from gui.widgets.tables import Cell, ReadTable
 from instrument.results.numbers import with_error
 
 _PLACES = {

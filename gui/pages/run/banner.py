@@ -6,8 +6,8 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QWidget
 
 from fitting.specimen import PlateSpecimen
 from gui.pages.run.plate_view import PlateView
-from gui.theme import current_theme
-from gui.widgets import button
+from gui.style.theme import current_theme
+from gui.widgets.basic import button
 
 ANSWERS = {
     "mount": "It is mounted",

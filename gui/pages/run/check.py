@@ -7,11 +7,11 @@ from typing import Any
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
-from gui.one_command import OneCommand
-from gui.tables import Cell, ReadTable
-from gui.theme import current_theme
-from gui.top_bar import duration
-from gui.widgets import hint
+from gui.background.one_command import OneCommand
+from gui.bars.top_bar import duration
+from gui.style.theme import current_theme
+from gui.widgets.basic import hint
+from gui.widgets.tables import Cell, ReadTable
 from instrument.facts.check import CheckResult, SegmentForecast
 
 _COLUMNS = {

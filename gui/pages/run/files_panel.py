@@ -15,13 +15,13 @@ from PySide6.QtWidgets import (
 )
 
 from fitting.specimen import Kind
-from gui.asking import ask_open, ask_save, ask_unsaved, show
-from gui.background_task import BackgroundTask, Progress
+from gui.background.task import BackgroundTask, Progress
 from gui.form.drafts import Drafts
 from gui.form.form import Form
 from gui.pages.run.disk_watch import DiskWatch
 from gui.pages.run.new_case import NewCase, write
-from gui.widgets import button, hint
+from gui.widgets.asking import ask_open, ask_save, ask_unsaved, show
+from gui.widgets.basic import button, hint
 
 _FOLDER = "viscorig-experiment"
 _KINDS = "Experiments (*.toml);;Everything (*)"

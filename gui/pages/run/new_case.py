@@ -15,8 +15,8 @@ from PySide6.QtWidgets import (
 )
 
 from fitting.specimen import Kind
-from gui.asking import ask_folder
-from gui.widgets import button
+from gui.widgets.asking import ask_folder
+from gui.widgets.basic import button
 from instrument.errors import BadInput, system_words
 from instrument.files.new_file import EXPERIMENT, SPECIMENS, write_real
 from instrument.simulated_case import DEFAULT_EFFECT, EFFECTS, FILES, chosen_effect, write_case

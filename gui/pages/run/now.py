@@ -5,16 +5,16 @@ from pathlib import Path
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
-from gui.channels import ChannelTable
-from gui.controller import BROKEN_OFF, AppController
+from gui.actions.controller import BROKEN_OFF, AppController
+from gui.bars.channels import ChannelTable
+from gui.bars.gauge import Gauge
+from gui.bars.run_gauges import RunGauges, run_color
 from gui.feeds.live import LiveFeed
-from gui.gauge import Gauge
 from gui.pages.run.overrule import OverruleRow
-from gui.run_gauges import RunGauges, run_color
 from gui.state import SessionState
-from gui.tables import Cell, ReadTable
-from gui.theme import Role
-from gui.widgets import hint
+from gui.style.theme import Role
+from gui.widgets.basic import hint
+from gui.widgets.tables import Cell, ReadTable
 from instrument.check.forecast import distinct
 from instrument.engine.messages import Ended
 from instrument.files.acceleration import acceleration_unit

@@ -2,9 +2,9 @@
 
 from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QWidget
 
-from gui.run_commands import RunCommands
+from gui.actions.run_commands import RunCommands
 from gui.state import SessionState
-from gui.widgets import button
+from gui.widgets.basic import button
 
 _STEP_HZ = 0.1
 

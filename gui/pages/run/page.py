@@ -10,9 +10,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QMenu, QSplitter, QTabWidget, QVBoxLayout, QWidget
 
 from fitting.specimen import PlateSpecimen
-from gui.background_task import BackgroundTask, Progress
-from gui.controller import AppController
-from gui.export import Export
+from gui.actions.controller import AppController
+from gui.actions.export import Export
+from gui.background.task import BackgroundTask, Progress
 from gui.form.fields import Place
 from gui.page import Page
 from gui.pages.run.banner import Banner
@@ -22,7 +22,7 @@ from gui.pages.run.now import NowPane
 from gui.pages.run.start_panel import StartPanel
 from gui.pages.run.structure_view import Drawing
 from gui.state import SessionState
-from gui.widgets import button
+from gui.widgets.basic import button
 from instrument.engine.messages import Ended, OperatorAsked
 from instrument.facts.check import CheckResult
 from instrument.session.configuration import Configuration

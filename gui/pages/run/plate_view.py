@@ -10,7 +10,7 @@ from fitting.specimen import PlateSpecimen
 from gui.form.draft import Draft
 from gui.form.drafts import Drafts
 from gui.form.fields import Place
-from gui.theme import Role, Theme, current_theme
+from gui.style.theme import Role, Theme, current_theme
 
 _ROOM_PX, _SKETCH_ROOM_PX = 44, 22
 _MARK_PX = 7

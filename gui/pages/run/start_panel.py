@@ -15,9 +15,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from gui.asking import ask_folder
 from gui.form.drafts import Drafts
-from gui.widgets import button
+from gui.widgets.asking import ask_folder
+from gui.widgets.basic import button
 from instrument.engine import Order
 from instrument.run.part import Part
 

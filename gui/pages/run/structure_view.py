@@ -12,7 +12,7 @@ from fitting.structures import AnySpecimen
 from gui.form.draft import Draft
 from gui.form.drafts import Drafts
 from gui.pages.run.plate_view import PlateView
-from gui.theme import Role, Theme, current_theme
+from gui.style.theme import Role, Theme, current_theme
 from instrument.errors import BadInput
 from instrument.files.structure_file import AnyDocument, described
 from instrument.results.sketch import Arrow, Box, Kind, Mark, MarkKind, View, sketch_of

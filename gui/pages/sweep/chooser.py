@@ -4,7 +4,7 @@ from PySide6.QtCore import QEvent, QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QListWidget, QListWidgetItem, QWidget
 
 from gui.pages.sweep.segments import SegmentStatus
-from gui.theme import Role, current_theme
+from gui.style.theme import Role, current_theme
 
 _COLORS: dict[str, Role] = {"planned": "faint", "running": "data", "broken off": "bad", "done": "text"}
 

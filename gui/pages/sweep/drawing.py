@@ -10,7 +10,7 @@ from gui.pages.sweep.panes import CHOSEN, Pointed, beside_look
 from gui.pages.sweep.predicted import Predicted
 from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis
-from gui.theme import Role
+from gui.style.theme import Role
 
 FREQUENCY = Axis("Frequency", "Hz")
 FORESEEN = "foreseen, law to start from"

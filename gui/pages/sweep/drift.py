@@ -11,7 +11,7 @@ from gui.pages.sweep.panes import CHOSEN, Pointed, align, hide_foot
 from gui.pages.sweep.points import Group
 from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis
-from gui.widgets import hint
+from gui.widgets.basic import hint
 from instrument.stream.derived import SentinelCompared
 
 _TIME = Axis("Time since the session began", "min")

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
-from gui.background_task import BackgroundTask, Progress
+from gui.background.task import BackgroundTask, Progress
 from instrument.session.dwell import DwellSamples, dwell_of
 from instrument.session.storage import SessionFile
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, QTemporaryDir, QTimer, Signal
 
-from gui.one_command import OneCommand
+from gui.background.one_command import OneCommand
 from gui.pages.sweep.curve import Curve, grid, regions_of
 from gui.state import SessionState
 from instrument.check.piece import Region

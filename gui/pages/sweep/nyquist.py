@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from gui.pages.sweep.panes import CHOSEN, SIGNS, Key, Pointed, beside_key, beside_look, keyed
 from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis
-from gui.theme import Role
+from gui.style.theme import Role
 
 
 class NyquistPane(QWidget):

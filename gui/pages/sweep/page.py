@@ -7,7 +7,8 @@ from PySide6.QtWidgets import QCheckBox, QSplitter, QStackedLayout, QTabWidget, 
 
 from fitting.digits import two_digits
 from fitting.gravity import PUBLISHED_G_M_S2
-from gui.controller import AppController
+from gui.actions.controller import AppController
+from gui.actions.rediagnosis import ShownDiagnosis
 from gui.page import Page
 from gui.pages.sweep.chooser import Chooser
 from gui.pages.sweep.drift import DriftPane
@@ -24,9 +25,8 @@ from gui.pages.sweep.samples import SamplesPane
 from gui.pages.sweep.seen import PaneContents
 from gui.pages.sweep.segments import standings
 from gui.pages.sweep.step import StepPane
-from gui.rediagnosis import ShownDiagnosis
 from gui.state import SessionState
-from gui.widgets import hint
+from gui.widgets.basic import hint
 from instrument.check.piece import Region
 from instrument.results.diagnosis_words import UNKNOWN
 from instrument.results.session_result import BEFORE_DIAGNOSIS

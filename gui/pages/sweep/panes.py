@@ -9,11 +9,11 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from fitting.arrays import Array
+from gui.files.short_name import short_name
 from gui.pages.sweep.points import Group, Index
 from gui.plots import Axis, Plot
 from gui.plots.curve import Symbol
-from gui.short_name import short_name
-from gui.theme import Role, current_theme
+from gui.style.theme import Role, current_theme
 
 CHOSEN = "point looked at"
 _MARGIN = 0.04

@@ -20,7 +20,7 @@ from instrument.stepped_sine.settings import SweepSettings
 
 if TYPE_CHECKING:
     from gui.plots.curve import Symbol
-    from gui.theme import Role
+    from gui.style.theme import Role
 
 Index = NDArray[np.intp]
 

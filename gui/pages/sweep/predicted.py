@@ -7,8 +7,8 @@ from typing import Self
 import numpy as np
 
 from fitting.arrays import Array, Mask
+from gui.actions.rediagnosis import ShownDiagnosis
 from gui.pages.sweep.points import Index, PointsMeasured
-from gui.rediagnosis import ShownDiagnosis
 from instrument.facts.diagnosis import PointLeft, Residual
 from instrument.facts.identification import PointFitted
 from instrument.results.standing import law_words, stage_before

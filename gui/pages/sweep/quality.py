@@ -11,7 +11,7 @@ from gui.pages.sweep.panes import CHOSEN, Key, Pointed, align, channel, hide_foo
 from gui.pages.sweep.points import Channel
 from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis
-from gui.theme import Role
+from gui.style.theme import Role
 from instrument.stepped_sine.settings import SweepSettings
 
 _FREQUENCY = Axis("Frequency", "Hz")

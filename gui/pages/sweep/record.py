@@ -5,8 +5,8 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from gui.pages.sweep.record_lines import RecordLine, record_lines
 from gui.pages.sweep.seen import PaneContents
-from gui.tables import Cell, ReadTable
-from gui.widgets import hint, tool
+from gui.widgets.basic import hint, tool
+from gui.widgets.tables import Cell, ReadTable
 from instrument.stepped_sine.settings import SweepSettings
 
 _NONE = (

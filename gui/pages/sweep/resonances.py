@@ -9,7 +9,7 @@ from gui.pages.sweep.drawing import EXPLAINED_ROLE, FORESEEN, FREQUENCY, draw_am
 from gui.pages.sweep.panes import SIGNS, Key, Pointed, beside_key
 from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis
-from gui.theme import Role
+from gui.style.theme import Role
 from instrument.check.piece import Region
 
 _A_ROW = 3

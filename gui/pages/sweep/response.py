@@ -18,7 +18,7 @@ from gui.pages.sweep.panes import Pointed, align
 from gui.pages.sweep.resonances import ResonancePanes
 from gui.pages.sweep.seen import PaneContents, Quantity, Way
 from gui.plots import Axis
-from gui.widgets import tool
+from gui.widgets.basic import tool
 
 _LEAST_PX = 80
 _SHOWN: dict[str, Quantity] = {

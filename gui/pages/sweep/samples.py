@@ -10,7 +10,7 @@ from gui.pages.sweep.dwells import Dwells
 from gui.pages.sweep.panes import align, span
 from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis, Plot
-from gui.widgets import hint
+from gui.widgets.basic import hint
 from instrument.files.acceleration import AccelerationUnit, acceleration_unit
 from instrument.session.dwell import DwellSamples
 

@@ -5,14 +5,14 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QGridLayout, QLabel, QSplitter, QVBoxLayout, QWidget
 
 from fitting.digits import two_digits
-from gui.elided import ElidedLabel
 from gui.pages.sweep.following import Following, latest_cycles, words
 from gui.pages.sweep.panes import Key, align, hide_foot, keyed, span
 from gui.plots import Axis, Plot
 from gui.state import SessionState
 from gui.state.step import Step
-from gui.theme import Role
-from gui.widgets import hint
+from gui.style.theme import Role
+from gui.widgets.basic import hint
+from gui.widgets.elided import ElidedLabel
 from instrument.files.acceleration import acceleration_unit
 from instrument.stepped_sine.settings import SweepSettings
 

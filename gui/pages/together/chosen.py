@@ -7,16 +7,16 @@ from PySide6.QtCore import QModelIndex, QObject, Qt, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
-from gui.background_task import BackgroundTask, Progress
-from gui.file_stamp import Stamp
-from gui.mark import Mark
+from gui.actions.taking_together import ask_hammer, ask_specimen, ask_together
+from gui.actions.together import Together
+from gui.background.task import BackgroundTask, Progress
+from gui.files.file_stamp import Stamp
+from gui.files.pairing import SPECIMEN_ENDING, PairedFile, fault_of
+from gui.files.short_name import short_name
 from gui.pages.together.looked import Looked, look
-from gui.pairing import SPECIMEN_ENDING, PairedFile, fault_of
-from gui.short_name import short_name
-from gui.tables import Cell, ReadTable
-from gui.taking_together import ask_hammer, ask_specimen, ask_together
-from gui.together import Together
-from gui.widgets import button, tool
+from gui.widgets.basic import button, tool
+from gui.widgets.mark import Mark
+from gui.widgets.tables import Cell, ReadTable
 from instrument.interchange.given import is_session
 
 _COLUMNS = {

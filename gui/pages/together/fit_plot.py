@@ -6,12 +6,12 @@ import numpy as np
 from PySide6.QtCore import QSignalBlocker
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
+from gui.files.short_name import short_name
 from gui.pages.together.fits import FAR_STD, FittedFile
 from gui.plots import Axis, Plot
 from gui.plots.curve import Symbol
-from gui.short_name import short_name
-from gui.theme import Role
-from gui.widgets import hint
+from gui.style.theme import Role
+from gui.widgets.basic import hint
 from instrument.results.set_aside import NAME
 
 _ROLES: tuple[Role, ...] = ("data", "model", "second", "third", "fourth")

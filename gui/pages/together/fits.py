@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from fitting.arrays import Array, Mask
-from gui.together import Fitted
+from gui.actions.together import Fitted
 from instrument.facts.diagnosis import DiagnosisResult, PointLeft, StageName
 from instrument.facts.identification import IdentificationResult, PointFitted
 from instrument.facts.modal import ModalResult

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from fitting.arrays import Array
 from fitting.structures import AnySpecimen, Beam
 from fitting.structures.shear_pair import ShearPair
-from gui.pairing import PairedFile
+from gui.files.pairing import PairedFile
 from instrument.files.modal_table import is_modal_table, read_modal_table
 from instrument.files.structure_file import read_structure
 from instrument.interchange.given import read_given

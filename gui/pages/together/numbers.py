@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from fitting.data.aside import DISTURBED
 from fitting.diagnosis.several.of_files import ALIKE, EACH, FILE
+from gui.actions.together import Fitted
+from gui.files.short_name import short_name
 from gui.pages.together.fits import FAR_STD, FittedFile
-from gui.short_name import short_name
-from gui.together import Fitted
 from instrument.facts.diagnosis import CandidateFitted, DiagnosisResult
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.modal import ModalResult

@@ -16,8 +16,9 @@ from PySide6.QtWidgets import (
 )
 
 from fitting.identification.result import doubts_of
-from gui.controller import AppController
-from gui.mark import Mark
+from gui.actions.controller import AppController
+from gui.actions.taking_together import paths_of
+from gui.files.pairing import fault_of
 from gui.page import Page
 from gui.pages.diagnosis.finding import Finding
 from gui.pages.together.chosen import ChosenFiles
@@ -33,11 +34,10 @@ from gui.pages.together.numbers import (
 )
 from gui.pages.together.saving import Saving
 from gui.pages.together.tables import CandidatesTable, LeftTable, NumbersTable
-from gui.pairing import fault_of
 from gui.state import SessionState
-from gui.taking_together import paths_of
-from gui.widgets import button, hint
-from gui.work_bar import WorkBar
+from gui.widgets.basic import button, hint
+from gui.widgets.mark import Mark
+from gui.widgets.work_bar import WorkBar
 from instrument.facts.diagnosis import DiagnosisResult, StageName
 from instrument.facts.modal import ModalResult
 from instrument.results.standing import law_words, stage_before

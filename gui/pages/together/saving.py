@@ -5,11 +5,11 @@ from pathlib import Path
 
 from PySide6.QtWidgets import QWidget
 
-from gui.asking import ask_save
-from gui.background_task import BackgroundTask, Progress
-from gui.pairing import PairedFile
-from gui.together import Together
-from gui.writing import Writing
+from gui.actions.together import Together
+from gui.background.task import BackgroundTask, Progress
+from gui.background.writing import Writing
+from gui.files.pairing import PairedFile
+from gui.widgets.asking import ask_save
 from instrument.errors import BadInput
 from instrument.facts.result import Result
 from instrument.files.result_file import write_result

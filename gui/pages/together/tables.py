@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from gui.pages.together.numbers import CandidateRow, LeftRow, NumberRow
-from gui.tables import Cell, ReadTable
+from gui.widgets.tables import Cell, ReadTable
 
 _NUMBERS = {
     "number": "What was stated of specimen and channels",

@@ -5,11 +5,11 @@ from following_cases import BACKWARDS, SPOT
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 
+from gui.actions.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from gui.pages.diagnosis import DiagnosisPage
 from gui.pages.diagnosis.next_table import NextTable
 from gui.pages.diagnosis.unseen_table import UnseenTable
 from gui.pages.material import MaterialPage
-from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from instrument.facts.follow_up import FollowUp
 from instrument.results.next_words import advice
 

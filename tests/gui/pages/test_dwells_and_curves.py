@@ -9,7 +9,7 @@ import pytest
 from PySide6.QtCore import QObject, Signal
 from sessions import configuration
 
-from gui import one_command
+from gui.background import one_command
 from gui.pages.sweep import dwells as reading
 from gui.pages.sweep import model as computing
 from gui.pages.sweep.curve import grid

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 from PySide6.QtWidgets import QMessageBox
 
-from gui.controller import AppController
+from gui.actions.controller import AppController
 from gui.form.drafts import Drafts
 from gui.pages.run import RunPage
 from gui.pages.run.check import Check

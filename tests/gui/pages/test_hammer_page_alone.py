@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, Signal
 from sessions import configuration
 from struck_cases import struck
 
-from gui.controller import AppController
+from gui.actions.controller import AppController
 from gui.pages.hammer import HammerPage
 from gui.pages.hammer import page as module
 from instrument.files.experiment_file import Hammer

@@ -9,8 +9,8 @@ from gui.pages.hammer.mode_table import ModeTable
 from gui.pages.hammer.mode_words import MODE_COLUMNS, ModeRow
 from gui.pages.hammer.table import ChoiceTable
 from gui.pages.hammer.words import HIT_COLUMNS, HitRow
-from gui.tables import Cell
-from gui.theme import LIGHT
+from gui.style.theme import LIGHT
+from gui.widgets.tables import Cell
 
 
 def hit(number, *, used):

@@ -8,7 +8,7 @@ from diagnosis_cases import diagnosis
 from result_cases import identification
 
 from fitting.numerics.chances import Z_95
-from gui.elided import ElidedLabel
+from gui.actions.rediagnosis import AMBIGUOUS, DiagnosisAsked, ShownDiagnosis
 from gui.pages.diagnosis.candidates import Candidates
 from gui.pages.diagnosis.comparison import HeldOutBars, LawChange
 from gui.pages.diagnosis.finding import Finding, headline
@@ -18,7 +18,7 @@ from gui.pages.diagnosis.stages import compared
 from gui.pages.law.curve import LawCurve
 from gui.pages.law.plots import LawLine, LawPlots
 from gui.pages.material.page import diagnosed_lines, notes_of
-from gui.rediagnosis import AMBIGUOUS, DiagnosisAsked, ShownDiagnosis
+from gui.widgets.elided import ElidedLabel
 
 
 def test_the_shaded_band_is_as_wide_as_chosen(made):

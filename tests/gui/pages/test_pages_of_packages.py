@@ -5,10 +5,10 @@ import logging
 import pytest
 from PySide6.QtCore import Qt
 
-import gui.page_set
+import gui.frame.page_set
 from fitting.plugins import Registry
+from gui.frame.window import Window
 from gui.pages import PAGES
-from gui.window import Window
 
 PAGE = """
 from gui.page import Page
@@ -40,7 +40,7 @@ def opened(package, monkeypatch, qtbot, appearance, settings, caplog):
     def open_with(**pages):
         package("pages-one", PAGE, pages=pages)
         fresh = Registry(PAGES.group, PAGES._own, PAGES._judge)
-        monkeypatch.setattr(gui.page_set, "PAGES", fresh)
+        monkeypatch.setattr(gui.frame.page_set, "PAGES", fresh)
         window = Window(appearance, settings)
         qtbot.addWidget(window)
         window.show()

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import pytest
 from sessions import configuration
 
-from gui.controller import AppController
+from gui.actions.controller import AppController
 from gui.form import draft
 from gui.form.fields import form_of
 from gui.pages.run import RunPage

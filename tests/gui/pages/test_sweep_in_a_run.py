@@ -4,7 +4,7 @@ from session_cases import SyntheticSession, configuration
 from sessions import point
 from sweep_views import LEFT, fed, shown
 
-from gui.controller import AppController
+from gui.actions.controller import AppController
 from gui.pages.sweep import SweepPage
 from gui.pages.sweep.curve import Curve, CurveStretch, grid
 from gui.pages.sweep.drawing import FORESEEN

@@ -7,9 +7,9 @@ from diagnosis_cases import diagnosis
 from PySide6.QtCore import Qt
 from sweep_views import LEFT, click_point, click_segment, shown, value
 
+from gui.actions.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from gui.pages.sweep.drawing import FORESEEN
-from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
-from gui.theme import DARK, LIGHT
+from gui.style.theme import DARK, LIGHT
 from instrument.stepped_sine.sine_fit import sine_fit
 
 pytestmark = pytest.mark.pages("run", "sweep")

@@ -8,6 +8,7 @@ from diagnosis_cases import diagnosis
 from result_cases import identification
 from sessions import point
 
+from gui.actions.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from gui.pages.sweep.drawing import draw_amplitude, draw_phase
 from gui.pages.sweep.panes import Pointed
 from gui.pages.sweep.points import PointsMeasured
@@ -15,7 +16,6 @@ from gui.pages.sweep.predicted import Predicted, taken_of
 from gui.pages.sweep.record_lines import record_lines
 from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis
-from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from instrument.facts.diagnosis import PointLeft, Residual
 from instrument.facts.identification import PointFitted
 from instrument.session.contents import TimedPoint

@@ -7,6 +7,7 @@ from pair_files import write_pair
 from result_cases import identification
 
 from fitting.data.aside import DISTURBED, LOST
+from gui.files.pairing import PairedFile
 from gui.pages.together.fits import FAR_STD, fitted_files, has_stages
 from gui.pages.together.looked import look
 from gui.pages.together.numbers import (
@@ -18,7 +19,6 @@ from gui.pages.together.numbers import (
     owner_lines,
     owners,
 )
-from gui.pairing import PairedFile
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import CandidateFitted, EffectFound, ParameterFound, PointLeft, Residual
 from instrument.facts.modal import ModalResult

@@ -11,6 +11,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QFileDialog
 from rivals import all_but
 
+from gui.actions.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from gui.pages.material import MaterialPage
 from gui.pages.together import TogetherPage
 from gui.pages.together.chosen import ChosenFiles
@@ -18,7 +19,6 @@ from gui.pages.together.fit_plot import FitPlot
 from gui.pages.together.fits import fitted_files
 from gui.pages.together.saving import Saving
 from gui.pages.together.tables import CandidatesTable, LeftTable, NumbersTable
-from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from instrument.cli.main import run
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.identification import IdentificationResult

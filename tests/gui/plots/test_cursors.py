@@ -5,7 +5,7 @@ import pytest
 
 from gui.plots import Axis, Plot
 from gui.plots.cursors import Cursors
-from gui.theme import DARK
+from gui.style.theme import DARK
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ def loaded(*names):
 for command in ("identify", "diagnose", "predict", "plan", "check"):
     import_module(f"instrument.cli.{command}")
 print(loaded("matplotlib", "pymodbus", "httpx", "drivers.simulated.rig", "instrument.run.experiment"))
-import gui.window, instrument.engine.process
+import gui.frame.window, instrument.engine.process
 print(loaded("matplotlib", "drivers.simulated.rig", "scipy.stats"))
 """
 

@@ -1,0 +1,1 @@
+"""How the window looks: colours, size of type, edges, signs. On nothing else of `gui`."""

@@ -1,0 +1,1 @@
+"""Small widgets, and questions to a person, that know of no session. On `style` alone."""
