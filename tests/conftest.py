@@ -6,19 +6,18 @@ import signal
 import subprocess
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 import warm_processes
 from hypothesis import settings
+from paper_law import TABLE_4
 from plugin_sites import describe
 
 from fitting import plugins
 from fitting.discrepancy import model_error
 from fitting.discrepancy.mesh_error import MeshError
 from fitting.laws.constant import ConstantModulus
-from fitting.laws.fractional_zener import FractionalZener
 from fitting.plate.plate import Plate
 from fitting.reduced.domain import domain_of
 from fitting.specimen import PlateSpecimen
@@ -35,9 +34,6 @@ settings.load_profile("ci")
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     # A run in the background of a shell ignores Ctrl-C, and so would every command it starts.
     signal.signal(signal.SIGINT, signal.default_int_handler)
-
-TABLE_4 = FractionalZener(g0_pa=0.27e6, ginf_pa=4.1e6, tau_s=1.21e-4, alpha=0.83)
-DATA = Path(__file__).parent / "data"
 
 
 @pytest.hookimpl(wrapper=True)

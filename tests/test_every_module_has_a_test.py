@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 TESTS = Path(__file__).parent
+HELPERS = TESTS / "helpers"
 ROOT = TESTS.parent
 ROOMS = ("viscorig", "instrument", "drivers", "gui", "fitting", "campaign")
 
@@ -61,13 +62,13 @@ def reached(room, module, name):
 
 
 def files_of(room):
-    """The room's tests, and what of the tests' own helpers they import."""
-    waiting, found = list((TESTS / room).rglob("*.py")), set()
+    """The room's tests, the fixtures of all rooms, and what of the tests' own helpers they import."""
+    waiting, found = [TESTS / "conftest.py", *(TESTS / room).rglob("*.py")], set()
     while waiting:
         path = waiting.pop()
         if path not in found:
             found.add(path)
-            waiting += [p for module, _ in imports(path) if (p := TESTS / f"{module}.py").is_file()]
+            waiting += [p for module, _ in imports(path) if (p := HELPERS / f"{module}.py").is_file()]
     return found
 
 

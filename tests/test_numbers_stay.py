@@ -10,7 +10,7 @@ import shutil
 
 import numpy as np
 import pytest
-from conftest import DATA
+from data_folder import DATA
 from kept_numbers import KEPT, differences, lasting, store, storing
 from threadpoolctl import threadpool_limits
 

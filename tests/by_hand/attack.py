@@ -18,11 +18,11 @@ import traceback
 from collections import Counter
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 
 from attacked_files import COMMANDS, SLOW, write_files
 from attacks import faults_of, spoil
-from conftest import DATA
+from data_folder import DATA
 
 from instrument.cli.main import run
 

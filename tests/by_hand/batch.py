@@ -17,7 +17,7 @@ from time import perf_counter
 
 import click
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 from batch_cases import write_sessions, write_specimen, write_sweeps
 
 from instrument.progress import LINES

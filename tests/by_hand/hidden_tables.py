@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 import scipy.linalg as la
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 from mode_cases import FINE, read_off
 
 from campaign.law import TrueLaw

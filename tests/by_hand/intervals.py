@@ -15,7 +15,7 @@ from time import process_time
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 from interval_cases import draw
 
 from fitting.depth.bootstrap import bootstrap

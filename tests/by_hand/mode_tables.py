@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 from beam_tables import BEAM, fit_modes, poles_of
 from mode_cases import TRUTH, read_off, solid_modes, stated
 

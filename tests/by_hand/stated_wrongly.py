@@ -22,10 +22,10 @@ from typing import Any
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 
 import shear_pair_cases
-from conftest import DATA
+from data_folder import DATA
 
 from campaign.beams.cases import draw_case as draw_beam
 from campaign.plates.answers import Answer, Band, answer_from, band_from

@@ -18,7 +18,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 
 from engine_cases import LONG, drive_v, engine_rig, is_silent
 from openers import aside, click, close_all, close_popups, dialogs, openers, popups, press

@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from conftest import DATA
+from data_folder import DATA
 
 from fitting.gravity import PUBLISHED_G_M_S2, STANDARD_GRAVITY_M_S2
 

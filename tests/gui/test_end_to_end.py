@@ -12,7 +12,7 @@ import pytest
 
 from instrument.simulated_case import write_case
 
-DRIVER = Path(__file__).parents[1] / "window_driver.py"
+DRIVER = Path(__file__).parents[1] / "helpers" / "window_driver.py"
 EXPERIMENT = """
 specimen = "specimen.toml"
 rig = "rig.toml"

@@ -8,7 +8,7 @@ import sys
 
 import numpy as np
 import pytest
-from conftest import DATA
+from data_folder import DATA
 from plugin_sites import EXAMPLES, ROOT, python
 
 from instrument.session.storage import SessionFile

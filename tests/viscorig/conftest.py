@@ -4,7 +4,7 @@ import json
 
 import matplotlib as mpl
 import pytest
-from conftest import DATA
+from data_folder import DATA
 from session_cases import session_path as session_path
 
 import viscorig as vr

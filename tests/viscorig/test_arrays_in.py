@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import DATA
+from data_folder import DATA
 from impact_cases import RATE, clean_hit
 from uff_files import ratio_set, write_sets
 

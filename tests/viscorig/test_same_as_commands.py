@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import DATA
+from data_folder import DATA
 from impact_cases import clean_hit, noisy_hits
 from rivals import all_but
 from timeless import timeless

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import DATA
+from data_folder import DATA
 from timeless import timeless
 
 import viscorig as vr

@@ -4,11 +4,11 @@ import json
 
 import numpy as np
 import pytest
-from conftest import TABLE_4
 from diagnosis_cases import diagnosis
 from found_law_cases import facts
 from hypothesis import given
 from hypothesis import strategies as st
+from paper_law import TABLE_4
 
 from fitting.numerics.chances import Z_95
 from instrument.errors import BadInput

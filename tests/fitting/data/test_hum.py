@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import DATA
+from data_folder import DATA
 
 from fitting.data.hum import mains_hum
 from fitting.data.noise import Noise, noise_of

@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import DATA
+from data_folder import DATA
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import DATA
+from data_folder import DATA
 
 from fitting.data.noise import around, noise_of, noises_of, scatter_of_left
 from fitting.sweep import Sweep, resonance_points, segments_by_gap

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import TABLE_4
+from paper_law import TABLE_4
 from threadpoolctl import threadpool_limits
 
 from fitting.data.noise import noise_of

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import DATA
+from data_folder import DATA
 from scipy.optimize import least_squares
 from threadpoolctl import threadpool_limits
 

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from conftest import TABLE_4
+from paper_law import TABLE_4
 
 from fitting.dynamics.damping import viscous_damping
 from fitting.dynamics.direct import displacement_direct

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import DATA
+from data_folder import DATA
 
 from fitting.diagnosis.diagnose import seen_in_channels
 from fitting.effects import CATALOGUE

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import scipy.sparse as sp
-from conftest import TABLE_4
+from paper_law import TABLE_4
 from scipy.sparse.linalg import eigsh
 
 from fitting.dynamics.bare_modes import (

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import TABLE_4
+from paper_law import TABLE_4
 
 from fitting.identification.known_curve import known_curve, known_of_mixture
 from fitting.laws.bent_law import BentLaw

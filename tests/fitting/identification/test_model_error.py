@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import DATA
+from data_folder import DATA
 
 from fitting.data.noise import noise_of
 from fitting.diagnosis.inference.begin import begin

@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import TABLE_4
+from paper_law import TABLE_4
 
 from fitting.errors import TooFewPoints
 from fitting.identification import paper

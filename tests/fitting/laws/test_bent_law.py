@@ -2,9 +2,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import TABLE_4
 from hypothesis import given
 from hypothesis import strategies as st
+from paper_law import TABLE_4
 
 from fitting.errors import OutsideModel
 from fitting.laws.bent_law import LOSS, REACH, STORAGE, BentLaw

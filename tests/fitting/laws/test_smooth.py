@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
-from conftest import TABLE_4
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from paper_law import TABLE_4
 
 from fitting.data.noise import noise_of
 from fitting.errors import OutsideModel

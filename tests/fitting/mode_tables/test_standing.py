@@ -1,11 +1,12 @@
 from dataclasses import replace
 
+from beam_temperatures import beam
+
 from fitting.effects import CATALOGUE
 from fitting.laws.constant import ConstantModulus
 from fitting.mode_tables.standing import standing
 from fitting.stated.layers import Core
 from fitting.structures import ShearPair
-from tests.beam_temperatures import beam
 
 
 def test_what_stands_on_a_specimen_are_forms_for_it():

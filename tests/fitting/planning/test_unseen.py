@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from data_folder import DATA
+from rig_plate import plate_of_the_rig
 
 from fitting.data.noise import noise_of
 from fitting.diagnosis.inference.begin import begin
@@ -14,8 +16,6 @@ from fitting.planning.confusion import SEEN
 from fitting.planning.unseen import unseen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.set_up import set_up
-from tests.conftest import DATA
-from tests.rig_plate import plate_of_the_rig
 
 ASKED = [
     CATALOGUE[name]

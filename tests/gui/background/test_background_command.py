@@ -3,7 +3,7 @@
 import sys
 
 import pytest
-from conftest import DATA
+from data_folder import DATA
 
 from gui.background.task import BackgroundCommand
 from instrument.facts.identification import IdentificationResult

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from conftest import DATA
+from data_folder import DATA
 from PySide6.QtCore import Qt
 
 from gui.background.one_command import OneCommand

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from conftest import TABLE_4
+from paper_law import TABLE_4
 
 from gui.pages.law.curve import LawCurve, joined, places_hz, resonances_hz
 from instrument.facts.identification import PointFitted

@@ -7,8 +7,8 @@ import re
 import card_readers as readers
 import numpy as np
 import pytest
-from conftest import TABLE_4
 from diagnosed_session import diagnosed_session
+from paper_law import TABLE_4
 
 from fitting.laws.prony import MOST_TERMS, fit_prony
 from instrument.cards.card import Card

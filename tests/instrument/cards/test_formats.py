@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from conftest import TABLE_4
+from paper_law import TABLE_4
 
 from instrument.cards.abaqus import abaqus
 from instrument.cards.ansys import ansys

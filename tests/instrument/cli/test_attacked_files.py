@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from attacked_files import COMMANDS, SLOW, lab_variables, mat_variables, write_files
 from attacks import faults_of, spoil
-from conftest import DATA
+from data_folder import DATA
 from scipy.io import savemat
 
 from instrument.cli.main import run

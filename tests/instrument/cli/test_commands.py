@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from called import call, facts
-from conftest import DATA
+from data_folder import DATA
 from result_cases import IDENTIFY_KEYS
 
 from instrument.cli.main import COMMANDS

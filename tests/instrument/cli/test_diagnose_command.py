@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from called import call
-from conftest import DATA
+from data_folder import DATA
 from diagnosis_cases import UNSEEN, diagnosed, diagnosis
 from diagnosis_cases import sweep as some_sweep
 from following_cases import BACKWARDS, SPOT

@@ -5,10 +5,10 @@ import lzma
 from pathlib import Path
 
 import pytest
-from conftest import TABLE_4
 from found_law_cases import facts as law_facts
 from json_schema import faults
 from kept_numbers import KEPT, load
+from paper_law import TABLE_4
 
 from instrument.cli.main import run
 from instrument.facts.schema import RESULTS, schema_of, write_schemas

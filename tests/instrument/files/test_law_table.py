@@ -6,7 +6,7 @@ import re
 import beam_cases
 import numpy as np
 import pytest
-from conftest import TABLE_4
+from paper_law import TABLE_4
 
 import viscorig
 from fitting.structures.small_modes import small_modes

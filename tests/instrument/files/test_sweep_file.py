@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from conftest import DATA
+from data_folder import DATA
 
 from instrument.errors import BadInput
 from instrument.files.sweep_file import read_sweep

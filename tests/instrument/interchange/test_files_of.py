@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from conftest import TABLE_4
+from paper_law import TABLE_4
 from sessions import point
 from struck_cases import struck
 

@@ -4,7 +4,8 @@ import json
 
 import pytest
 from called import call, facts
-from conftest import DATA, TABLE_4
+from data_folder import DATA
+from paper_law import TABLE_4
 from session_cases import SyntheticSession, configuration
 
 from instrument.paper_case import case_file

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from conftest import DATA
+from data_folder import DATA
 
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult

@@ -5,9 +5,9 @@ import json
 import numpy as np
 import pytest
 from batch_cases import write_specimen, write_sweeps
-from conftest import TABLE_4
 from diagnosed_session import diagnosed_session
 from found_law_cases import ERRORS, HIGH, LOW, facts
+from paper_law import TABLE_4
 
 from fitting.numerics.chances import Z_95
 from instrument.cli.main import run

@@ -4,8 +4,8 @@ import json
 
 import numpy as np
 import pytest
-from conftest import TABLE_4
 from found_law_cases import facts
+from paper_law import TABLE_4
 
 from fitting.laws.smooth import Smooth
 from instrument.errors import BadInput

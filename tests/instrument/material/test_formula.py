@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import TABLE_4
+from paper_law import TABLE_4
 
 from instrument.material.formula import formula, limits
 

@@ -4,8 +4,8 @@ import json
 from dataclasses import replace
 
 import pytest
-from conftest import TABLE_4
 from found_law_cases import facts
+from paper_law import TABLE_4
 
 from instrument.material.comparing import compare
 from instrument.material.found_law import read_law

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from conftest import TABLE_4
 from found_law_cases import ERRORS, HIGH, LOW, said_of_curve
+from paper_law import TABLE_4
 from pydantic import ValidationError
 
 from fitting.identification.known_curve import known_curve

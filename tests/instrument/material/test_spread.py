@@ -4,8 +4,8 @@ import json
 
 import numpy as np
 import pytest
-from conftest import TABLE_4
 from found_law_cases import ERRORS, facts
+from paper_law import TABLE_4
 
 from instrument.cli.main import run
 from instrument.errors import BadInput

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from conftest import TABLE_4
 from found_law_cases import ERRORS, facts, said_of_curve
+from paper_law import TABLE_4
 
 from instrument.material.stated_part import digest_of, stated_columns, stated_numbers, stays_with_the_specimen
 

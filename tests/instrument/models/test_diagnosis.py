@@ -4,6 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from beam_temperatures import beam
+from data_folder import DATA
+from rig_plate import MESH, plate_of_the_rig
+from rivals import all_but, among
 
 from campaign.plant.cases import draw
 from campaign.plates.cases import draw_case
@@ -22,10 +26,6 @@ from instrument.models.effect_names import effects_among, effects_on
 from instrument.models.files import File
 from instrument.models.other_processes import VARIABLE
 from instrument.paper_case import case_file
-from tests.beam_temperatures import beam
-from tests.conftest import DATA
-from tests.rig_plate import MESH, plate_of_the_rig
-from tests.rivals import all_but, among
 
 OMEGA = 2 * np.pi * np.array([20.0, 100.0, 280.0])
 PRACTICE = {

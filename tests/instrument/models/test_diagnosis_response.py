@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from data_folder import DATA
+from rig_plate import plate_of_the_rig
 from threadpoolctl import threadpool_limits
 
 from fitting.diagnosis.problem.plate_answer import answer
@@ -13,8 +15,6 @@ from fitting.effects.temperature_drift import C_1, C_2_K
 from fitting.planning.known_mass import KnownMass
 from instrument.files.sweep_file import read_sweep
 from instrument.models.set_up import set_up
-from tests.conftest import DATA
-from tests.rig_plate import plate_of_the_rig
 
 ROOT_N_M3 = 1.5e13
 WARMING_K, TIME_CONSTANT_S = 6.0, 500.0

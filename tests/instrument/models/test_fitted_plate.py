@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import DATA, TABLE_4
+from data_folder import DATA
+from paper_law import TABLE_4
 
 from fitting.dynamics.direct import displacement_direct
 from fitting.nuisances.nuisance import Nuisance

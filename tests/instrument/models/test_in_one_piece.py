@@ -4,14 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from data_folder import DATA
+from rig_plate import plate_of_the_rig
+from rivals import all_but
 
 from instrument.files.sweep_file import read_sweep
 from instrument.models.diagnosis import diagnose
 from instrument.models.files import File
 from instrument.models.identification import identify
-from tests.conftest import DATA
-from tests.rig_plate import plate_of_the_rig
-from tests.rivals import all_but
 
 
 @pytest.fixture(scope="module")

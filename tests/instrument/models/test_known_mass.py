@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from data_folder import DATA
+from rig_plate import plate_of_the_rig
 
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.diagnosis.several.responses import response_of
@@ -19,8 +21,6 @@ from instrument.files.sweep_file import read_sweep
 from instrument.models.set_up import set_up
 from instrument.models.specimen_models import Models
 from instrument.simulated_case import case_file
-from tests.conftest import DATA
-from tests.rig_plate import plate_of_the_rig
 
 MASS = PlacedMass(8e-3, 0.21, 0.05)
 

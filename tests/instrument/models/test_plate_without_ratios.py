@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from data_folder import DATA
+from rig_plate import plate_of_the_rig
 
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from instrument.files.sweep_file import read_sweep
@@ -11,8 +13,6 @@ from instrument.models.files import File
 from instrument.models.identification import identify
 from instrument.models.remarks import remarks_on_damping
 from instrument.models.set_up import set_up
-from tests.conftest import DATA
-from tests.rig_plate import plate_of_the_rig
 
 RATIO = 0.0025
 NOISE = 2e-3

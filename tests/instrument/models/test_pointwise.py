@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import DATA
+from data_folder import DATA
 
 from fitting.errors import OutsideModel, TooFewPoints
 from instrument.cli.main import run

@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 from plate_files import plate_text
+from rivals import all_but
 
 from fitting.dynamics.damping import viscous_damping
 from fitting.dynamics.direct import displacement_direct
@@ -14,7 +15,6 @@ from instrument.cli.main import run
 from instrument.files.specimen_file import read_specimen
 from instrument.models.effect_names import effects_among
 from instrument.models.files import File, mounted, one_plate
-from tests.rivals import all_but
 
 LAW = "ginf_mpa = 4.0\ntau_s = 1.5e-4\nalpha = 0.8"
 READ = "[pickup]\nx_mm = 220.0\ny_mm = 60.0\n"

@@ -7,7 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from beam_cases import BEAM
-from conftest import TABLE_4
+from paper_law import TABLE_4
+from rig_plate import plate_of_the_rig
 
 from fitting.errors import OutsideModel
 from fitting.laws.constant import ConstantModulus
@@ -23,7 +24,6 @@ from instrument.models.theory import check_each_theory, stiffer_than_stated, the
 from instrument.paper_case import case_file
 from instrument.progress import quiet
 from instrument.results.identification_from import identification_from
-from tests.rig_plate import plate_of_the_rig
 
 F = np.concatenate([np.linspace(a, b, 12) for a, b in ((14, 24), (80, 110), (230, 290))])
 SEGMENT = np.repeat([1, 2, 3], 12)

@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from data_folder import DATA
+from rig_plate import plate_of_the_rig
 
 from fitting.data.noise import noise_of
 from fitting.diagnosis.inference.begin import begin
@@ -13,8 +15,6 @@ from fitting.diagnosis.verdict.result import Rivals
 from fitting.effects import CATALOGUE
 from instrument.files.sweep_file import read_sweep
 from instrument.models.set_up import set_up
-from tests.conftest import DATA
-from tests.rig_plate import plate_of_the_rig
 
 
 @pytest.fixture(scope="module")

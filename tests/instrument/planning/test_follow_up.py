@@ -5,6 +5,7 @@ from itertools import groupby
 
 import numpy as np
 import pytest
+from diagnosis_cases import diagnosed, diagnosis, sweep
 
 from fitting.data.noise import noise_of
 from fitting.diagnosis.inference.begin import begin
@@ -32,7 +33,6 @@ from instrument.planning.struck import bare_modes_expected
 from instrument.planning.unseen import with_unseen
 from instrument.results.next_words import advice
 from instrument.stepped_sine.settings import Limits, SweepSettings
-from tests.diagnosis_cases import diagnosed, diagnosis, sweep
 
 EVEN = np.array([0.5, 0.5])
 STIFFER, SCALE = CATALOGUE["substrate_stiffness"], 1.05

@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from data_folder import DATA
+from rig_plate import plate_of_the_rig
 
 from fitting.dynamics.real_modes import real_modes
 from fitting.laws.constant import ConstantModulus
@@ -12,8 +14,6 @@ from instrument.files.sweep_file import read_sweep
 from instrument.models.set_up import set_up
 from instrument.planning.steps import about, twists_hz, where
 from instrument.stepped_sine.settings import SweepSettings
-from tests.conftest import DATA
-from tests.rig_plate import plate_of_the_rig
 
 STIFF = ConstantModulus(0.5e6, 0.01)
 

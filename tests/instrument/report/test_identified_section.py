@@ -5,9 +5,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from conftest import TABLE_4
 from diagnosis_cases import diagnosis as diagnosed
 from diagnosis_cases import sweep
+from paper_law import TABLE_4
 from result_cases import identification
 
 from fitting.data.aside import LOST, reasons

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from conftest import TABLE_4
+from paper_law import TABLE_4
 
 from instrument.cli.main import run
 from instrument.errors import BadInput

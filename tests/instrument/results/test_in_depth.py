@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from conftest import DATA
+from data_folder import DATA
 from json_schema import faults
 
 from instrument.cli.main import run

@@ -1,5 +1,6 @@
+from diagnosis_cases import UNSEEN
+
 from instrument.results.unseen_words import UNSEEN_COLUMNS, unseen_row
-from tests.diagnosis_cases import UNSEEN
 
 
 def test_a_row_says_how_large_it_may_be_and_what_it_would_do():

@@ -4,7 +4,7 @@ import re
 import tomllib
 
 import pytest
-from conftest import DATA
+from data_folder import DATA
 
 from instrument.files.experiment_file import ExperimentDocument, SweepTable
 from instrument.files.rig_file import RigDocument

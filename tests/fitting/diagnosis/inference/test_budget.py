@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import DATA
+from data_folder import DATA
 
 from fitting.diagnosis.inference.budget import BEND, MODEL, NOISE, budget_of
 from fitting.identification.uncertainty import Uncertainty

@@ -8,8 +8,8 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
-from conftest import TABLE_4
 from impact_cases import TABLE_3, clean_hit
+from paper_law import TABLE_4
 
 from fitting.dynamics.bare_modes import bare_modes
 from fitting.plate.plate import Plate

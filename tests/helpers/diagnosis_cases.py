@@ -1,7 +1,7 @@
 """A diagnosis made by hand: what is said of it does not depend on how it was found."""
 
 import numpy as np
-from conftest import TABLE_4
+from paper_law import TABLE_4
 
 from fitting.data.aside import reasons
 from fitting.diagnosis.verdict.result import Candidate, Diagnosis, FoundEffect, ParameterEstimate, Stage

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from fitting.plugins import TOLD
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
 _GIVEN = os.environ.get("PYTHONPATH")
 

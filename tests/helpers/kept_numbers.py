@@ -32,7 +32,7 @@ from functools import cache
 import numpy as np
 import scipy
 import scipy.linalg  # its BLAS is loaded, and so part of the fingerprint
-from conftest import DATA
+from data_folder import DATA
 from threadpoolctl import threadpool_info, threadpool_limits
 
 KEPT = DATA / "numbers"

@@ -1,7 +1,7 @@
 """The JSON of an identification made by hand."""
 
 import numpy as np
-from conftest import TABLE_4
+from paper_law import TABLE_4
 
 from fitting.identification.known_curve import known_curve
 from fitting.identification.result import LawBand

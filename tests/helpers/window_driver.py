@@ -1,6 +1,6 @@
 """A person at the window, on a real screen: every click and key goes through the X server.
 
-    python tests/window_driver.py EXPERIMENT.toml
+    python tests/helpers/window_driver.py EXPERIMENT.toml
 
 From the form to the diagnosis, a hit rejected and taken back, the replay, and a second run stopped. Prints
 what was seen as JSON. Needs DISPLAY and xdotool.

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pyuff
-from conftest import DATA
+from data_folder import DATA
 from scipy.io import savemat
 
 from instrument.files.new_file import TEMPLATES
