@@ -26,7 +26,7 @@ from fitting.stated.tolerances import (
     number_of,
 )
 from fitting.structures.beam_apart import APART_WITHIN, open_by_poisson
-from fitting.structures.beam_coefficients import Number, coefficients
+from fitting.structures.beam_coefficients import Number, coefficients, place_of
 from fitting.structures.beam_error import (
     HELD_WIDTH_WITHIN,
     METAL_LOSS,
@@ -38,10 +38,6 @@ from fitting.structures.beam_section import PARTS, BeamSection
 from fitting.structures.beam_shapes import ORDER, ORDER_OF_FORCED
 from fitting.structures.small import Parts
 from fitting.structures.stated_beam import StatedBeam
-
-_BY_PLACE = 4.0
-"""What a share of the span off is to a mass, relative: twice the slope of a cantilever's first modes at its
-tip, 1.4 and 4.8."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +63,7 @@ class Beam(StatedBeam):
         held = ("held_width",) if self.held_ends and not self.slender else ()
         across = ("core_stretch",) if self.parts_faces else ()
         lossy = () if self.states_loss else ("metal_loss",)
-        carried = ("mass",) if self.masses else ()
+        carried = ("mass", "place") if self.masses else ()
         each = (f"{layer}_{n}" for layer, numbers in layers for n in numbers)
         pulled = ("axial",) if "two clamps" in self.offers else ()
         return (*each, "length", *wide, *held, *across, *pulled, *lossy, *carried)
@@ -150,9 +146,6 @@ class Beam(StatedBeam):
             return 0.0
         if name == "metal_loss":
             return METAL_LOSS
-        if name == "mass":
-            weighed, laid = (self.tolerances.get(n, STATED[n].typical) for n in ("mass", "place"))
-            return float(np.hypot(weighed, _BY_PLACE * laid / self.span_m))
         typical = STATED[name].typical
         if name in OF_TEMPERATURE and getattr(self, name.partition("_")[0]).young_per_k is not None:
             typical *= STATED_PER_K
@@ -166,12 +159,16 @@ class Beam(StatedBeam):
         stated = 0.0 if self.exact else self.tolerances.get("core_poisson", STATED["core_poisson"].typical)
         return float(np.hypot(APART_WITHIN, open_by_poisson(v.thickness_m, self.width_m, v.poisson, stated)))
 
+    def names_of(self, kind: str) -> tuple[str, ...]:
+        """As `SmallSpecimen` has it: every mass has a place of its own."""
+        return tuple(map(place_of, range(len(self.masses)))) if kind == "place" else (kind,)
+
     def stated_number(self, name: str) -> StatedValue:
         """As `StatedSpecimen` has it."""
         number = number_of(name)
-        return number.valued(self._stated_si(number))
+        return number.valued(self._stated_si(name, number))
 
-    def _stated_si(self, number: StatedNumber) -> float:
+    def _stated_si(self, name: str, number: StatedNumber) -> float:
         if number.unstated is not None:
             return number.unstated
         if number.name in self.places:
@@ -183,6 +180,8 @@ class Beam(StatedBeam):
                 return 0.0
             case "mass":
                 return sum(m.mass_kg for m in self.masses)
+            case "place":
+                return {place_of(k): m.x_m for k, m in enumerate(self.masses)}[name]
             case "held_width":
                 return self.held_width_m if self.held_width else 0.0
             case _:

@@ -53,12 +53,25 @@ def coefficients(beam: StatedBeam, by: Mapping[str, Number]) -> Complex:
     M = [core.mass * L, m_b * L, twice * m_c * L, *core.inertia, *turning]
     M += [x * L for x in core.moved_apart]
     load = width * core.mass * L if beam.force_m is None else 1.0
-    heavier = np.exp(by.get("mass", 0.0))
-    carried = [m.mass_kg * heavier for m in beam.masses]
+    carried = _carried(beam, by)
     pull = by.get("axial", 0.0) * (h_b + twice * h_c) / L
     own = [*K_0, *(held * k for k in K_0), pull, *core.slip, *core.free, *core.apart, *M]
     loads = [load, *(carried if beam.force_m is None else ())]
     return as_coefficients([*(width * x for x in own), *carried, *loads])
+
+
+def place_of(mass: int) -> str:
+    """Name of the stated number: how far along the beam a mass sits, counted from none."""
+    return f"place_{mass + 1}_x"
+
+
+def _carried(beam: StatedBeam, by: Mapping[str, Number]) -> list[Number]:
+    """Of the parts of every mass as `beam_parts.carrying` has them: m, m d, m d^2, d how far it is off."""
+    found: list[Number] = []
+    for k, one in enumerate(beam.masses):
+        m, d = one.mass_kg * np.exp(by.get("mass", 0.0)), by.get(place_of(k), 0.0)
+        found += [m, m * d, m * d**2]
+    return found
 
 
 @dataclass(frozen=True)

@@ -90,17 +90,28 @@ def _loads(section: BeamSection, V: Array, lifted: Array, *, by_base: bool) -> d
 def carrying(
     parts: Parts, section: BeamSection, masses: Sequence[tuple[float, float]], *, by_base: bool
 ) -> Parts:
-    """The same with point masses, kg and shares of its length: each a part of M, and a load `by_base`."""
+    """The same with point masses, kg and shares of its length: parts of M, and loads `by_base`.
+
+    A mass that is off by d reads w + d w' + d^2 w''/2: three parts each, of m, m d and m d^2.
+    """
     _, V, _ = _columns(section)
-    rows = np.array([row_at(section, V, x) for _, x in masses])
-    # A base that turns lifts each as far as it is away.
-    turned = sum(m * x * section.length_m * row for (m, x), row in zip(masses, rows, strict=True))
+    M, loads, turned = list[Array](), list[Array](), np.zeros(V.shape[1])
+    for m, x in masses:
+        w, slope, bend = (row_at(section, V, x, d) / section.length_m**d for d in (0, 1, 2))
+        M += [np.outer(w, w), _both(w, slope), np.outer(slope, slope) + _both(w, bend) / 2]
+        loads += [-w, -slope, -bend / 2]
+        # A base that turns lifts each as far as it is away.
+        turned += m * x * section.length_m * w
     return replace(
         parts,
-        M=np.concatenate([parts.M, np.einsum("pi,pj->pij", rows, rows)]),
-        load=np.concatenate([parts.load, -rows]) if by_base else parts.load,
+        M=np.concatenate([parts.M, np.array(M)]),
+        load=np.concatenate([parts.load, np.array(loads)]) if by_base else parts.load,
         pitch=None if parts.pitch is None else parts.pitch - turned,
     )
+
+
+def _both(a: Array, b: Array) -> Array:
+    return np.asarray(np.outer(a, b) + np.outer(b, a))
 
 
 def _turned(section: BeamSection) -> Array:

@@ -28,21 +28,24 @@ def read_otherwise(section: BeamSection, at: float | None) -> dict[str, Array]:
     return found
 
 
-def row_at(section: BeamSection, V: Array, at: float) -> Array:
-    """Reads the deflection at a share of the length, or is driven there. Shape (k,), of `V` (size, k)."""
-    return np.asarray(V.T @ _in_the_middle(section, np.array([min(at, 1.0)]))[0][:, 0])
+def row_at(section: BeamSection, V: Array, at: float, derivative: int = 0) -> Array:
+    """Reads the deflection at a share of the length, or is driven there. Shape (k,), of `V` (size, k).
 
-
-def _in_the_middle(section: BeamSection, x: Array) -> tuple[Array, Array]:
-    """The deflection of the middle of the width, where a beam is read and struck, and its slope.
-
-    Shape (size, n) each, of `x` (n,).
+    Or one of its first two derivatives by that share.
     """
-    w, slope = (section.shapes.rows("w", x, d) for d in (0, 1))
+    return np.asarray(V.T @ _in_the_middle(section, np.array([min(at, 1.0)]))[derivative][:, 0])
+
+
+def _in_the_middle(section: BeamSection, x: Array) -> tuple[Array, Array, Array]:
+    """The deflection of the middle of the width, where a beam is read and struck, its slope and curvature.
+
+    The last without what the middle is higher. Shape (size, n) each, of `x` (n,).
+    """
+    w, slope, bend = (section.shapes.rows("w", x, d) for d in (0, 1, 2))
     if section.is_slender:
-        return w, slope
+        return w, slope, bend
     higher, rising = _higher_in_the_middle(section, x)
-    return w + higher, slope + rising
+    return w + higher, slope + rising, bend
 
 
 def _higher_in_the_middle(section: BeamSection, x: Array) -> tuple[Array, Array]:
@@ -59,6 +62,6 @@ def _higher_in_the_middle(section: BeamSection, x: Array) -> tuple[Array, Array]
 def deflection(section: BeamSection, V: Array) -> Array:
     """w, dw/dy and -dw/dx at the nodes of a strip one element wide. Shape (nodes, 3, k)."""
     x = np.linspace(0.0, 1.0, ELEMENTS + 1)
-    w, slope = (each.T @ V for each in _in_the_middle(section, x))
+    w, slope = (each.T @ V for each in _in_the_middle(section, x)[:2])
     along = np.stack([w, np.zeros_like(w), -slope / section.length_m], axis=1)
     return np.repeat(along, 2, axis=0)

@@ -146,6 +146,10 @@ class ShearPair(BaseDriven):
         """The wave in the pad is exact; what its edges do is stated. Shape (points,) each."""
         return
 
+    def names_of(self, kind: str) -> tuple[str, ...]:
+        """As `SmallSpecimen` has it: one of each."""
+        return (kind,)
+
     def stated_number(self, name: str) -> StatedValue:
         """As `StatedSpecimen` has it; its mass in kilograms, where what sits on a plate weighs grams."""
         number = number_of(name)

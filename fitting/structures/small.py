@@ -81,6 +81,9 @@ class SmallSpecimen(StatedSpecimen, Protocol):
     def places(self) -> Mapping[str, float]:
         """Points along it that are stated in m: `pickup`, `force`. None where it has no length."""
 
+    def names_of(self, kind: str) -> tuple[str, ...]:
+        """The stated numbers of a kind that moves its matrices, as results list them."""
+
     def parts(self) -> Parts:
         """Its matrices for unit coefficients."""
 
@@ -189,7 +192,8 @@ def _real_where_it_is(c: Complex) -> Complex | Array:
 
 def nuisances_of(specimen: SmallSpecimen, parts: Parts, *, has_phase: bool) -> SmallNuisances:
     """All its stated numbers, and those of the channels."""
-    kinds = {n: n for n in (*specimen.numbers, *channels_felt(has_phase=has_phase))}
+    kinds = {name: kind for kind in specimen.numbers for name in specimen.names_of(kind)}
+    kinds |= {n: n for n in channels_felt(has_phase=has_phase)}
     kinds |= {f"{n}_x": n for n in specimen.places}
     each = [Nuisance(name, kind, specimen.tolerance(kind)) for name, kind in kinds.items()]
     return SmallNuisances(specimen, tuple(n for n in each if n.sigma > 0), None, parts)
