@@ -10,9 +10,9 @@ from threadpoolctl import threadpool_limits
 from fitting.dynamics.direct import displacement_direct
 from instrument.bench.sweeps import GRID_HZ, synthetic_sweep
 from instrument.files.specimen_file import read_specimen
-from instrument.models.diagnosis import diagnose
+from instrument.finding.diagnosis import diagnose
+from instrument.finding.identification import identify
 from instrument.models.files import File
-from instrument.models.identification import identify
 from instrument.models.specimen_models import Models
 from instrument.paper_case import TABLE_4, case_file
 from instrument.stream.event import from_line, to_line

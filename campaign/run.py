@@ -9,11 +9,21 @@ from typing import Any
 
 from instrument.errors import BadInput, StoppedByUser
 from instrument.files.text import read_text
-from instrument.models.processes import in_processes
+from instrument.processes.jobs import in_processes
 from instrument.progress import Progress, quiet
 
 OUTCOMES, BEGUN, SUMMARY = "outcomes.jsonl", "campaign.json", "summary.md"
-_SOURCES = ("fitting", "drivers/simulated/plant", "campaign", "instrument/models")
+_SOURCES = (
+    "fitting",
+    "drivers/simulated/plant",
+    "campaign",
+    "instrument/models",
+    "instrument/processes",
+    "instrument/remarks",
+    "instrument/mistakes",
+    "instrument/finding",
+    "instrument/temperatures",
+)
 """What an outcome depends on: a folder goes on only with the program that began it."""
 
 

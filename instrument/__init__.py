@@ -7,7 +7,8 @@ It joins `drivers` and `fitting`, which do not know each other. Where to begin:
     run/            a run: rig, plan, runner, live fit, live diagnosis; the same again from a recording
     stream/         everything that happens in one, as events
     session/        where it is kept
-    models/         identifies and diagnoses, with models kept on disk
+    models/         models of a specimen, kept on disk
+    finding/, temperatures/       identifies and diagnoses with these models
     results/, report/, facts/     what is said of a result, shown, and written as JSON
 
 ARCHITECTURE.md has all folders, in the order in which one may use another.

@@ -24,9 +24,9 @@ from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
-from instrument.models.other_processes import VARIABLE as PROCESSES
 from instrument.models.specimen_models import Models
 from instrument.paper_case import case_file
+from instrument.processes.other_processes import VARIABLE as PROCESSES
 
 settings.register_profile("ci", deadline=None, max_examples=40, derandomize=True)
 settings.load_profile("ci")

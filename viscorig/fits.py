@@ -11,12 +11,12 @@ from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.identification import IdentificationResult
 from instrument.files.hammer_file import HammerModes
+from instrument.finding.diagnosis import diagnose as diagnose_files
+from instrument.finding.identification import identify as identify_files
+from instrument.finding.methods import Method
+from instrument.finding.pointwise import pointwise_of
 from instrument.interchange.given import at_its_spot
-from instrument.models.diagnosis import diagnose as diagnose_files
 from instrument.models.files import spots_of
-from instrument.models.identification import identify as identify_files
-from instrument.models.methods import Method
-from instrument.models.pointwise import pointwise_of
 from instrument.planning.open_questions import with_open_questions
 from instrument.progress import bar
 from instrument.results.diagnosis_from import diagnosis_from

@@ -10,8 +10,8 @@ from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
 from instrument.errors import BadInput
 from instrument.facts.prediction import PredictionResult
 from instrument.models.specimen_models import Models
-from instrument.models.theory import theory_remark
 from instrument.progress import bar
+from instrument.remarks.theory import theory_remark
 from instrument.results.fit_file import found_law
 from instrument.results.fitted_response import fitted_response
 from instrument.results.prediction_from import of_spots, prediction_from, prediction_from_fit

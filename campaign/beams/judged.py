@@ -2,9 +2,9 @@
 
 from campaign.beams.cases import BeamCase
 from campaign.plates.answers import Answer, Band, answer_from, band_from
-from instrument.models.diagnosis import diagnose
+from instrument.finding.diagnosis import diagnose
+from instrument.finding.identification import identify
 from instrument.models.files import File
-from instrument.models.identification import identify
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 

@@ -4,8 +4,8 @@ from campaign.beams.cases import BeamCase
 from campaign.plates.visible import silent
 from fitting.arrays import Complex
 from fitting.errors import OutsideModel
+from instrument.finding.identification import identify
 from instrument.models.files import File
-from instrument.models.identification import identify
 
 
 def visible_chi2(case: BeamCase) -> float | None:

@@ -27,7 +27,7 @@ def judge(job: Job, taken_out: bool) -> dict[str, Any]:
     A diagnosis that raises is an outcome without an answer; the next run tries it again.
     """
     # Loaded here: cases and scores are of use without it.
-    diagnose = import_module("instrument.models.diagnosis").diagnose
+    diagnose = import_module("instrument.finding.diagnosis").diagnose
     case = draw(job.kind, job.seed)
     said: Said | None = None
     without: Said | None = None

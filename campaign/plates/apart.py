@@ -14,7 +14,7 @@ import numpy as np
 from campaign.plates.remeasured import RemeasuredPlate
 from campaign.plates.weak_effects import draw_weak
 from campaign.run import Job, keep_summary, run_campaign
-from instrument.models.diagnosis import Diagnosed
+from instrument.finding.diagnosis import Diagnosed
 from instrument.planning.follow_up import Possible, rank_follow_ups
 from instrument.progress import Progress, quiet
 

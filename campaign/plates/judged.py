@@ -12,9 +12,9 @@ from campaign.plates.geometry import plate_named
 from campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
 from fitting.effects import CATALOGUE
 from fitting.specimen import PlateSpecimen
-from instrument.models.diagnosis import diagnose
+from instrument.finding.diagnosis import diagnose
+from instrument.finding.identification import identify
 from instrument.models.files import File
-from instrument.models.identification import identify
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 

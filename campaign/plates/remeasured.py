@@ -27,7 +27,7 @@ from fitting.stated.tolerances import STATED
 from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
 from instrument.facts.follow_up import FollowUp
-from instrument.models.diagnosis import Diagnosed, diagnose
+from instrument.finding.diagnosis import Diagnosed, diagnose
 from instrument.models.files import File
 from instrument.models.set_up import Hammer
 

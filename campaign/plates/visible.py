@@ -14,8 +14,8 @@ from fitting.arrays import Complex
 from fitting.data.noise import noise_of
 from fitting.errors import OutsideModel
 from fitting.sweep import Sweep
+from instrument.finding.identification import identify
 from instrument.models.files import File
-from instrument.models.identification import identify
 
 
 def visible_chi2(case: PlateCase) -> float | None:

@@ -20,7 +20,7 @@ from drivers.errors import DriverError
 from fitting.errors import FittingError
 from instrument.errors import BadInput
 from instrument.facts.result import Result
-from instrument.models.background import VARIABLE as BACKGROUND
+from instrument.processes.background import VARIABLE as BACKGROUND
 from instrument.progress import LINES
 
 T = TypeVar("T")

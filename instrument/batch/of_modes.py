@@ -10,8 +10,8 @@ from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.modal import ModalResult
 from instrument.files.modal_table import read_modal_table
 from instrument.files.structure_file import read_structure
+from instrument.finding.modal import diagnose_tables, identify_tables
 from instrument.interchange.questions import question_modes
-from instrument.models.modal import diagnose_tables, identify_tables
 from instrument.results.modal_diagnosis_from import modal_diagnosis_from
 from instrument.results.modal_from import mean_temperature, modal_from
 

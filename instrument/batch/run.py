@@ -13,7 +13,7 @@ from instrument.batch.task import BatchTask
 from instrument.batch.work import Outcome, failure, lost, outcome_of
 from instrument.errors import BadInput, StoppedByUser, system_words
 from instrument.files.text import refuse_endless
-from instrument.models.processes import in_processes
+from instrument.processes.jobs import in_processes
 from instrument.progress import Progress, quiet
 
 Keep = Callable[[BatchTask, Outcome], None]

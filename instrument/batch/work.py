@@ -22,14 +22,14 @@ from instrument.files.modal_table import is_modal_table
 from instrument.files.plausible import question_specimen
 from instrument.files.specimen_file import read_specimen
 from instrument.files.structure_file import read_structure
+from instrument.finding.diagnosis import diagnose
+from instrument.finding.identification import identify
 from instrument.interchange.given import Given, read_given
 from instrument.interchange.questions import question_data
 from instrument.material.stated_part import stated_columns
-from instrument.models.diagnosis import diagnose
 from instrument.models.files import File
-from instrument.models.identification import identify
-from instrument.models.other_processes import VARIABLE as PROCESSES
 from instrument.models.sharing import serves
+from instrument.processes.other_processes import VARIABLE as PROCESSES
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 from instrument.stream.jsonable import to_jsonable

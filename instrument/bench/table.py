@@ -28,7 +28,7 @@ from instrument.bench.elastic_root import elastic_root_sweep
 from instrument.bench.sweeps import GRID_HZ, synthetic_sweep
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
-from instrument.models.diagnosis import Diagnosed, diagnose
+from instrument.finding.diagnosis import Diagnosed, diagnose
 from instrument.models.files import File
 from instrument.models.specimen_models import Models
 from instrument.paper_case import TABLE_4, case_file

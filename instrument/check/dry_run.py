@@ -36,8 +36,8 @@ from instrument.files.rig_file import RigDocument
 from instrument.files.structure_file import read_structure
 from instrument.files.text import read_text
 from instrument.files.toml import document_faults
-from instrument.models.theory import theory_remark
-from instrument.models.tolerance_words import tolerances_used
+from instrument.remarks.theory import theory_remark
+from instrument.remarks.tolerance_words import tolerances_used
 from instrument.session.configuration import Experiment, read_whole_experiment
 from instrument.session.setup import hammer_settings, setup_of
 from instrument.stepped_sine.plan import PlannedSegment

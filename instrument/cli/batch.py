@@ -16,7 +16,7 @@ from instrument.cli.options import force_option, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.material.spread import FEWEST
-from instrument.models.other_processes import VARIABLE, wanted
+from instrument.processes.other_processes import VARIABLE, wanted
 from instrument.progress import bar
 
 _FAILURES_SHOWN = 20

@@ -12,8 +12,8 @@ from instrument.cli.printable import printable
 from instrument.errors import BadInput
 from instrument.files.acceleration import acceleration_unit
 from instrument.files.plausible_rig import question_experiment
-from instrument.models.tolerance_words import tolerance_rows
 from instrument.progress import bar
+from instrument.remarks.tolerance_words import tolerance_rows
 from instrument.session.configuration import Experiment, read_whole_experiment
 from instrument.session.setup import sweep_settings
 

@@ -12,7 +12,7 @@ from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.cli.print_run import print_result
 from instrument.cli.reading import are_tables, files_of_data, read_each, reading_options
 from instrument.files.repeated import refuse_repeats
-from instrument.models.diagnosis import diagnose as diagnose_files
+from instrument.finding.diagnosis import diagnose as diagnose_files
 from instrument.models.files import lone_plate
 from instrument.planning.open_questions import with_open_questions
 from instrument.progress import bar

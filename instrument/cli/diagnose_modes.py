@@ -7,8 +7,8 @@ from fitting.mode_tables.fit import modal_fit_of
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.cli.reading import read_tables
+from instrument.finding.modal import diagnose_tables
 from instrument.interchange.questions import question_modes, question_numbers
-from instrument.models.modal import diagnose_tables
 from instrument.planning.unseen import with_unseen_in_tables
 from instrument.progress import bar
 from instrument.results.modal_diagnosis_from import modal_diagnosis_from

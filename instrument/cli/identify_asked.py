@@ -8,8 +8,8 @@ import click
 
 from fitting.temperature.shifts import Kind
 from instrument.cli.options import refuse_with_tables
+from instrument.finding.methods import Method
 from instrument.models.files import File
-from instrument.models.methods import Method
 from instrument.results.uncertainty_facts import Depth
 
 

@@ -11,8 +11,8 @@ from instrument.cli.print_modes import print_formulas, print_modal_law, print_mo
 from instrument.cli.print_uncertainty import print_in_depth
 from instrument.cli.reading import read_tables
 from instrument.files.modal_table import read_modal_table
+from instrument.finding.modal import identify_tables
 from instrument.interchange.questions import question_modes, question_numbers
-from instrument.models.modal import identify_tables
 from instrument.progress import bar
 from instrument.results.modal_from import modal_from
 from instrument.results.numbers import to_error

@@ -24,12 +24,12 @@ from instrument.interchange.questions import (
     question_shift,
     question_tables,
 )
-from instrument.models.members import AtTemperature
-from instrument.models.temperatures import Shifted
-from instrument.models.temperatures import identify_shifted as identify_at_temperatures
 from instrument.progress import bar
 from instrument.results.shifted_from import shifted_from
 from instrument.results.uncertainty_facts import by_profile, in_depth_facts
+from instrument.temperatures.members import AtTemperature
+from instrument.temperatures.shifted import Shifted
+from instrument.temperatures.shifted import identify_shifted as identify_at_temperatures
 
 _PROFILED = 5
 """Reduced frequencies at which intervals are looked for: each is a dozen fits of all temperatures."""

@@ -20,12 +20,12 @@ from instrument.facts.budget import BudgetRow
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.intervals import IntervalsFound
 from instrument.files.dma_file import DmaTable, read_dma
+from instrument.finding.identification import Identified, identify
+from instrument.finding.pointwise import pointwise_of
 from instrument.interchange.given import Given
 from instrument.material.beside import beside, beside_table
 from instrument.material.found_law import law_of_result
 from instrument.models.files import lone_plate
-from instrument.models.identification import Identified, identify
-from instrument.models.pointwise import pointwise_of
 from instrument.progress import bar
 from instrument.results.budget_from import budget, budget_from
 from instrument.results.identification_from import identification_from

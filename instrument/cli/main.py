@@ -18,8 +18,8 @@ from instrument.cli.printable import printable
 from instrument.cli.stopping import ended_as_by_a_person
 from instrument.cli.summaries import SUMMARIES
 from instrument.errors import BadInput, RigStopped, StoppedByUser, system_words
-from instrument.models.background import VARIABLE as BACKGROUND
-from instrument.models.background import step_back
+from instrument.processes.background import VARIABLE as BACKGROUND
+from instrument.processes.background import step_back
 
 SETTINGS = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
 """How every command of ours shows its help."""

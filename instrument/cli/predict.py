@@ -20,8 +20,8 @@ from instrument.files.hammer_file import read_hammer
 from instrument.files.plausible import question_specimen
 from instrument.files.structure_file import read_structure
 from instrument.models.specimen_models import Models
-from instrument.models.theory import theory_remark
 from instrument.progress import bar
+from instrument.remarks.theory import theory_remark
 from instrument.results.fit_file import read_fit
 from instrument.results.fitted_response import fitted_response
 from instrument.results.prediction_from import of_spots, prediction_from, prediction_from_fit

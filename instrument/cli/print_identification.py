@@ -7,7 +7,7 @@ from fitting.identification.result import Identification
 from fitting.specimen import PlateSpecimen, StatedSpecimen
 from fitting.sweep import Sweep
 from instrument.cli.output import Output
-from instrument.models.identification import Identified
+from instrument.finding.identification import Identified
 from instrument.results.adjusted_words import COLUMNS, adjusted_rows, more_adjusted
 from instrument.results.error_words import is_below_floor, percent_words
 from instrument.results.law_words import LAW_COLUMNS, a_few, law_cells

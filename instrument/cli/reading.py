@@ -21,8 +21,8 @@ from instrument.interchange.cut_sweep import looks_cut
 from instrument.interchange.given import Given, read_given
 from instrument.interchange.questions import question_data, question_temperatures
 from instrument.models.files import File
-from instrument.models.members import AtTemperature
 from instrument.progress import bar
+from instrument.temperatures.members import AtTemperature
 
 _NO_LAW = ConstantModulus(1e6, 0.0)
 _OPTIONS = (

@@ -7,8 +7,8 @@ from fitting.sweep import Sweep
 from instrument.errors import BadInput
 from instrument.files.hammer_file import HammerModes, accepted_modes
 from instrument.files.toml import one_line
+from instrument.finding.identification import Identified, identify
 from instrument.interchange.files_of import files_of
-from instrument.models.identification import Identified, identify
 from instrument.progress import Progress, quiet
 from instrument.session.contents import Contents
 from instrument.session.points import sweep_of

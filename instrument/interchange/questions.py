@@ -17,12 +17,12 @@ from instrument.errors import BadInput
 from instrument.files.plausible import INSIST
 from instrument.files.sweep_file import words_of_other_reading
 from instrument.interchange.given import Given
-from instrument.models.modal_look import modal_doubt
-from instrument.models.modal_mistakes import table_doubt
-from instrument.models.mode_numbers import numbers_doubt
-from instrument.models.quick_look import data_doubt
-from instrument.models.temperatures import Shifted
+from instrument.mistakes.modal_look import modal_doubt
+from instrument.mistakes.modal_mistakes import table_doubt
+from instrument.mistakes.mode_numbers import numbers_doubt
+from instrument.mistakes.quick_look import data_doubt
 from instrument.progress import Progress, quiet
+from instrument.temperatures.shifted import Shifted
 
 _WARM_C = 200.0
 """Few damping materials are measured warmer, and no laboratory is colder in kelvin."""

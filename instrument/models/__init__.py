@@ -1,1 +1,1 @@
-"""Models of a specimen, kept on disk, and what is identified and diagnosed with them."""
+"""Models of a specimen, made, kept on disk and lent; may use what files and sessions hold, finds no law."""

@@ -6,9 +6,9 @@ from fitting.specimen import PlateSpecimen
 from fitting.sweep import Sweep
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
-from instrument.models.diagnosis import Diagnosed, diagnose
+from instrument.finding.diagnosis import Diagnosed, diagnose
+from instrument.finding.identification import Identified, identify
 from instrument.models.files import File
-from instrument.models.identification import Identified, identify
 from instrument.paper_case import case_file
 from instrument.progress import Progress, quiet
 

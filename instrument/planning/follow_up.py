@@ -13,7 +13,7 @@ from fitting.planning.rivalry import Forecast, Outcome, outcome
 from fitting.specimen import PlateSpecimen
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.follow_up import FollowUp
-from instrument.models.diagnosis import Diagnosed
+from instrument.finding.diagnosis import Diagnosed
 from instrument.planning.damped_struck import damped_struck
 from instrument.planning.measurable import Template
 from instrument.planning.measurement import HANDS_S, Measurable

@@ -1,7 +1,7 @@
 """What a diagnosis leaves open: what would tell its explanations apart, and what may be there unseen."""
 
 from instrument.facts.diagnosis import DiagnosisResult
-from instrument.models.diagnosis import Diagnosed
+from instrument.finding.diagnosis import Diagnosed
 from instrument.planning.follow_up import Possible, with_follow_ups
 from instrument.planning.unseen import with_unseen
 

@@ -19,13 +19,13 @@ from fitting.planning.signatures import judged_elsewhere, signatures_of
 from fitting.specimen import PlateSpecimen, StatedSpecimen
 from instrument.facts.plan import SettlingForecast
 from instrument.models.set_up import Hammer
-from instrument.models.theory import theory_remark
 from instrument.planning.levels import Level, chosen_level, levels_of
 from instrument.planning.outlook import Outlook, outlook_of
 from instrument.planning.spots import Spot, spots_of
 from instrument.planning.waits import settling_forecast
 from instrument.planning.wish import Wish
 from instrument.progress import Progress, quiet
+from instrument.remarks.theory import theory_remark
 from instrument.stepped_sine.expected_time import loop_checks_s
 from instrument.stepped_sine.settings import SweepSettings
 

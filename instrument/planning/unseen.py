@@ -3,8 +3,8 @@
 from fitting.planning.unseen import Unseen, unseen
 from fitting.planning.unseen_in_tables import unseen_in_tables
 from instrument.facts.diagnosis import DiagnosisResult, UnseenEffect
-from instrument.models.diagnosis import Diagnosed
-from instrument.models.modal import TablesDiagnosed
+from instrument.finding.diagnosis import Diagnosed
+from instrument.finding.modal import TablesDiagnosed
 
 
 def with_unseen(result: DiagnosisResult, diagnosed: Diagnosed) -> DiagnosisResult:

@@ -11,8 +11,8 @@ from fitting.specimen import PlateSpecimen
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.rows import PointSetAside
+from instrument.finding.identification import Identified
 from instrument.interchange.identified import identify_session
-from instrument.models.identification import Identified
 from instrument.progress import Progress, quiet
 from instrument.results.fit_file import found_law
 from instrument.results.fitted_response import FittedModel

@@ -8,7 +8,7 @@ from fitting.identification.result import Identification
 from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen
 from instrument.facts.session_result import SessionResult
-from instrument.models.identification import Identified
+from instrument.finding.identification import Identified
 from instrument.report.blocks import Block, FactsBlock, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.report.fitted import ReportedFit
 from instrument.report.law_figures import law_figure, residual_figures

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from fitting.numerics.chances import Z_95
-from instrument.models.identification import Identified
+from instrument.finding.identification import Identified
 from instrument.report.fitted import ReportedFit
 from instrument.report.measured import Measured
 from instrument.results.drawing import (

@@ -7,7 +7,7 @@ from instrument.files.acceleration import acceleration_unit
 from instrument.files.rig_file import ResponseSection, SensorSection
 from instrument.files.specimen_file import SpecimenDocument
 from instrument.files.structure_file import AnyDocument
-from instrument.models.tolerance_words import tolerance_rows
+from instrument.remarks.tolerance_words import tolerance_rows
 from instrument.report.blocks import Block, FactsBlock, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.results.numbers import format_number
 from instrument.results.sketch import Mark, sketch_of

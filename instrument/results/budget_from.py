@@ -5,7 +5,7 @@ import numpy as np
 from fitting.diagnosis.inference.budget import Budget, budget_of
 from fitting.identification.quoted import REFERENCE_FREQUENCIES_HZ
 from instrument.facts.budget import BudgetRow, BudgetSource
-from instrument.models.identification import Identified
+from instrument.finding.identification import Identified
 
 
 def budget(found: Identified) -> Budget | None:

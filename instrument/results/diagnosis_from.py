@@ -14,7 +14,7 @@ from instrument.facts.diagnosis import (
     Residual,
     StageFitted,
 )
-from instrument.models.diagnosis import Diagnosed
+from instrument.finding.diagnosis import Diagnosed
 from instrument.results.of_files import with_files
 from instrument.results.rows_from import (
     adjusted_from,

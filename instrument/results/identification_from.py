@@ -22,7 +22,7 @@ from instrument.facts.identification import (
     PosteriorFound,
     TheoryErrorRow,
 )
-from instrument.models.identification import Identified
+from instrument.finding.identification import Identified
 from instrument.results.of_files import with_files
 from instrument.results.rows_from import (
     adjusted_from,

@@ -15,7 +15,7 @@ from fitting.mode_tables.diagnose import DiagnosedModes
 from fitting.mode_tables.fit import ModalFit, law_with, modal_fit_of
 from fitting.mode_tables.table import ModalTable
 from instrument.facts.diagnosis import DiagnosisResult, EffectFound, ModeLeft, StageFitted
-from instrument.models.modal import TablesDiagnosed
+from instrument.finding.modal import TablesDiagnosed
 from instrument.results.diagnosis_from import candidate_from, parameters_from
 from instrument.results.diagnosis_words import NOT_NAMED
 from instrument.results.modal_from import band_of, listed_hz, modal_band, percent_off

@@ -15,7 +15,7 @@ from fitting.laws import CoreLaw
 from fitting.mode_tables.fit import ModalFit
 from fitting.mode_tables.table import ModalTable
 from instrument.facts.modal import FormulaRow, ModalResult, ModeFitted
-from instrument.models.modal import TablesIdentified
+from instrument.finding.modal import TablesIdentified
 from instrument.results.rows_from import adjusted_from, law_known_from, law_rows_from
 
 _BAND_POINTS = 41

@@ -9,8 +9,8 @@ from fitting.arrays import Mask
 from instrument.facts.diagnosis import DiagnosisResult, PointLeft
 from instrument.facts.identification import IdentificationResult, PointFitted
 from instrument.facts.rows import PointSetAside, StretchSetAside
+from instrument.finding.files_at_work import SetAside
 from instrument.models.files import File, lone_plate, name_of, numbers_of
-from instrument.models.files_at_work import SetAside
 
 P = TypeVar("P", PointFitted, PointLeft, PointSetAside)
 R = TypeVar("R", IdentificationResult, DiagnosisResult)

@@ -12,7 +12,7 @@ from fitting.identification.pointwise import PointwiseLaw
 from fitting.identification.result import LawBand
 from fitting.numerics.chances import Z_95
 from instrument.errors import BadInput, system_words
-from instrument.models.pointwise import Pointwise
+from instrument.finding.pointwise import Pointwise
 from instrument.results.drawing import (
     DATA,
     MARK,

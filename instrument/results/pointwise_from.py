@@ -4,7 +4,7 @@ from fitting.identification.kramers_kronig import KramersKronig
 from fitting.identification.pointwise import PointwiseLaw
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.pointwise import BandFound, CausalityTest
-from instrument.models.pointwise import Pointwise
+from instrument.finding.pointwise import Pointwise
 
 
 def with_second_look(result: IdentificationResult, found: Pointwise) -> IdentificationResult:

@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fitting.numerics.chances import Z_95
-from instrument.models.temperatures import Shifted
 from instrument.results.drawing import DATA, MODEL, WIDTH_IN, label, legend, panels
+from instrument.temperatures.shifted import Shifted
 
 _POINTS = 40
 _HEIGHT_IN = 8.0

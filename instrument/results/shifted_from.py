@@ -11,10 +11,10 @@ from fitting.sweep import Sweep
 from fitting.temperature.causes import Cause
 from instrument.facts.diagnosis import EffectFound
 from instrument.facts.shifted import ModeAt, ShiftAt, ShiftedResult
-from instrument.models.members import AtTemperature
-from instrument.models.temperatures import Shifted
 from instrument.results.diagnosis_from import parameters_from
 from instrument.results.rows_from import adjusted_from, law_rows_from
+from instrument.temperatures.members import AtTemperature
+from instrument.temperatures.shifted import Shifted
 
 
 def shifted_from(found: Shifted, sweeps: Sequence[AtTemperature]) -> ShiftedResult:

@@ -15,7 +15,7 @@ from fitting.depth.profile import profile
 from fitting.depth.quantities import Quantities
 from fitting.identification.quoted import REFERENCE_FREQUENCIES_HZ
 from instrument.facts.intervals import IntervalsFound, QuantityInterval
-from instrument.models.identification import Identified
+from instrument.finding.identification import Identified
 from instrument.progress import Progress, quiet
 
 Depth = Literal["profile", "posterior", "bootstrap"]

@@ -13,11 +13,11 @@ from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.hammer_file import accepted_modes
+from instrument.finding.diagnosis import diagnose
 from instrument.interchange.files_of import files_of
-from instrument.models.diagnosis import diagnose
-from instrument.models.other_processes import end_all
 from instrument.planning.follow_up import Possible
 from instrument.planning.open_questions import with_open_questions
+from instrument.processes.other_processes import end_all
 from instrument.progress import Progress, quiet
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.run.analysis import Analysis

@@ -11,8 +11,8 @@ from fitting.errors import FittingError
 from fitting.structures import AnySpecimen
 from instrument.facts.identification import IdentificationResult
 from instrument.files.hammer_file import accepted_modes
+from instrument.finding.identification import identify
 from instrument.interchange.files_of import files_of
-from instrument.models.identification import identify
 from instrument.progress import Progress, quiet
 from instrument.results.identification_from import identification_from
 from instrument.session.points import sweep_of, uncalibrated

@@ -20,8 +20,8 @@ from planned_cases import PlannedCase, planned_case
 from fitting.arrays import Array
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.sweep import Sweep
+from instrument.finding.identification import identify
 from instrument.models.files import File
-from instrument.models.identification import identify
 from instrument.planning.choosing import Goal, choose_steps, lay_out
 from instrument.planning.costs import decay_of
 from instrument.planning.grid import Ground

@@ -24,8 +24,8 @@ from fitting.mode_tables.table import ModalTable
 from fitting.plate.plate import Plate
 from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face
-from instrument.models.modal import identify_tables
-from instrument.models.theory import theory_over
+from instrument.finding.modal import identify_tables
+from instrument.remarks.theory import theory_over
 
 MODES = 6
 STD = 2e-4, 5e-3

@@ -22,8 +22,8 @@ from fitting.laws import LAWS
 from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Core, Face
 from fitting.sweep import Sweep
+from instrument.finding.identification import identify
 from instrument.models.files import File
-from instrument.models.identification import identify
 
 KINDS = ("soft", "usual", "thick", "thick-faced", "stiff")
 NEAR, MOST = 40, 24

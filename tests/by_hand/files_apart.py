@@ -23,7 +23,7 @@ from fitting.laws import LAWS
 from fitting.stated.layers import Core
 from fitting.structures.shear_pair import ShearPair, disc
 from fitting.sweep import Sweep
-from instrument.models.diagnosis import Diagnosed, diagnose
+from instrument.finding.diagnosis import Diagnosed, diagnose
 from instrument.models.files import File
 
 LEVEL_M_S2, POINTS, NOISE = 9.81, 120, 2e-3

@@ -15,8 +15,8 @@ import numpy as np
 from files_apart import drawn, pulls, within
 
 from fitting.arrays import Array, Complex
+from instrument.finding.identification import identify
 from instrument.models.files import File
-from instrument.models.identification import identify
 
 GAIN, PHASE = 0.005, np.radians(0.5)
 

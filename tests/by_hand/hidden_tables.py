@@ -32,7 +32,7 @@ from campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
 from fitting.arrays import Array
 from fitting.errors import FittingError
 from instrument.facts.diagnosis import DiagnosisResult, StageFitted
-from instrument.models.modal import diagnose_tables
+from instrument.finding.modal import diagnose_tables
 from instrument.results.modal_diagnosis_from import modal_diagnosis_from
 
 _LEFT_OUT = (

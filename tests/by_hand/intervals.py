@@ -23,8 +23,8 @@ from fitting.depth.many import ManyResiduals
 from fitting.depth.posterior import sample
 from fitting.depth.profile import profile
 from fitting.errors import OutsideModel
+from instrument.finding.identification import identify
 from instrument.models.files import File
-from instrument.models.identification import identify
 from instrument.results.uncertainty_facts import quantities_of
 
 PROFILED = ("at 100 Hz", "at 280 Hz")

@@ -11,8 +11,8 @@ import numpy as np
 from planned_cases import PlannedCase, planned_case
 
 from fitting.arrays import Array
+from instrument.finding.identification import identify
 from instrument.models.files import File
-from instrument.models.identification import identify
 from instrument.planning.plan import Plan, make_plan
 from instrument.planning.wish import Wish
 

@@ -41,9 +41,9 @@ from fitting.sweep import Sweep
 from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
-from instrument.models.diagnosis import diagnose
-from instrument.models.files_at_work import File
-from instrument.models.identification import identify
+from instrument.finding.diagnosis import diagnose
+from instrument.finding.files_at_work import File
+from instrument.finding.identification import identify
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 from instrument.simulated_case import case_file

@@ -25,9 +25,9 @@ from campaign.plates.score import first_right, in_group, named
 from campaign.plates.struck_cases import StruckCase, draw_struck
 from campaign.plates.tables import summary
 from fitting.errors import FittingError
-from instrument.models.diagnosis import diagnose
+from instrument.finding.diagnosis import diagnose
+from instrument.finding.identification import identify
 from instrument.models.files import spots_of
-from instrument.models.identification import identify
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 

@@ -29,8 +29,8 @@ from campaign.plant.response import steady
 from drivers.simulated.plant.effects import Effects
 from fitting.sweep import Sweep
 from instrument.files.specimen_file import read_specimen
-from instrument.models.temperatures import AtTemperature, identify_shifted
 from instrument.simulated_case import case_file
+from instrument.temperatures.shifted import AtTemperature, identify_shifted
 
 DELAY_S = 1.1e-3
 LEVEL_M_S2 = 9.81

@@ -15,8 +15,8 @@ import numpy as np
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.sweep import Sweep
 from instrument.files.specimen_file import read_specimen
+from instrument.finding.identification import identify
 from instrument.models.files import File
-from instrument.models.identification import identify
 from instrument.models.set_up import set_up
 from instrument.paper_case import case_file
 

@@ -11,7 +11,7 @@ from fitting.laws.fractional_zener import FractionalZener
 from fitting.mode_tables.table import ModalTable
 from fitting.stated.layers import Core, Face
 from fitting.structures.beam import Beam
-from instrument.models.members import AtTemperature
+from instrument.temperatures.members import AtTemperature
 
 REFERENCE = 20.0
 STEEL_PER_K = -3e-4

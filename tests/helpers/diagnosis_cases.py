@@ -11,7 +11,7 @@ from fitting.identification.validation import HeldOutSegment, Validation
 from fitting.sweep import Sweep
 from instrument.facts.diagnosis import UnseenEffect
 from instrument.files.specimen_file import read_specimen
-from instrument.models.diagnosis import Diagnosed
+from instrument.finding.diagnosis import Diagnosed
 from instrument.models.files import File
 from instrument.paper_case import case_file
 from instrument.results.diagnosis_from import diagnosis_from

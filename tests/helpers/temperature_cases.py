@@ -4,8 +4,8 @@ import numpy as np
 
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.sweep import Sweep
-from instrument.models.members import AtTemperature
 from instrument.models.specimen_models import Models
+from instrument.temperatures.members import AtTemperature
 
 T = np.array([5.0, 12.0, 20.0, 28.0, 36.0])
 REFERENCE = 20.0

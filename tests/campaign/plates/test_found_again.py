@@ -11,7 +11,7 @@ from campaign.beams.judged import diagnosed as beam_diagnosed
 from campaign.plant.cases import PAIR, draw
 from campaign.plates.cases import draw_case
 from campaign.plates.judged import diagnosed
-from instrument.models.diagnosis import diagnose
+from instrument.finding.diagnosis import diagnose
 from instrument.models.files import File
 
 PASSED_BY = {

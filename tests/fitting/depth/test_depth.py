@@ -18,8 +18,8 @@ from fitting.depth.profile import profile
 from fitting.depth.quantities import Quantities
 from fitting.depth.sweep_task import SweepTask
 from instrument.files.sweep_file import read_sweep
+from instrument.finding.identification import identify
 from instrument.models.files import File
-from instrument.models.identification import identify
 
 AT = np.array([20.0, 100.0, 280.0])
 

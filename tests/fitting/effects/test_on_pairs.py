@@ -10,7 +10,7 @@ from fitting.dynamics.dynamic_stiffness import dynamic_stiffness
 from fitting.effects import CATALOGUE
 from fitting.planning.unseen import unseen
 from fitting.structures.small import widened_system_of
-from instrument.models.diagnosis import diagnose
+from instrument.finding.diagnosis import diagnose
 from instrument.models.files import File
 
 

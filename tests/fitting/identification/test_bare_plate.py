@@ -33,8 +33,8 @@ from fitting.plate.plate_numbers import moved, plate_numbers
 from fitting.stated.tolerances import STATED
 from instrument.bench.sweeps import synthetic_sweep
 from instrument.cli.main import run
+from instrument.finding.identification import identify
 from instrument.models.files import File
-from instrument.models.identification import identify
 from instrument.models.set_up import bare_of
 from instrument.paper_case import case_file
 

@@ -16,8 +16,8 @@ from fitting.laws.fractional_zener import FractionalZener
 from fitting.plate.plate_numbers import moved
 from fitting.stated.tolerances import STATED
 from instrument.files.sweep_file import read_sweep
+from instrument.finding.identification import identify
 from instrument.models.files import File
-from instrument.models.identification import identify
 from instrument.models.set_up import set_up
 
 # The core behind practice-002.csv, a 3D solid model's clean sweep.

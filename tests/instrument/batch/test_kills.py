@@ -17,7 +17,7 @@ from instrument.batch.run import here, on_cluster, run_batch
 from instrument.batch.table import write_tables
 from instrument.batch.taking_part import repeats_among
 from instrument.errors import BadInput
-from instrument.models.processes import in_processes
+from instrument.processes.jobs import in_processes
 from instrument.progress import LINES
 
 COUNT = 12

@@ -3,7 +3,7 @@ import json
 import pytest
 
 from instrument.cli.main import run
-from instrument.models.other_processes import VARIABLE
+from instrument.processes.other_processes import VARIABLE
 
 
 @pytest.mark.timing

@@ -24,9 +24,9 @@ from instrument.cli import identify_modes as identifying
 from instrument.cli import identify_shifted as shifting
 from instrument.cli.output import Output
 from instrument.errors import BadInput
-from instrument.models.modal import TablesDiagnosed
-from instrument.models.temperatures import Shifted
+from instrument.finding.modal import TablesDiagnosed
 from instrument.results import shifted_figures
+from instrument.temperatures.shifted import Shifted
 
 TABLE = read(BEAM, 4)
 FILE = Path("a.csv")

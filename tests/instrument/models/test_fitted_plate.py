@@ -15,9 +15,9 @@ from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult, PosteriorFound
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
+from instrument.finding.identification import identify
 from instrument.models.files import File
 from instrument.models.fitted_plate import FittedPlate
-from instrument.models.identification import identify
 from instrument.models.specimen_models import Models
 from instrument.paper_case import case_file
 from instrument.results.fit_file import found_law

@@ -18,8 +18,8 @@ from fitting.identification.result import Identification, law_band
 from fitting.identification.uncertainty import Uncertainty
 from fitting.identification.validation import HeldOutSegment, Validation
 from instrument.files.specimen_file import read_specimen
+from instrument.finding.identification import Identified
 from instrument.models.files import File
-from instrument.models.identification import Identified
 from instrument.paper_case import case_file
 from instrument.report.blocks import FactsBlock, FigureBlock, Sentence, TableBlock
 from instrument.report.fitted import ReportedFit

@@ -4,7 +4,7 @@ import pytest
 from beam_tables import BEAM, read
 from result_cases import IDENTIFY_KEYS
 
-from instrument.models.modal import identify_tables
+from instrument.finding.modal import identify_tables
 from instrument.results.modal_from import modal_from
 
 TABLE = read(BEAM, 4)

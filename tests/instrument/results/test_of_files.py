@@ -6,9 +6,9 @@ from diagnosis_cases import diagnosed, sweep
 from fitting.diagnosis.several.joining import joined
 from instrument.files.hammer_file import HammerModes
 from instrument.files.specimen_file import read_specimen
+from instrument.finding.identification import identify
 from instrument.hammer_test.expected import expected_modes_hz
 from instrument.models.files import File
-from instrument.models.identification import identify
 from instrument.paper_case import case_file
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from

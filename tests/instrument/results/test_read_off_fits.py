@@ -18,12 +18,12 @@ from fitting.mode_tables.diagnose import diagnose_modes
 from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.standing import standing
 from fitting.temperature.simple import Verdict
-from instrument.models.modal import TablesDiagnosed
-from instrument.models.pointwise import Pointwise
-from instrument.models.temperatures import AtTemperature, Shifted
+from instrument.finding.modal import TablesDiagnosed
+from instrument.finding.pointwise import Pointwise
 from instrument.results.modal_diagnosis_from import modal_diagnosis_from
 from instrument.results.pointwise_from import bands_from, causality_from, with_second_look
 from instrument.results.shifted_from import shifted_from
+from instrument.temperatures.shifted import AtTemperature, Shifted
 
 # Band by band
 

@@ -11,11 +11,11 @@ from fitting.identification.result import LawBand
 from fitting.numerics.chances import Z_95
 from instrument.errors import BadInput
 from instrument.facts.plan import LawOutlook, PlannedStep, PlanResult, SpotCompared
-from instrument.models.pointwise import Pointwise
-from instrument.models.temperatures import Shifted
+from instrument.finding.pointwise import Pointwise
 from instrument.results.plan_figures import errors_figure, save_plan_figures, spots_figure
 from instrument.results.pointwise_figures import pointwise_figure, save_pointwise_figure
 from instrument.results.shifted_figures import save_shifted_figures
+from instrument.temperatures.shifted import Shifted
 
 F = np.array([10.0, 30.0, 100.0])
 

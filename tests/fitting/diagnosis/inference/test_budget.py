@@ -9,8 +9,8 @@ from data_folder import DATA
 from fitting.diagnosis.inference.budget import BEND, MODEL, NOISE, budget_of
 from fitting.identification.uncertainty import Uncertainty
 from instrument.files.sweep_file import read_sweep
+from instrument.finding.identification import identify
 from instrument.models.files import File
-from instrument.models.identification import identify
 
 AT = np.array([20.0, 100.0, 280.0])
 

@@ -1,0 +1,1 @@
+"""Laws and causes found in files or tables of modes; may use `models`, `remarks` and `mistakes`."""

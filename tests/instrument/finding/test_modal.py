@@ -1,0 +1,138 @@
+"""Tables of modes of plates that are 3D solids: neither matrices nor formulas of the fit's."""
+
+import json
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from beam_tables import BEAM, FACE, fit_modes, read
+from mode_cases import TRUTH, read_off, solid_modes, stated
+from plate_files import plate_text
+
+from fitting.identification.result import doubts_itself
+from fitting.mode_tables.table import ModalTable
+from instrument.cli.main import run
+from instrument.finding.modal import identify_tables, remark_on_fit, remark_on_misread
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["P8", "P5"])
+def test_six_modes_of_a_solid_plate_give_its_law_within_the_band(name):
+    # Of 15 cases (P1, P5, P8, five seeds each) 15 are within two standard errors, 12 within one.
+    modes = solid_modes(name)
+    for seed in (0, 3):
+        rng = np.random.default_rng([seed, 7])
+        found = fit_modes([read_off(modes, rng)], [stated(name, rng)])
+        omega = 2 * np.pi * np.geomspace(modes[0][0], modes[0][-1], 9)
+        G, eta = found.law.storage_and_loss(omega)
+        G_error, eta_error = found.uncertainty.law_band(found.law, omega)
+        true = TRUTH.modulus(omega)
+        assert np.sqrt(np.mean(((G - true.real) / G_error) ** 2)) < 2
+        assert np.sqrt(np.mean(((eta - true.imag / true.real) / eta_error) ** 2)) < 2
+        # A band that covers by being useless would be no success.
+        assert np.mean(G_error / G) < 0.08
+        assert np.mean(eta_error / eta) < 0.06
+
+
+PLATE = plate_text("cantilever", "ginf_mpa = 8.0\ntau_s = 1.0e-4\nalpha = 0.7", (12, 8))
+
+
+@pytest.fixture
+def table(tmp_path):
+    """The plate's own modes, its file, and a table of them."""
+    (tmp_path / "plate.toml").write_text(PLATE)
+    assert (
+        run(["modes", str(tmp_path / "plate.toml"), "--count", "6", "--json", str(tmp_path / "m.json")]) == 0
+    )
+    modes = json.loads((tmp_path / "m.json").read_text())["modes"]
+    rows = [f"{k + 1},{m['frequency_hz']!r},{m['loss_factor']!r},23.5" for k, m in enumerate(modes)]
+    (tmp_path / "modes.csv").write_text(
+        "\n".join(["mode,frequency_hz,loss_factor,temperature_c", *rows]) + "\n"
+    )
+    return tmp_path
+
+
+def test_identify_takes_a_plate_s_table_without_a_pickup(table):
+    out = table / "out.json"
+    words = ["identify", str(table / "modes.csv"), "--specimen", str(table / "plate.toml")]
+    assert run([*words, "--json", str(out)]) == 0
+    found = json.loads(out.read_text())
+    assert all(m["predicted_hz"] == pytest.approx(m["frequency_hz"], rel=1e-3) for m in found["modes"])
+    assert found["parameters"]["g0_pa"] == pytest.approx(0.4e6, rel=0.1)
+    assert found["temperature_c"] == 23.5
+    assert any("errors of the modes are not stated" in w for w in found["warnings"])
+    assert {"length", "substrate_young"} <= {one["name"] for one in found["adjusted"]}
+
+
+FAULTS = {
+    "order": ("mode,frequency_hz,loss_factor\n1,50,0.1\n2,40,0.1\n", "mode 2 lies below an earlier one"),
+    "twice": ("mode,frequency_hz,loss_factor\n1,50,0.1\n1,60,0.1\n", "mode 1 stands twice"),
+}
+
+
+@pytest.mark.parametrize(("text", "said"), FAULTS.values(), ids=FAULTS)
+def test_a_table_out_of_order_is_refused(table, capsys, text, said):
+    (table / "modes.csv").write_text(text)
+    assert run(["identify", str(table / "modes.csv"), "--specimen", str(table / "plate.toml")]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_table_beside_a_sweep_is_refused(table, capsys):
+    (table / "sweep.csv").write_text("frequency_hz,velocity_m_s\n10,1\n")
+    files = [str(table / name) for name in ("modes.csv", "sweep.csv")]
+    assert run(["identify", *files, "--specimen", str(table / "plate.toml")]) == 2
+    assert "tables of modes beside other data" in capsys.readouterr().err
+    assert run(["identify", files[0]]) == 2
+    assert "--specimen" in capsys.readouterr().err
+
+
+def test_a_fit_that_leaves_the_modes_says_so():
+    assumed = ModalTable(np.array([1, 2]), np.array([100.0, 200.0]), np.array([0.2, 0.2]))
+    stated = replace(assumed, frequency_std_hz=np.full(2, 0.1), loss_factor_std=np.full(2, 0.01))
+    tables = [stated]
+
+    def fit(second_hz, loss, chi2):
+        return SimpleNamespace(
+            predicted_hz=(np.array([100.0, second_hz]),),
+            predicted_loss=(np.array([0.2, loss]),),
+            uncertainty=SimpleNamespace(chi2_per_dof=chi2),
+        )
+
+    assert remark_on_fit(fit(210.0, 0.2, 2.0), tables) == ()
+    (said,) = remark_on_fit(fit(240.0, 0.2, 90.0), tables)
+    assert said.startswith("the fit does not follow the modes (rms 14.1 % in frequency)")
+    (said,) = remark_on_fit(fit(202.0, 0.1, 5.6), tables)
+    assert said.startswith("the modes are off by 5.6 times what their errors explain")
+    assert "1 % in frequency and 50 % in loss factor" in said
+    assert "no damping ratios" in said
+    (said,) = remark_on_fit(fit(202.0, 0.1, 5.6), [assumed])
+    assert said.startswith("the modes are off by 5.6 times what the assumed errors explain")
+
+
+def test_stated_numbers_that_had_to_be_moved_too_far_are_named():
+    tips = replace(BEAM, substrate=replace(FACE, thickness_m=0.8 * FACE.thickness_m))
+    found = identify_tables([read(tips)], [replace(BEAM, exact=False)])
+    (said,) = [one for one in found.remarks if "had to be moved" in one]
+    assert "constraining_thickness by -" in said
+    assert doubts_itself([said])
+    right = identify_tables([read(BEAM)], [replace(BEAM, exact=False)])
+    assert not any("had to be moved" in one for one in right.remarks)
+
+
+def test_the_row_that_does_not_go_with_the_others_is_named_with_its_file_and_where_they_have_it():
+    def table(*f):
+        return SimpleNamespace(
+            mode=np.arange(2.0, 2 + len(f)), frequency_hz=np.array(f), loss_factor=0.1 * np.array(f)
+        )
+
+    odd = SimpleNamespace(place=3, frequency_hz=4.25, loss_factor=0.5)
+    said = remark_on_misread(odd, [table(1.0, 2.0, 3.0), table(4.0, 5.0)])
+    assert said.startswith("mode 2 of file 2 does not go with the others")
+    assert "at 4.25 Hz with a loss factor of 0.5, the table at 4 Hz with 0.4" in said
+    assert remark_on_misread(odd, [table(1.0, 2.0, 3.0, 4.0)]).startswith("mode 5 does not go")
+    # A beam's motion along itself is among the model's modes, and seldom in a table.
+    along = SimpleNamespace(place=3, frequency_hz=4.25, loss_factor=1e-12)
+    said = remark_on_misread(along, [table(1.0, 2.0, 3.0, 4.0)])
+    assert "at 4.25 Hz where layers stretch along the beam, nothing bends" in said
+    assert "numbered past that one: is this mode 6?" in said

@@ -1,0 +1,38 @@
+"""What is said beside one law over temperatures."""
+
+import numpy as np
+import pytest
+from shear_pair_temperatures import alone, fitted, shifted
+
+from fitting.identification.adjusted import Adjusted
+from fitting.identification.result import LawBand
+from fitting.temperature.simple import judge
+from instrument.temperatures.shifted import Shifted
+
+F_HZ = np.geomspace(50, 4000, 5)
+
+
+@pytest.fixture(scope="module")
+def fit_and_each():
+    return fitted(shifted())[1:]
+
+
+def made(fit_and_each, **said):
+    fit, each = fit_and_each
+    G, eta = fit.law.storage_and_loss(2 * np.pi * F_HZ)
+    band = LawBand(F_HZ, G, eta, 0.01 * G, 0.01 * eta)
+    return Shifted(fit, judge(fit), band, alone(each), None, 2.0, **said)
+
+
+def moved(pull):
+    return (Adjusted("held_width", 0.0, 0.7, 0.7 * pull, 0.3, pull, "mm"),)
+
+
+def test_a_stated_number_that_was_moved_too_far_is_a_warning(fit_and_each):
+    said = made(fit_and_each, adjusted=moved(-4.7)).warnings
+    assert any("held_width by -4.7 standard deviations" in one for one in said)
+
+
+def test_one_that_stays_within_its_tolerance_is_none(monkeypatch, fit_and_each):
+    monkeypatch.setitem(vars(fit_and_each[0]), "stated_covariance", np.array([[0.2]]))
+    assert not any("moved" in one for one in made(fit_and_each, adjusted=moved(0.1)).warnings)
