@@ -16,8 +16,21 @@ from fitting.temperature.thermometers import Misread, misread, rising
 
 _POINTS = 25
 """Over a sweep's band: the wicket plot is compared at them."""
+AGREED = 0.01
+"""Tail probability above which one law explains the members that are left. A choice, ten times that of a
+refusal."""
 _NEAR = 6.0
 """In cost, -2 ln of a probability ratio of twenty: causes so near the best are named beside it."""
+
+
+@dataclass(frozen=True)
+class OddOne:
+    """A member without which one law explains all others."""
+
+    place: int
+    """Among the members, from 0."""
+    p_value: float
+    """Of one law for the others."""
 
 
 @dataclass(frozen=True)
@@ -53,13 +66,14 @@ def judge(
     names: Sequence[str] = (),
     scale_known: bool = True,
     odd: Sequence[str] = (),
+    odd_ones: Sequence[OddOne] = (),
 ) -> Verdict:
     """What the checks say together; `causes` are those looked at where `in_doubt`.
 
     `apart` is one law with a factor for every sweep: where it serves, temperatures or form are refused and
     not the material. `names` of the sweeps; their numbers otherwise. Without `scale_known` the size of errors
     is a guess: by it one law may serve, and none is refused. `odd` readings are said to be wrong before
-    anything else is.
+    anything else is. One of the `odd_ones` may be all that is wrong.
     """
     if odd and in_doubt(fit):
         said = (
@@ -67,7 +81,7 @@ def judge(
             f"before this is: {'; '.join(odd)}"
         )
         return Verdict(None, fit.p_value, _wicket(fit)[0], said, law_stands=False)
-    found = _judged(fit, causes, apart, names)
+    found = _judged(fit, causes, apart, names, odd_ones)
     if scale_known or found.simple is not False:
         return found
     words = (
@@ -78,7 +92,11 @@ def judge(
 
 
 def _judged(
-    fit: ShiftedFit, causes: Sequence[Cause], apart: ShiftedFit | None, names: Sequence[str]
+    fit: ShiftedFit,
+    causes: Sequence[Cause],
+    apart: ShiftedFit | None,
+    names: Sequence[str],
+    odd_ones: Sequence[OddOne],
 ) -> Verdict:
     able = serving(causes)
     best = able[0].fit if able else fit
@@ -123,7 +141,8 @@ def _judged(
     if apart is not None and explains(fit):
         off, at = _wicket(apart)
     if explains(fit):
-        return told(False, _refusal(fit, f"differs by up to {two_digits(off)} % at {at:g} degC"))
+        whose = _whose(fit, odd_ones, names) if odd_ones else None
+        return told(False, _refusal(fit, f"differs by up to {two_digits(off)} % at {at:g} degC", whose))
     if other is not None:
         beside = _refusal(other.fit, f"differs even where {story(other)} at all temperatures")
         return told(False, beside, other.fit.p_value)
@@ -150,21 +169,33 @@ def _gain(fit: ShiftedFit) -> str:
     return said if fit.noise_known else f"{said}, noise being what a law for each temperature leaves"
 
 
-def _refusal(fit: ShiftedFit, difference: str) -> str:
+def _whose(fit: ShiftedFit, odd_ones: Sequence[OddOne], names: Sequence[str]) -> str:
+    name, T = (names or range(1, len(fit.shift.temperature_c) + 1)), fit.shift.temperature_c
+    each = [f"without {name[o.place]} ({T[o.place]:g} degC, p {o.p_value:.2g})" for o in odd_ones]
+    return (
+        f"{' or '.join(each)} one law explains all others: something may be off there alone (a mass, a "
+        "mount, another specimen), or the material is not simple there; identify it by itself, and the others"
+    )
+
+
+def _refusal(fit: ShiftedFit, difference: str, whose: str | None = None) -> str:
     how = {"wlf": "by WLF", "arrhenius": "by Arrhenius", "free": "freely"}[fit.shift.kind]
     words = (
         f"no one law shifted {how} explains all temperatures ({_gain(fit)}): at the same G' the loss factor "
         f"{difference}; "
     )
+    if whose is not None:
+        return words + whose
     if fit.shift.kind == "free":
         return (
             words
-            + "the material is not thermorheologically simple here, or not one material: identify each alone"
+            + "the material is not thermorheologically simple here, or not one material, or a specimen is "
+            "not as stated at some temperatures: identify each alone"
         )
     return (
         words
         + "try --shift free: if it is refused too, the material is not thermorheologically simple, or not "
-        "one material"
+        "one material, or a specimen is not as stated at some temperatures"
     )
 
 

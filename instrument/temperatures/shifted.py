@@ -19,7 +19,7 @@ from fitting.temperature.causes import Cause, explains, without_any
 from fitting.temperature.members import Alone
 from fitting.temperature.shifted_fit import ShiftedFit
 from fitting.temperature.shifts import Kind, Shift
-from fitting.temperature.simple import Verdict, in_doubt, judge, serving
+from fitting.temperature.simple import Verdict, in_doubt, judge, serving, story
 from fitting.temperature.spots import spots_apart_m
 from fitting.temperature.thermometers import rising
 from instrument.errors import BadInput
@@ -74,6 +74,12 @@ class Shifted:
         if not self.verdict.law_stands:
             said.insert(
                 0, f"no law explains these readings as they are: this one is not to be used, {BIASED}"
+            )
+        elif self.verdict.simple is None and self.cause is not None:
+            said.insert(
+                0,
+                f"this law stands only where {story(self.cause)}: if the material is not simple it is no "
+                "law of it, and its errors say nothing",
             )
         return (*said, *moved_too_far(self.adjusted, known), *self._of_temperatures, *self.remarks)
 
@@ -160,7 +166,9 @@ def identify_shifted(
         told = bool(odd) or (apart is not None and not in_doubt(apart))
         causes = asked.common_causes(alone, problem, fit) if in_doubt(fit) and not told else []
         fit, causes = _off_the_causes(fit, causes)
-    verdict = judge(fit, causes, apart, [one.name for one in every], members.scale_known, odd)
+        refused = in_doubt(fit) and not told and not serving(causes) and explains(fit)
+        odd_ones = asked.odd_ones(alone) if refused else []
+    verdict = judge(fit, causes, apart, [one.name for one in every], members.scale_known, odd, odd_ones)
     cause = next(iter(serving(causes)), None)
     fit = cause.fit if cause is not None else fit
     remarks = asked.remarks(problem, fit)

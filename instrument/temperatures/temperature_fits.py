@@ -10,7 +10,7 @@ from fitting.temperature.joint import TemperatureProblem, fit_shifted
 from fitting.temperature.members import Alone
 from fitting.temperature.shifted_fit import ShiftedFit
 from fitting.temperature.shifts import Shift
-from fitting.temperature.simple import in_doubt
+from fitting.temperature.simple import AGREED, OddOne, in_doubt
 from fitting.temperature.spots import spots_moved
 from fitting.temperature.tables import Tables
 from fitting.temperature.thermometers import each_its_own
@@ -25,6 +25,8 @@ _FREER = 2
 """Times that a law is let bend further before it is refused. A choice."""
 _ROUNDS = 2
 """Fits of tables after the first, each about the law that the one before has found. A choice."""
+_ENOUGH_LEFT = 3
+"""Members that have to go together for another one to be the odd one. A choice."""
 _ASIDE = 3.0
 """Standard deviations of a spot's place: one that is aimed anew lies no further off. A choice."""
 
@@ -107,6 +109,30 @@ class TemperatureFits:
             return None
         with self.progress("a factor for each of them"):
             return self._fit_of(self._task(alone, each_its_own(self.shift)), alone)[1]
+
+    def odd_ones(self, alone: Sequence[Alone]) -> list[OddOne]:
+        """The members without any one of which one law explains all others; none where that is most."""
+        if len(alone) < _ENOUGH_LEFT + 1:
+            return []
+        p = []
+        with self.progress("the others, without each in turn") as report:
+            for k in range(len(alone)):
+                p.append(self._p_without(k, alone))
+                report((k + 1) / len(alone))
+        found = [OddOne(k, one) for k, one in enumerate(p) if one >= AGREED]
+        return found if len(found) <= len(alone) / 2 else []
+
+    def _p_without(self, k: int, alone: Sequence[Alone]) -> float:
+        """Zero where not even a law for each of the others explains them."""
+        others = [i for i in range(len(alone)) if i != k]
+        its = replace(
+            self,
+            members=replace(self.members, every=[self.members.every[i] for i in others], remarks=[]),
+            shift=replace(self.shift, temperature_c=self.shift.temperature_c[others]),
+        )
+        rest = [alone[i] for i in others]
+        fit = its._fit_of(its._task(rest, its.shift), rest)[1]
+        return fit.p_value if explains(fit) else 0.0
 
     def common_causes(
         self, alone: Sequence[Alone], problem: TemperatureProblem, fit: ShiftedFit

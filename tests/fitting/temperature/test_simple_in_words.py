@@ -9,7 +9,7 @@ from temperature_cases import LAW
 from fitting.effects import CATALOGUE
 from fitting.temperature.causes import REFUSED, common, explains
 from fitting.temperature.shifted_law import ShiftedLaw
-from fitting.temperature.simple import in_doubt, judge, serving
+from fitting.temperature.simple import OddOne, in_doubt, judge, serving
 
 T = np.array([5.0, 20.0])
 
@@ -116,3 +116,11 @@ def test_causes_of_all_sweeps_are_the_plate_s_and_the_rig_s_not_the_core_s_nor_t
     assert not {"core_law", "temperature_drift", "mains_hum", "absolute_velocity"} & names
     assert explains(fit(own=1.0))
     assert not explains(fit(own=50.0))
+
+
+def test_a_temperature_without_which_one_law_serves_is_named_before_the_material_is_blamed():
+    words = judge(fit(p=1e-5), names=["cold.csv", "warm.csv"], odd_ones=[OddOne(1, 0.4)]).words
+    assert "without warm.csv (20 degC, p 0.4) one law explains all others" in words
+    assert "something may be off there alone" in words
+    assert "not one material" not in words
+    assert "not one material" in judge(fit(p=1e-5)).words

@@ -1,9 +1,13 @@
 """What is said beside one law over temperatures."""
 
+from dataclasses import replace
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from shear_pair_temperatures import alone, fitted, shifted
 
+from fitting.effects import CATALOGUE
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.result import LawBand
 from fitting.temperature.simple import judge
@@ -36,3 +40,14 @@ def test_a_stated_number_that_was_moved_too_far_is_a_warning(fit_and_each):
 def test_one_that_stays_within_its_tolerance_is_none(monkeypatch, fit_and_each):
     monkeypatch.setitem(vars(fit_and_each[0]), "stated_covariance", np.array([[0.2]]))
     assert not any("moved" in one for one in made(fit_and_each, adjusted=moved(0.1)).warnings)
+
+
+def test_a_law_that_stands_only_beside_a_cause_says_so(fit_and_each):
+    """The material may as well not be simple: then its narrow band means nothing."""
+    effect = CATALOGUE["channel_delay"]
+    one = SimpleNamespace(of=lambda e: np.array([q.typical for q in e.parameters]))
+    cause = SimpleNamespace(effect=effect, fit=SimpleNamespace(one=one))
+    plain = made(fit_and_each)
+    maybe = replace(plain, cause=cause, verdict=replace(plain.verdict, simple=None))
+    assert any(said.startswith("this law stands only where") for said in maybe.warnings)
+    assert not any("this law stands only where" in said for said in plain.warnings)

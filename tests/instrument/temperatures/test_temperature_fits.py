@@ -15,7 +15,7 @@ from instrument.temperatures.temperature_fits import TemperatureFits
 
 
 def fits(laws, at_c=T, kind="free"):
-    sweeps = [begun(k, law).problem.sweep for k, law in enumerate(laws)]
+    sweeps = [begun(k % len(T), law).problem.sweep for k, law in enumerate(laws)]
     every = [AtTemperature(s, t, f"{t:g}.csv") for s, t in zip(sweeps, at_c, strict=True)]
     return TemperatureFits(Members(every, [PAIR]), Shift(kind, np.array(at_c), REFERENCE), False, quiet)
 
@@ -61,3 +61,16 @@ def test_another_material_at_one_temperature_stays_in_doubt_however_far_its_law_
     _, problem, fit = of.fitted(with_effects=False)
     assert in_doubt(fit)
     assert in_doubt(of.freer(problem, fit))
+
+
+def test_one_sweep_of_another_material_is_the_odd_one():
+    laws = shifted()
+    other = replace(laws[1], law=LAWS["fractional-zener"](1e6, 9e6, 2e-3, 0.9))
+    of = fits([*laws, other], (*T, T[1]))
+    alone, _, fit = of.fitted(with_effects=False)
+    assert in_doubt(fit)
+    (odd,) = of.odd_ones(alone)
+    assert odd.place == 3
+    assert odd.p_value > 0.01
+    # Of three sweeps any two may go together.
+    assert of.odd_ones(alone[:3]) == []
