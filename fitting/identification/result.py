@@ -1,6 +1,6 @@
 """The one result of an identification, whichever method found it."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,6 +11,7 @@ from fitting.data.noise import Noise
 from fitting.digits import written_out
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.as_stated import is_unlikely, pulled_together
+from fitting.identification.doubt import ASTRAY, BIASED, Doubt
 from fitting.identification.fit import Fit
 from fitting.identification.known_curve import KnownCurve, known_curve
 from fitting.identification.law_remarks import beyond_cores, gain_of_energy, hardly_known
@@ -21,8 +22,6 @@ from fitting.laws import CoreLaw
 from fitting.laws.bent_law import BentLaw
 from fitting.sweep import Sweep
 
-BIASED, ASTRAY = "the law may be biased beyond its band", "the fit does not follow the"
-"""How a fit says that it lacks something: whoever passes a law on looks for it (`doubts_itself`)."""
 _BAND_POINTS = 41
 """Of the law that is given with its band: dense enough to draw it and to carry it on."""
 _STRONG_CORRELATION = 0.99
@@ -72,6 +71,7 @@ class Identification:
     validation: Validation
     band: LawBand
     warnings: tuple[str, ...]
+    """A `Doubt` among them says that the law may be wrong by more than is known of it."""
 
     @property
     def standard_errors(self) -> dict[str, float]:
@@ -159,18 +159,8 @@ def sweep_range(sweep: Sweep) -> tuple[float, float]:
     return float(sweep.frequency_hz.min()), float(sweep.frequency_hz.max())
 
 
-def doubts_of(warnings: Iterable[str]) -> list[str]:
-    """Those of a fit's own warnings that say its law may be wrong by more than is known of it."""
-    return [said for said in warnings if BIASED in said or ASTRAY in said]
-
-
-def doubts_itself(warnings: Iterable[str]) -> bool:
-    """Whether there are such warnings."""
-    return bool(doubts_of(warnings))
-
-
 def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: bool) -> list[str]:
-    law, said = fit.law.plain, []
+    law, said = fit.law.plain, list[str]()
     data = len(sweep) * (2 if sweep.has_phase else 1)
     if data <= len(law.names):
         said.append(
@@ -183,21 +173,23 @@ def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: 
         said.append("the 5 % criterion is not met: some point differs by more than 5 %")
     off = rms(differences_percent(sweep, fit.velocity_m_s))
     if off > LOST_PERCENT:
-        said.append(f"{ASTRAY} data (rms {written_out(off, 3)} %): check units, level and pickup")
+        said.append(Doubt(f"{ASTRAY} data (rms {written_out(off, 3)} %): check units, level and pickup"))
     count = len(fit.adjusted)
     said.extend(
         moved_too_far(fit.adjusted, fit.posterior[-count:, -count:] if fit.posterior is not None else None)
     )
     if noise_is_known and uncertainty.chi2_per_dof > _MISFIT:
         said.append(
-            f"the residual is {written_out(uncertainty.chi2_per_dof, 3)} times what the noise explains "
-            "(chi-square per degree of freedom): the model lacks something, "
-            f"and {BIASED}"
+            Doubt(
+                f"the residual is {written_out(uncertainty.chi2_per_dof, 3)} times what the noise explains "
+                "(chi-square per degree of freedom): the model lacks something, "
+                f"and {BIASED}"
+            )
         )
     return [*said, *_law_warnings(fit.law, uncertainty)]
 
 
-def moved_too_far(numbers: Sequence[Adjusted], covariance: Array | None) -> list[str]:
+def moved_too_far(numbers: Sequence[Adjusted], covariance: Array | None) -> list[Doubt]:
     """That stated numbers were moved further than they may be, one by one or together; seldom anything.
 
     `covariance` of them in tolerances, shape (numbers, numbers); None where it is not known.
@@ -206,9 +198,11 @@ def moved_too_far(numbers: Sequence[Adjusted], covariance: Array | None) -> list
     if pulled:
         named = ", ".join(f"{one.name} by {one.pull:+.1f}" for one in pulled)
         return [
-            f"stated numbers had to be moved further than their tolerances say ({named} standard deviations, "
-            f"limit {_PULLED:g}): they are stated wrongly or the model lacks something, and {BIASED}; "
-            "see 'viscorig diagnose'"
+            Doubt(
+                f"stated numbers had to be moved further than their tolerances say ({named} standard "
+                f"deviations, limit {_PULLED:g}): they are stated wrongly or the model lacks something, and "
+                f"{BIASED}; see 'viscorig diagnose'"
+            )
         ]
     if covariance is None or not numbers:
         return []
@@ -219,9 +213,11 @@ def moved_too_far(numbers: Sequence[Adjusted], covariance: Array | None) -> list
     most = sorted(numbers, key=lambda one: -abs(one.pull))[:_NAMED]
     named = ", ".join(f"{one.name} by {one.pull:+.1f}" for one in most)
     return [
-        "stated numbers had to be moved together further than data as these move them (chi-square "
-        f"{chi_square:.3g} of {directions} directions; most {named} standard deviations): one of them is "
-        f"stated wrongly or the model lacks something, and {BIASED}; see 'viscorig diagnose'"
+        Doubt(
+            "stated numbers had to be moved together further than data as these move them (chi-square "
+            f"{chi_square:.3g} of {directions} directions; most {named} standard deviations): one of them is "
+            f"stated wrongly or the model lacks something, and {BIASED}; see 'viscorig diagnose'"
+        )
     ]
 
 

@@ -3,8 +3,8 @@
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from fitting.identification.result import doubts_itself
 from instrument.batch.run import BatchRow
+from instrument.facts.doubts import doubts_in
 
 Cell = str | float | int | bool | None
 Marks = Mapping[int, Mapping[str, Cell]]
@@ -43,7 +43,7 @@ NOT_DIAGNOSED = "not diagnosed"
 def is_doubted(row: BatchRow) -> bool:
     """Whether a law that nobody has diagnosed says of itself that it may be wrong."""
     o = row.outcome
-    return not o["failed"] and o["verdict"] is None and doubts_itself(o["warnings"])
+    return not o["failed"] and o["verdict"] is None and bool(doubts_in(o))
 
 
 def columns_of(rows: Iterable[BatchRow]) -> list[str]:

@@ -16,6 +16,7 @@ from instrument.batch.of_modes import diagnosed_modes, identified_modes
 from instrument.batch.task import BatchTask
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult, StageFitted
+from instrument.facts.doubts import doubts_of
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.modal import ModalResult
 from instrument.files.modal_table import is_modal_table
@@ -180,6 +181,7 @@ def _of_fit(result: IdentificationResult | ModalResult) -> dict[str, Any]:
         "effects": [],
         "converged": result.converged,
         "warnings": result.warnings,
+        "doubts": doubts_of(result),
         **_kept(result),
     }
 
@@ -191,6 +193,7 @@ def _of_diagnosis(result: DiagnosisResult) -> dict[str, Any]:
         "effects": [effect.name for effect in result.effects],
         "converged": None,
         "warnings": result.warnings,
+        "doubts": doubts_of(result),
         **_kept(result.after),
     }
 

@@ -167,6 +167,9 @@ class DiagnosisResult(Result):
     """What may be there without being named and would shift the law beyond its 95 % band, worst first."""
     explanation: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
+    doubts: tuple[str, ...] | None = None
+    """Those warnings by which the law may be wrong by more than is known of it; None in files of older
+    versions."""
     by_hand: bool = False
     """Accepted or declined on someone's word."""
     points: tuple[PointLeft, ...]

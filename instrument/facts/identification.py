@@ -104,6 +104,9 @@ class IdentificationResult(Result):
     criterion_met: bool | None = None
     """Of the paper's method alone."""
     warnings: tuple[str, ...] = ()
+    doubts: tuple[str, ...] | None = None
+    """Those warnings by which the law may be wrong by more than is known of it; None in files of older
+    versions."""
     law: tuple[LawRow, ...]
     """Over the measured band."""
     law_known: LawKnown | None = None

@@ -78,6 +78,9 @@ class ModalResult(Result):
     uncertainty: tuple[IntervalsFound, ...] | None = None
     """By profile likelihood, where it was asked for (docs/uncertainty.md)."""
     warnings: tuple[str, ...] = ()
+    doubts: tuple[str, ...] | None = None
+    """Those warnings by which the law may be wrong by more than is known of it; None in files of older
+    versions."""
     temperature_c: MaybeNumber = None
     """Mean of the rows that state one."""
     seconds: MaybeNumber = None

@@ -74,4 +74,7 @@ class ShiftedResult(Result):
     uncertainty: tuple[IntervalsFound, ...] | None = None
     """By profile likelihood, where it was asked for (docs/uncertainty.md)."""
     warnings: tuple[str, ...]
+    doubts: tuple[str, ...] | None = None
+    """Those warnings by which the law may be wrong by more than is known of it; None in files of older
+    versions."""
     seconds: Number

@@ -23,7 +23,7 @@ from fitting.diagnosis.several.of_files import Place
 from fitting.diagnosis.several.several_problem import SeveralProblem
 from fitting.digits import two_digits
 from fitting.errors import OutsideModel
-from fitting.identification.result import BIASED
+from fitting.identification.doubt import BIASED, Doubt
 from fitting.laws import CoreLaw
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import PlateSpecimen
@@ -48,7 +48,7 @@ class SetAside:
     glitch: Glitch
 
     def words(self, files: Sequence[File]) -> str:
-        """Where, in a sentence."""
+        """Where, in a sentence; a `Doubt` where what is left may be disturbed as well."""
         name = name_of(files, self.file)
         of = f"{name}: " if name else ""
         found = f"{of}{self.glitch.low_hz:.0f} to {self.glitch.high_hz:.0f} Hz is a local disturbance"
@@ -58,7 +58,7 @@ class SetAside:
         aside = f"{self.glitch.points} points set aside"
         if not self.glitch.at_end:
             return f"{found} {largest}: {aside}"
-        return (
+        return Doubt(
             f"{found} {largest} or of a sensor that is loose, up to where the curve ends, so that the rest "
             f"may have it too, unseen: {aside}; {BIASED}, see 'viscorig diagnose'"
         )

@@ -15,7 +15,8 @@ from fitting.dynamics.damping import viscous_damping
 from fitting.effects import all_spans, span_modules
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
-from fitting.identification.result import ASTRAY, BIASED, moved_too_far
+from fitting.identification.doubt import ASTRAY, BIASED, Doubt
+from fitting.identification.result import moved_too_far
 from fitting.laws import CoreLaw
 from fitting.laws.constant import ConstantModulus
 from fitting.mode_tables.build import member_of, own_motions
@@ -94,7 +95,7 @@ def identify_tables(
     )
     seconds = perf_counter() - ready
     reads = remark_on_reading(problem.members, [found.law] * len(problem.members))
-    left = (*remark_on_fit(found, tables), *remarks_on_pulls(found))
+    left: tuple[str, ...] = (*remark_on_fit(found, tables), *remarks_on_pulls(found))
     if odd is not None:
         left = (remark_on_misread(odd, tables),)
     said = (
@@ -190,32 +191,36 @@ def check_theories(
     return check_each_theory(specimens, law, [t.frequency_hz for t in tables])
 
 
-def remarks_on_pulls(fit: ModalFit) -> tuple[str, ...]:
+def remarks_on_pulls(fit: ModalFit) -> tuple[Doubt, ...]:
     """That stated numbers had to be moved further than they may be; nothing where they were not."""
     n = len(fit.law.names)
     stated = slice(n, n + len(fit.adjusted))
     return tuple(moved_too_far(fit.adjusted, fit.posterior[stated, stated]))
 
 
-def remark_on_fit(fit: ModalFit, tables: Sequence[ModalTable]) -> tuple[str, ...]:
+def remark_on_fit(fit: ModalFit, tables: Sequence[ModalTable]) -> tuple[Doubt, ...]:
     """That a law leaves more of the modes than errors or tolerances would; nothing where it does not."""
     off_f = np.concatenate(fit.predicted_hz) / np.concatenate([t.frequency_hz for t in tables]) - 1
     off_eta = np.concatenate(fit.predicted_loss) / np.concatenate([t.loss_factor for t in tables]) - 1
     if (rms_f := float(np.sqrt(np.mean(off_f**2)))) > _LOST:
         return (
-            f"{ASTRAY} modes (rms {written_out(100 * rms_f, 3)} % in frequency): check "
-            "mode numbers, specimen and unit",
+            Doubt(
+                f"{ASTRAY} modes (rms {written_out(100 * rms_f, 3)} % in frequency): check "
+                "mode numbers, specimen and unit"
+            ),
         )
     chi2 = fit.uncertainty.chi2_per_dof
     if not chi2 > _MISFIT:
         return ()
     whose = "their" if all(t.states_its_noise for t in tables) else "the assumed"
     return (
-        f"the modes are off by {chi2:.3g} times what {whose} errors explain (chi-square per degree), by up "
-        f"to {two_digits(100 * np.abs(off_f).max())} % in frequency and "
-        f"{two_digits(100 * np.abs(off_eta).max())} % in loss factor: check mode numbers, "
-        "and that loss factors are no damping ratios (half of them); else the model lacks something, and "
-        f"{BIASED}",
+        Doubt(
+            f"the modes are off by {chi2:.3g} times what {whose} errors explain (chi-square per degree), by "
+            f"up to {two_digits(100 * np.abs(off_f).max())} % in frequency and "
+            f"{two_digits(100 * np.abs(off_eta).max())} % in loss factor: check mode numbers, "
+            "and that loss factors are no damping ratios (half of them); else the model lacks something, and "
+            f"{BIASED}"
+        ),
     )
 
 

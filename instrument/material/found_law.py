@@ -12,10 +12,10 @@ from scipy.interpolate import PchipInterpolator
 from fitting.arrays import Array, Complex
 from fitting.errors import FittingError
 from fitting.identification.known_curve import KnownCurve
-from fitting.identification.result import doubts_itself
 from fitting.structures import AnySpecimen
 from fitting.structures.shear_pair import ShearPair
 from instrument.errors import BadInput
+from instrument.facts.doubts import doubts_in
 from instrument.facts.identification import IdentificationResult
 from instrument.files.table import LARGEST
 from instrument.files.text import read_text
@@ -264,9 +264,7 @@ def _identified(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
         return None
     if found is None:
         return None
-    said = facts.get("warnings")
-    doubted = isinstance(said, list | tuple) and doubts_itself(map(str, said))
-    return replace(_as_known(found, facts), is_doubted=doubted)
+    return replace(_as_known(found, facts), is_doubted=bool(doubts_in(facts)))
 
 
 def _as_known(law: MaterialLaw, facts: dict[str, Any]) -> MaterialLaw:

@@ -4,6 +4,7 @@ import numpy as np
 
 from fitting.data.noise import noise_of
 from fitting.diagnosis.verdict.result import Candidate, FoundEffect, Stage
+from fitting.identification.doubt import doubts_among
 from fitting.sweep import Sweep
 from instrument.facts.diagnosis import (
     CandidateFitted,
@@ -47,6 +48,7 @@ def diagnosis_from(found: Diagnosed) -> DiagnosisResult:
         next_measurement=r.next_measurement,
         explanation=r.explanation,
         warnings=r.warnings,
+        doubts=doubts_among(r.warnings),
         by_hand=r.by_hand,
         points=_points(sweep.take(r.used), r.before, r.after),
         points_set_aside=points_set_aside_from(sweep, r.why_aside),

@@ -8,8 +8,8 @@ from fitting.diagnosis.several.of_files import ALIKE, EACH, FILE
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.diagnosis.verdict.kin import UNLISTED
 from fitting.digits import two_digits
-from fitting.identification.result import doubts_itself
 from instrument.facts.diagnosis import CandidateFitted, DiagnosisResult, EffectFound, ParameterFound
+from instrument.facts.doubts import doubts_of
 from instrument.facts.rows import LawRow, StretchSetAside
 from instrument.results.error_words import FLOOR_PERCENT, is_below_floor
 from instrument.results.numbers import with_error
@@ -126,7 +126,7 @@ def with_verdict(title: str, found: DiagnosisResult) -> str:
     """The title of what shows a diagnosis's law: it says so where nothing explains the data."""
     if found.verdict == "unknown":
         return f"{title} ({UNKNOWN})"
-    return f"{title} ({DOUBTED})" if doubts_itself(found.warnings) else title
+    return f"{title} ({DOUBTED})" if doubts_of(found) else title
 
 
 def candidate_words(name: str) -> str:

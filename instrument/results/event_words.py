@@ -1,6 +1,6 @@
 """One line for people of an event: what the log of a window and the console of a run say."""
 
-from fitting.identification.result import doubts_itself
+from instrument.facts.doubts import doubts_of
 from instrument.facts.identification import IdentificationResult
 from instrument.files.acceleration import shown_quantity
 from instrument.results.diagnosis_words import DOUBTED, verdict_line
@@ -102,7 +102,7 @@ def _fit_said(event: FitUpdated) -> str:
 
 def _doubt(fit: IdentificationResult) -> str:
     """Said where the error stated beside a law is not all that is wrong with it."""
-    if not doubts_itself(fit.warnings):
+    if not doubts_of(fit):
         return ""
     left = f", chi-square per degree {fit.chi2_per_dof:.3g}" if fit.chi2_per_dof is not None else ""
     return f"; {DOUBTED}{left}"

@@ -7,6 +7,7 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.discrepancy.theory_error import TheoryError
 from fitting.identification.bare_plate import BarePlateFit
+from fitting.identification.doubt import doubts_among
 from fitting.identification.fit import Fit
 from fitting.identification.result import Identification
 from fitting.laws import CoreLaw
@@ -62,6 +63,7 @@ def identification_from(found: Identified) -> IdentificationResult:
         converged=bool(r.fit.converged),
         criterion_met=r.fit.criterion_met,
         warnings=r.warnings,
+        doubts=doubts_among(r.warnings),
         law=law_rows_from(r.band),
         law_known=law_known_from(r.band),
         adjusted=adjusted_from(r.fit.adjusted),

@@ -10,6 +10,7 @@ from fitting.diagnosis.verdict.kin import UNLISTED, Unlisted
 from fitting.diagnosis.verdict.result import Candidate, FoundEffect
 from fitting.diagnosis.verdict.stage import FEW, each_of, found_effects, mixture_of
 from fitting.digits import two_digits
+from fitting.identification.doubt import doubts_among
 from fitting.identification.result import LawBand
 from fitting.mode_tables.diagnose import DiagnosedModes
 from fitting.mode_tables.fit import ModalFit, law_with, modal_fit_of
@@ -63,6 +64,7 @@ def modal_diagnosis_from(
         by_hand=False,
         explanation=_explanation(diagnosed, effects, first, last),
         warnings=diagnosed.remarks,
+        doubts=doubts_among(diagnosed.remarks),
         points=(),
         modes=_modes(before, after, tables),
         files=tuple(names),

@@ -6,6 +6,7 @@ from dataclasses import asdict, replace
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.identification.doubt import doubts_among
 from fitting.identification.known_curve import known_curve
 from fitting.identification.quoted import REFERENCE_FREQUENCIES_HZ
 from fitting.identification.result import LawBand
@@ -58,6 +59,7 @@ def modal_from(
         adjusted=adjusted_from(found.adjusted),
         formulas=_formulas(identified),
         warnings=identified.remarks,
+        doubts=doubts_among(identified.remarks),
         temperature_c=mean_temperature(tables),
         seconds=identified.seconds,
         setup_seconds=identified.setup_seconds,

@@ -7,10 +7,11 @@ from math import isfinite
 from fitting.data.level import LEAST_PERCENT
 from fitting.digits import written_out
 from fitting.gravity import STANDARD_GRAVITY_M_S2
+from fitting.identification.doubt import BIASED
 from fitting.identification.quoted import quoted_hz
-from fitting.identification.result import BIASED, doubts_itself
 from fitting.sweep import Sweep
 from instrument.facts.diagnosis import DiagnosisResult, StageFitted
+from instrument.facts.doubts import doubts_of
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.rows import LawRow
 from instrument.facts.session_result import SessionResult, Standing
@@ -123,7 +124,7 @@ def _doubt(fit: IdentificationResult | StageFitted, diagnosed: DiagnosisResult |
     if diagnosed is not None and diagnosed.verdict == "unknown":
         return _DOUBT
     said = diagnosed if diagnosed is not None else fit
-    doubted = isinstance(said, DiagnosisResult | IdentificationResult) and doubts_itself(said.warnings)
+    doubted = isinstance(said, DiagnosisResult | IdentificationResult) and bool(doubts_of(said))
     return f"{BIASED}: see the notes" if doubted else ""
 
 

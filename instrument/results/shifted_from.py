@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from fitting.identification.doubt import doubts_among
 from fitting.identification.result import differences_percent
 from fitting.identification.validation import rms
 from fitting.mode_tables.table import ModalTable
@@ -54,6 +55,7 @@ def shifted_from(found: Shifted, sweeps: Sequence[AtTemperature]) -> ShiftedResu
         adjusted=adjusted_from(found.adjusted),
         words=verdict.words,
         warnings=found.warnings,
+        doubts=doubts_among(found.warnings),
         seconds=found.seconds,
     )
 

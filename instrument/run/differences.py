@@ -3,33 +3,42 @@
 import json
 from dataclasses import replace
 
-from instrument.stream.derived import DiagnosisFound, LimitExceeded, LimitWarned
+from instrument.facts.result import Result
+from instrument.stream.derived import DiagnosisFound, FitUpdated, LimitExceeded, LimitWarned
 from instrument.stream.event import Event
 
 _SHOWN = 80
 """Letters of a value."""
-_SAID_SINCE = ("next_measurements", "unseen")
-"""Of a diagnosis: what a recording of an older version does not have is not compared."""
+_SAID_SINCE = ("next_measurements", "unseen", "doubts")
+"""Of a fit or a diagnosis: what a recording of an older version does not have is not compared."""
 _ONCE_SAID = ("times the likely", "base acceleration under its level")
 """How a version before this one said why it stopped: the same stop in other words and numbers."""
 
 
 def as_known_then(computed: Event, recorded: Event) -> Event:
-    """What was computed, without what limits and diagnoses say only since the recording's version."""
+    """What was computed, without what limits, fits and diagnoses say only since the recording's version."""
     if isinstance(recorded, LimitExceeded) and any(said in recorded.what for said in _ONCE_SAID):
         return recorded if isinstance(computed, LimitExceeded) else computed
     if isinstance(computed, LimitWarned | LimitExceeded) and getattr(recorded, "frequency_hz", None) == 0:
         return replace(computed, frequency_hz=0.0)
+    if isinstance(computed, FitUpdated) and isinstance(recorded, FitUpdated):
+        if computed.result is None or recorded.result is None:
+            return computed
+        return replace(computed, result=computed.result.without(*_said_since(recorded.result)))
     if not isinstance(computed, DiagnosisFound) or not isinstance(recorded, DiagnosisFound):
         return computed
     if computed.result is None or recorded.result is None:
         return computed
-    since = [key for key in _SAID_SINCE if key not in recorded.result.model_fields_set]
+    since = _said_since(recorded.result)
     result = computed.result.without(*since)
     # What is advised follows from the ranking.
     old = "next_measurements" in since
     advised = {"next_measurement": recorded.result.next_measurement} if old else {}
     return replace(computed, result=result.but(**advised))
+
+
+def _said_since(recorded: Result) -> list[str]:
+    return [key for key in _SAID_SINCE if key not in recorded.model_fields_set]
 
 
 def first_difference(computed: Event, recorded: Event) -> str:

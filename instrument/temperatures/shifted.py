@@ -11,7 +11,8 @@ from fitting.arrays import Array
 from fitting.digits import two_digits
 from fitting.errors import OutsideModel
 from fitting.identification.adjusted import Adjusted
-from fitting.identification.result import BIASED, LawBand, moved_too_far
+from fitting.identification.doubt import BIASED, Doubt
+from fitting.identification.result import LawBand, moved_too_far
 from fitting.identification.uncertainty import Uncertainty
 from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
@@ -72,15 +73,14 @@ class Shifted:
             said.append("data do not overlap in reduced frequency: there the shift rests on the law's form")
         known = self.fit.stated_covariance if self.adjusted else None
         if not self.verdict.law_stands:
-            said.insert(
-                0, f"no law explains these readings as they are: this one is not to be used, {BIASED}"
-            )
+            words = f"no law explains these readings as they are: this one is not to be used, {BIASED}"
+            said.insert(0, Doubt(words))
         elif self.verdict.simple is None and self.cause is not None:
-            said.insert(
-                0,
+            words = (
                 f"this law stands only where {story(self.cause)}: if the material is not simple it is no "
-                "law of it, and its errors say nothing",
+                "law of it, and its errors say nothing"
             )
+            said.insert(0, Doubt(words))
         return (*said, *moved_too_far(self.adjusted, known), *self._of_temperatures, *self.remarks)
 
     @property

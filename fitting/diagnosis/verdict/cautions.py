@@ -5,7 +5,7 @@ from fitting.diagnosis.inference.freer_law import freedom_of
 from fitting.diagnosis.search.catalogue_search import Search
 from fitting.diagnosis.verdict.judgement import Judgement
 from fitting.diagnosis.verdict.refusing import against_by_checks
-from fitting.identification.result import BIASED
+from fitting.identification.doubt import BIASED, Doubt
 
 _NO_TIME, _NO_SECONDS = "the points carry no time", "the points' times are all one or no seconds"
 _NOT_CONSIDERED = (
@@ -34,8 +34,10 @@ def warnings_of(search: Search, judgement: Judgement) -> tuple[str, ...]:
             )
         if accepted.too_large:
             said.append(
-                f"{accepted.too_large} ends at the limit of what is plausible: there is more of it, or it is "
-                f"something else, and {BIASED}"
+                Doubt(
+                    f"{accepted.too_large} ends at the limit of what is plausible: there is more of it, or "
+                    f"it is something else, and {BIASED}"
+                )
             )
         said += [e.caution for e in accepted.fitted.effects if e.caution]
     names = {n for group in judgement.equivalent.values() for n in group}
@@ -49,5 +51,5 @@ def warnings_of(search: Search, judgement: Judgement) -> tuple[str, ...]:
     by_hand = judgement.group[0][0] if judgement.by_hand else None
     if by_hand is not None and (why := against_by_checks(by_hand)):
         what = f"{' and '.join(by_hand.names)}, your word," if by_hand.names else "no effect"
-        said.append(f"{what} {why}: something else is missing, and {BIASED}")
+        said.append(Doubt(f"{what} {why}: something else is missing, and {BIASED}"))
     return (*said, *words_of_stretches(problem.sweep, search.work.parts))

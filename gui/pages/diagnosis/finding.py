@@ -6,10 +6,10 @@ from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from fitting.identification.result import doubts_of
 from gui.actions.rediagnosis import ShownDiagnosis
 from gui.style.theme import Role, current_theme
 from gui.widgets.mark import Mark
+from instrument.facts.doubts import doubts_of
 from instrument.results.diagnosis_words import verdict_line
 from instrument.results.typeset import capitalised, note, typeset
 
@@ -58,7 +58,7 @@ class Finding(QWidget):
         """In words."""
         accepted = shown.asked is not None and shown.asked.accept is not None
         role, meaning = _BY_HAND if accepted else _MEANINGS[shown.found.verdict]
-        doubts = doubts_of(shown.found.warnings)
+        doubts = doubts_of(shown.found)
         if accepted and doubts:
             role, meaning = "bad", " ".join(map(note, doubts))
         self.verdict.say(headline(shown), role, bold=True)

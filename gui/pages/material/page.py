@@ -6,7 +6,6 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSplitter, QTabWidget, QTextBrowser, QVBoxLayout
 
-from fitting.identification.result import doubts_of
 from gui.actions.controller import AppController
 from gui.actions.rediagnosis import ShownDiagnosis
 from gui.actions.together import Fitted
@@ -21,6 +20,7 @@ from gui.pages.together.numbers import headline as headline_together
 from gui.state import SessionState
 from gui.widgets.mark import Mark
 from instrument.facts.diagnosis import StageFitted
+from instrument.facts.doubts import doubts_of
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.session_result import SessionResult
 from instrument.results.diagnosis_words import DOUBTED, UNKNOWN, UNRELIABLE
@@ -159,12 +159,12 @@ class MaterialPage(Page):
         return headline(state.fits, state.fit_running) or empty
 
     @property
-    def _doubts(self) -> list[str]:
+    def _doubts(self) -> tuple[str, ...]:
         """What the law that stands says against itself."""
         shown, result = self._shown, self._fitted
         if shown is not None:
-            return doubts_of(shown.found.warnings)
-        return doubts_of(result.warnings) if result is not None else []
+            return doubts_of(shown.found)
+        return doubts_of(result) if result is not None else ()
 
     @property
     def _in_doubt(self) -> str:

@@ -15,7 +15,6 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from fitting.identification.result import doubts_of
 from gui.actions.controller import AppController
 from gui.actions.taking_together import paths_of
 from gui.files.pairing import fault_of
@@ -39,6 +38,7 @@ from gui.widgets.basic import button, hint
 from gui.widgets.mark import Mark
 from gui.widgets.work_bar import WorkBar
 from instrument.facts.diagnosis import DiagnosisResult, StageName
+from instrument.facts.doubts import doubts_of
 from instrument.facts.modal import ModalResult
 from instrument.results.standing import law_words, stage_before
 from instrument.results.typeset import note
@@ -126,7 +126,7 @@ class TogetherPage(Page):
         if found is None:
             return
         self.law.setText(headline(found))
-        doubts = doubts_of(found.warnings) if shown is None else []
+        doubts = doubts_of(found) if shown is None else ()
         self.doubt.say(" ".join(map(note, doubts)), "bad", bold=True)
         self.doubt.setVisible(bool(doubts))
         self._offer_stages(diagnosed)

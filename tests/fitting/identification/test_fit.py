@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from fitting.data.noise import noise_of
+from fitting.identification.doubt import doubts_among
 from fitting.identification.fit import Fit
 from fitting.identification.result import summarise
 from fitting.identification.uncertainty import uncertainty_of
@@ -69,4 +70,5 @@ def test_bends_at_their_limits_are_one_line_after_what_matters_more():
     assert bent_said.startswith(f"the law bends as far as it may at {knots - 1} of {knots} places")
     first = [one for one in said if "does not follow the data" in one or "times what the noise" in one]
     assert len(first) == 2
+    assert doubts_among(said) == tuple(first)
     assert max(map(said.index, first)) < said.index(bent_said)

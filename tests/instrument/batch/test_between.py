@@ -3,7 +3,6 @@
 import pytest
 from row_cases import FREQUENCIES_HZ, row, rows
 
-from fitting.identification.result import BIASED
 from instrument.batch.between import between_rows
 from instrument.batch.run import BatchRow
 from instrument.batch.task import BatchTask
@@ -31,7 +30,7 @@ def test_temperatures_are_apart_and_the_unmeasured_come_last():
     assert [(b.temperature_c, b.result.rows) for b in found] == [(19.8, 5), (40.2, 3), (None, 4)]
 
 
-DOUBTED = {"verdict": None, "warnings": [f"numbers moved too far, and {BIASED}"]}
+DOUBTED = {"verdict": None, "warnings": ["numbers moved too far"], "doubts": ["numbers moved too far"]}
 
 
 @pytest.mark.parametrize("outcome", [{"failed": "torn"}, {"verdict": "unknown"}, {"law": {}}, DOUBTED])

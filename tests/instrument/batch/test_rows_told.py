@@ -109,7 +109,7 @@ def test_failed_rows_are_counted_apart_with_their_reasons_in_order():
 
 
 def test_a_law_that_doubts_itself_is_counted_by_its_data_unless_it_was_diagnosed():
-    doubt = {"warnings": ["it may be less; the law may be biased beyond its band; see 'viscorig diagnose'"]}
+    doubt = {"warnings": ["it may be less"], "doubts": ["it may be less"]}
     rows = [row(**doubt), row(verdict="effect", effects=["added_mass"], **doubt), row(), FAILED]
     result = Counted.of(rows).result(known_before=0, files=())
     assert result.doubted == (rows[0].task.data,)

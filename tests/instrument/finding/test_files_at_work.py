@@ -8,7 +8,7 @@ from shear_pair_cases import pair, sweep
 
 from fitting.data.aside import DISTURBED
 from fitting.diagnosis.problem.glitch import Glitch
-from fitting.identification.result import doubts_itself
+from fitting.identification.doubt import doubts_among
 from instrument.finding.files_at_work import FilesAtWork, SetAside
 from instrument.models.files import File
 from instrument.progress import quiet
@@ -57,8 +57,8 @@ def test_a_stretch_where_pads_move_most_may_be_of_pads_that_slip():
 def test_a_stretch_up_to_where_its_curve_ends_is_doubt():
     words = SetAside(1, Glitch(100.0, 130.0, 0.03, 0.01, 40, at_end=True)).words(FILES)
     assert "or of a sensor that is loose, up to where the curve ends" in words
-    assert doubts_itself([words])
-    assert not doubts_itself([SetAside(1, Glitch(100.0, 130.0, 0.03, 0.01, 40)).words(FILES)])
+    assert doubts_among([words])
+    assert not doubts_among([SetAside(1, Glitch(100.0, 130.0, 0.03, 0.01, 40)).words(FILES)])
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from beam_tables import BEAM, FACE, fit_modes, read
 from mode_cases import TRUTH, read_off, solid_modes, stated
 from plate_files import plate_text
 
-from fitting.identification.result import doubts_itself
+from fitting.identification.doubt import doubts_among
 from fitting.mode_tables.table import ModalTable
 from instrument.cli.main import run
 from instrument.finding.modal import identify_tables, remark_on_fit, remark_on_misread
@@ -115,7 +115,7 @@ def test_stated_numbers_that_had_to_be_moved_too_far_are_named():
     found = identify_tables([read(tips)], [replace(BEAM, exact=False)])
     (said,) = [one for one in found.remarks if "had to be moved" in one]
     assert "constraining_thickness by -" in said
-    assert doubts_itself([said])
+    assert doubts_among([said])
     right = identify_tables([read(BEAM)], [replace(BEAM, exact=False)])
     assert not any("had to be moved" in one for one in right.remarks)
 

@@ -17,6 +17,7 @@ def facts():
 
 def test_it_has_the_keys_of_a_sweep_s_result(facts):
     assert set(facts) >= IDENTIFY_KEYS
+    assert facts["doubts"] == []
     assert (facts["points"], facts["held_out"], facts["criterion_met"]) == ([], [], None)
 
 

@@ -1,9 +1,12 @@
 """What is said of several files, point by point."""
 
+from dataclasses import replace
+
 import numpy as np
 from diagnosis_cases import diagnosed, sweep
 
 from fitting.diagnosis.several.joining import joined
+from fitting.identification.doubt import Doubt
 from instrument.files.hammer_file import HammerModes
 from instrument.files.specimen_file import read_specimen
 from instrument.finding.identification import identify
@@ -43,6 +46,18 @@ def test_a_hammer_test_that_took_part_is_told_of_several_files_too(coarse):
     assert [m.measured_hz for m in told.modes] == measured_hz.tolist()
     assert abs(told.substrate_young_over_stated - 1) < 0.02
     assert identification_from(identify(files)).hammer is None
+
+
+def test_doubts_are_told_among_the_remarks_and_once_more_by_themselves():
+    said = ("hardly known above 300 Hz", Doubt("the law may be wrong"))
+    found = diagnosed(sweep())
+    found = replace(found, result=replace(found.result, warnings=said))
+    result = diagnosis_from(found)
+    assert (result.warnings, result.doubts) == (said, ("the law may be wrong",))
+    identified = identify([File(sweep(), read_specimen(case_file("zn1.toml")))])
+    again = replace(identified, result=replace(identified.result, warnings=said))
+    written = identification_from(again).as_json()
+    assert (written["warnings"], written["doubts"]) == (list(said), ["the law may be wrong"])
 
 
 def test_a_result_of_one_plate_names_no_file():

@@ -11,6 +11,7 @@ from shear_pair_cases import G_0, transmissibility
 from shear_pair_temperatures import LOG_A, PAIR, REFERENCE, T, alone, fitted, shifted
 
 from fitting.diagnosis.verdict.result import FoundEffect, ParameterEstimate
+from fitting.identification.doubt import Doubt
 from fitting.identification.pointwise import PointwiseLaw
 from fitting.identification.result import LawBand
 from fitting.mode_tables.build import member_of
@@ -80,12 +81,12 @@ def test_causality_is_said_with_its_sentence_where_it_could_be_judged():
 # Temperatures
 
 
-def at_temperatures(*, vertical=False, cause=None):
+def at_temperatures(*, vertical=False, cause=None, remarks=()):
     _, fit, each = fitted(shifted((1.1, 1.0, 0.95)) if vertical else shifted(), vertical=vertical)
     band = LawBand(*(np.array([50.0, 4000.0]) for _ in range(5)))
     verdict = Verdict(True, 0.4, 1.2, "simple")
     sweeps = [AtTemperature(b.problem.sweep, t, f"{t:g}.csv") for b, t in zip(each, T.tolist(), strict=True)]
-    found = Shifted(fit, verdict, band, alone(each), cause, 2.0)
+    found = Shifted(fit, verdict, band, alone(each), cause, 2.0, remarks)
     return fit, shifted_from(found, sweeps)
 
 
@@ -113,6 +114,12 @@ def test_what_one_law_leaves_of_a_sweep_is_of_its_own_amplitudes():
         T_mass = transmissibility(PAIR, sweep.frequency_hz, own.modulus(sweep.omega))
         off = np.abs(T_mass * G_0 / sweep.omega / sweep.velocity_m_s) - 1
         assert one.rms_percent == pytest.approx(100 * np.sqrt(np.mean(off**2)), rel=0.01)
+
+
+def test_what_a_law_over_temperatures_says_against_itself_is_told_apart():
+    _, result = at_temperatures(remarks=("a remark", Doubt("a doubt")))
+    assert result.warnings[-2:] == ("a remark", "a doubt")
+    assert result.doubts == ("a doubt",)
 
 
 def test_a_vertical_shift_is_a_factor_with_its_error():
@@ -147,10 +154,13 @@ def test_a_cause_that_all_sweeps_have_is_named_with_its_size():
 FORMS = {e.name: e for e in standing([BEAM])}
 
 
+SAID = ("a remark", Doubt("a doubt"))
+
+
 def diagnosed(table, *names):
     effects = tuple(FORMS[name] for name in names)
     found = diagnose_modes(ModalProblem.of([member_of(table, BEAM)]), effects, LAW)
-    return modal_diagnosis_from(TablesDiagnosed(found, effects, 0.5, 1.5, ("a remark",)), [table], ["a.csv"])
+    return modal_diagnosis_from(TablesDiagnosed(found, effects, 0.5, 1.5, SAID), [table], ["a.csv"])
 
 
 @pytest.fixture(scope="module")
@@ -195,7 +205,8 @@ def test_candidates_carry_their_probability_and_the_story_says_what_was_found(st
     assert first.startswith("One law leaves")
     assert likely.startswith("Most likely ")
     assert left == f"With it {result.after.rms_percent:.2g} % is left."
-    assert (result.files, result.warnings, result.seconds) == (("a.csv",), ("a remark",), 1.5)
+    assert (result.files, result.warnings, result.seconds) == (("a.csv",), ("a remark", "a doubt"), 1.5)
+    assert result.doubts == ("a doubt",)
 
 
 def test_of_a_beam_as_stated_no_effect_is_called_for():

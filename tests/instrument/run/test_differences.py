@@ -3,8 +3,10 @@
 import json
 from dataclasses import dataclass, replace
 
+from result_cases import identification
+
 from instrument.run.differences import as_known_then, first_difference
-from instrument.stream.derived import LimitExceeded
+from instrument.stream.derived import FitUpdated, LimitExceeded
 from instrument.stream.event import Derived
 
 
@@ -42,3 +44,14 @@ def test_a_stop_that_an_older_version_said_in_other_words_is_the_same():
     assert as_known_then(computed, older) == older
     assert as_known_then(computed, replace(computed, value=0.2)) == computed
     assert as_known_then(found(1.0), older) == found(1.0)
+
+
+def test_doubts_that_a_recording_does_not_tell_apart_are_not_compared():
+    older, said = (
+        identification(warnings=["a doubt"]),
+        identification(warnings=["a doubt"], doubts=["a doubt"]),
+    )
+    computed, recorded = FitUpdated(1, 7, said), FitUpdated(1, 7, older)
+    assert as_known_then(computed, recorded) == recorded
+    assert as_known_then(computed, computed) == computed
+    assert as_known_then(computed, FitUpdated(1, 7, None, "too few points")) == computed

@@ -6,7 +6,7 @@ import numpy as np
 
 from fitting.diagnosis.verdict.cautions import NO_DRIFT, warnings_of
 from fitting.effects import CATALOGUE
-from fitting.identification.result import doubts_itself
+from fitting.identification.doubt import doubts_among
 from fitting.laws import LAWS
 from fitting.sweep import Sweep
 
@@ -26,14 +26,14 @@ def test_an_effect_that_ends_where_no_more_of_it_is_plausible_leaves_its_law_in_
     assert said_of("") == ()
     (said,) = said_of("core_thickness")
     assert said.startswith("core_thickness ends at the limit of what is plausible")
-    assert doubts_itself([said])
+    assert doubts_among([said])
 
 
 def test_what_a_mass_leaves_out_is_said_and_is_no_doubt_by_itself():
     mass, pair = (CATALOGUE["added_mass"].on(kind) for kind in ("plate", "shear-pair"))
     (said,) = said_of("", mass)
     assert said.startswith("a mass is taken for a point: a tape or a strip")
-    assert not doubts_itself([said])
+    assert not doubts_among([said])
     assert said_of("", pair) == ()
     assert "stiffens the beam as well" in CATALOGUE["added_mass"].on("beam").caution
 
