@@ -10,13 +10,12 @@ from fitting.data.noise import Noise, noise_of
 from fitting.diagnosis.checks.overstated_noise import is_overstated, with_noise_of_left
 from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.inference.begin import begin
-from fitting.diagnosis.inference.evidence import BareModes
-from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search, best_of_each, by_cost
 from fitting.diagnosis.search.singles import Singles
 from fitting.diagnosis.search.with_pairs import with_pairs
 from fitting.diagnosis.verdict import text
+from fitting.diagnosis.verdict.case import DiagnosisCase
 from fitting.diagnosis.verdict.cautions import warnings_of
 from fitting.diagnosis.verdict.judgement import (
     Judgement,
@@ -32,7 +31,6 @@ from fitting.diagnosis.verdict.stage import few_of_law, found_effects, mixed_ban
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
-from fitting.laws import CoreLaw
 from fitting.progress import Report, unheard
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.sweep import Sweep
@@ -48,6 +46,33 @@ _BEFORE_KNOWN = 0.9
 """Of a diagnosis, where the fit before it has been judged and the one after it has not."""
 
 Settle = Callable[[Search, Judgement], Judgement]
+
+
+@dataclass(frozen=True)
+class ChannelsSeen:
+    """What the channels show by themselves, before anything is fitted."""
+
+    effects: tuple[FoundEffect, ...]
+    why_aside: Reasons
+    """Of every point given why the problem does not hold it; shape (points,)."""
+
+
+@dataclass(frozen=True)
+class DiagnosisOptions:
+    """How a case is diagnosed."""
+
+    report: Report = unheard
+    executor: Executor = ALONE
+    accepted_by_hand: Sequence[str] | None = None
+    """Effects that are fitted, and nothing is searched for; None for a search."""
+    resamples: int | None = None
+    """Sweeps without effects on which the search is repeated; None repeats it where points are few."""
+    settle: Settle | None = None
+    """Has the last word on the judgement."""
+
+
+Trace = Callable[[DiagnosisCase, ChannelsSeen, DiagnosisOptions], Diagnosis]
+"""What `diagnose_problem` does."""
 
 
 def seen_in_channels(
@@ -72,51 +97,36 @@ def seen_in_channels(
 
 
 def diagnose_problem(
-    problem: DiagnosisProblem,
-    *,
-    reduced: ReducedPlate | None,
-    effects: Sequence[Effect],
-    noise: Noise,
-    bare: BareModes | None,
-    start: CoreLaw,
-    channels: tuple[FoundEffect, ...] = (),
-    why_aside: Reasons | None = None,
-    report: Report = unheard,
-    accepted_by_hand: Sequence[str] | None = None,
-    executor: Executor = ALONE,
-    remade: Callable[[Sweep], DiagnosisProblem] | None = None,
-    resamples: int | None = None,
-    settle: Settle | None = None,
+    case: DiagnosisCase,
+    channels: ChannelsSeen | None = None,
+    options: DiagnosisOptions = DiagnosisOptions(),
 ) -> Diagnosis:
-    """Everything that can be said of a sweep's residual; `problem` holds the points in use.
+    """Everything that can be said of a sweep's residual; without `channels` all its points are in use.
 
-    With `accepted_by_hand` these effects are fitted and nothing is searched for. `why_aside` says of every
-    point of the sweep why the problem does not hold it, shape (points,). `remade` gives the problem of some
-    of the points; with it the search is repeated on `resamples` sweeps without effects (None: where points
-    are few) and with points held out. `settle` has the last word on the judgement.
+    Where the case can be remade the search is repeated on sweeps without effects and with points held out.
 
     Raises `OutsideModel` where the data cannot carry what is accepted by hand, before anything is fitted.
     """
-    # Only a search follows it further.
-    trusted = accepted_by_hand is not None
+    problem, effects, by_hand = case.problem, case.effects, options.accepted_by_hand
     catalogue = {e.name: e for e in effects}
-    by_hand = [catalogue[name] for name in accepted_by_hand or ()]
-    _refuse_what_is_objected_to(problem, by_hand)
-    begun = begin(problem, reduced, noise, bare, start, executor, to_its_end=trusted)
+    trusted = [catalogue[name] for name in by_hand or ()]
+    _refuse_what_is_objected_to(problem, trusted)
+    # Only a search follows it further.
+    begun = begin(
+        problem,
+        case.reduced,
+        case.noise,
+        case.bare,
+        case.start,
+        options.executor,
+        to_its_end=by_hand is not None,
+    )
     bases = [CATALOGUE[e.extends] for e in effects if e.extends and e.extends not in catalogue]
-    search = Search(begun.problem, begun.evidence, begun.none, effects, executor, bases)
-    if accepted_by_hand is None:
-
-        def again(none: Refitted) -> Again | None:
-            if remade is None:
-                return None
-            return Again(problem, remade, reduced, effects, bare, start, none, noise)
-
-        repeats = 0 if remade is None else repeats_of(len(problem.sweep), resamples)
-        decided = _decided(search, noise, report, again, repeats, settle)
-    else:
-        decided = _taken_on_trust(search, by_hand)
-    return _diagnosis(decided, reduced, catalogue, bare, channels, why_aside, report)
+    search = Search(begun.problem, begun.evidence, begun.none, effects, options.executor, bases)
+    decided = _decided(search, case, options) if by_hand is None else _taken_on_trust(search, trusted)
+    if channels is None:
+        channels = ChannelsSeen((), reasons(np.zeros(len(problem.sweep), bool), ""))
+    return _diagnosis(decided, case, channels, options.report)
 
 
 def _refuse_what_is_objected_to(problem: DiagnosisProblem, effects: Sequence[Effect]) -> None:
@@ -144,41 +154,30 @@ def _taken_on_trust(search: Search, effects: Sequence[Effect]) -> _Decided:
     )
 
 
-def _decided(
-    search: Search,
-    noise: Noise,
-    report: Report,
-    again: Callable[[Refitted], Again | None],
-    repeats: int,
-    settle: Settle | None,
-) -> _Decided:
+def _decided(search: Search, case: DiagnosisCase, options: DiagnosisOptions) -> _Decided:
     """The whole catalogue searched, the search repeated where it can be, and the last word heard."""
+    report = options.report
+    repeats = 0 if case.remade is None else repeats_of(len(case.problem.sweep), options.resamples)
     # Repeated often, the search is the least of the work.
     own = _OF_REPEATED if repeats else 1.0
-    search, scored_fits, judgement = _searched(search, noise, lambda x: report(own * x))
-    resampled, repeated = Resampled(), again(search.none.fitted)
-    if repeated is not None:
+    search, scored_fits, judgement = _searched(search, case.noise, lambda x: report(own * x))
+    resampled = Resampled()
+    if case.remade is not None:
+        again = Again(case, case.remade, search.none.fitted)
         most = gain(search.none, scored_fits)
         rest = _OF_SEARCH * (1 - own)
         resampled = resampled_of(
-            repeated, most, repeats, search.executor, lambda x: report(_OF_SEARCH * own + rest * x)
+            again, most, repeats, search.executor, lambda x: report(_OF_SEARCH * own + rest * x)
         )
         judgement = in_light_of(judgement, resampled.p_value)
-    if settle is not None:
-        judgement = settle(search, judgement)
+    if options.settle is not None:
+        judgement = options.settle(search, judgement)
     return _Decided(search, scored_fits, judgement, resampled)
 
 
-def _diagnosis(
-    decided: _Decided,
-    reduced: ReducedPlate | None,
-    catalogue: dict[str, Effect],
-    bare: BareModes | None,
-    channels: tuple[FoundEffect, ...],
-    why_aside: Reasons | None,
-    report: Report,
-) -> Diagnosis:
+def _diagnosis(decided: _Decided, case: DiagnosisCase, channels: ChannelsSeen, report: Report) -> Diagnosis:
     """Everything that is said of it."""
+    catalogue = {e.name: e for e in case.effects}
     search, judgement = decided.search, decided.judgement
     problem, evidence = search.problem, search.evidence
     report(_OF_SEARCH)
@@ -197,11 +196,11 @@ def _diagnosis(
     if judgement.unlisted is not None:
         scored_fits.append(judgement.unlisted)
     scored_fits = sorted([absent, *scored_fits], key=by_cost)
-    seen = tuple(text.story(catalogue[c.name], c) for c in channels)
+    seen = tuple(text.story(catalogue[c.name], c) for c in channels.effects)
     return Diagnosis(
         verdict=judgement.verdict,
         effects=tuple(replace(e, probability=judgement.of_effect(e.name)) for e in found),
-        channels=channels,
+        channels=channels.effects,
         equivalent=judgement.equivalent,
         candidates=tuple(
             _candidate(problem, t, search, judgement, scored_fits[0].cost, noise_known=evidence.scale_known)
@@ -212,20 +211,20 @@ def _diagnosis(
         next_measurement=text.next_measurement(
             judgement,
             catalogue,
-            with_hammer=bare is not None,
+            with_hammer=case.bare is not None,
             unknown=text.where_nothing_explains(problem.specimen.kind, problem.points.levels),
         ),
         explanation=(
             *(f"{s[0].upper()}{s[1:]}." for s in seen),
             *text.explain(problem, judgement, before, after, found),
         ),
-        why_aside=reasons(np.zeros(len(problem.sweep), bool), "") if why_aside is None else why_aside,
+        why_aside=channels.why_aside,
         warnings=warnings_of(search, judgement),
         by_hand=judgement.by_hand,
         p_value=decided.resampled.p_value,
         resamples=decided.resampled.repeats,
         nested_held_out_rms_percent=decided.resampled.nested_rms_percent,
-        rivals=_rivals(problem, reduced, search, judgement, scored_fits),
+        rivals=_rivals(problem, case.reduced, search, judgement, scored_fits),
     )
 
 

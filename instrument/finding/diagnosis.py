@@ -2,12 +2,11 @@
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from time import perf_counter
 
 from threadpoolctl import threadpool_limits
 
-from fitting.diagnosis.diagnose import diagnose_problem
+from fitting.diagnosis.diagnose import DiagnosisOptions, diagnose_problem
 from fitting.diagnosis.verdict.result import Diagnosis
 from fitting.effects import Effect
 from fitting.errors import OutsideModel
@@ -86,8 +85,7 @@ def diagnose(
         way.set_up(progress)
         ready = perf_counter()
         with progress("tracing the residual") as report:
-            trace = partial(diagnose_problem, report=report, accepted_by_hand=accept, executor=workers)
-            result = way.traced(trace)
+            result = way.traced(diagnose_problem, DiagnosisOptions(report, workers, accept))
     theory = check_each_theory(specimens, result.after.law, [file.sweep.frequency_hz for file in files])
     result = replace(result, warnings=(*result.warnings, *way.remarks(result, theory)))
     asked = tuple(way.effects) if accept is None else ()

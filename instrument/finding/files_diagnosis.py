@@ -1,13 +1,14 @@
 """What a diagnosis does with files under one law: any structure, one file or several."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from fitting.diagnosis.diagnose import seen_in_channels
+from fitting.diagnosis.diagnose import ChannelsSeen, DiagnosisOptions, Trace, seen_in_channels
 from fitting.diagnosis.several.effect_among_files import among
 from fitting.diagnosis.several.joining import joined
+from fitting.diagnosis.verdict.case import DiagnosisCase
 from fitting.diagnosis.verdict.confounded import last_word
 from fitting.diagnosis.verdict.result import Diagnosis, FoundEffect, ParameterEstimate
 from fitting.effects import Effect
@@ -58,7 +59,7 @@ class FilesDiagnosis:
             ]
         self._work.problem()
 
-    def traced(self, trace: Callable[..., Diagnosis]) -> Diagnosis:
+    def traced(self, trace: Trace, options: DiagnosisOptions) -> Diagnosis:
         """Hand on what `trace` asks for. Raises `OutsideModel` where files and specimens were exchanged."""
         files, work = self._files, self._work
         if self._searches and (other := exchanged(files)) is not None:
@@ -66,17 +67,10 @@ class FilesDiagnosis:
         work.set_disturbances_aside()
         fixtures = [_fixture(one, max(numbers_of(files))) for one in work.aside]
         problem, noise = work.problem()
-        result = trace(
-            problem,
-            reduced=None,
-            effects=self.effects,
-            noise=noise,
-            bare=work.bare,
-            start=work.start,
-            channels=(*self._channels, *fixtures),
-            why_aside=np.concatenate(work.why_aside),
-            settle=last_word({f.specimen.kind for f in files}),
-        )
+        case = DiagnosisCase(problem, self.effects, noise, work.start, bare=work.bare)
+        seen = ChannelsSeen((*self._channels, *fixtures), np.concatenate(work.why_aside))
+        settle = last_word({f.specimen.kind for f in files})
+        result = trace(case, seen, replace(options, settle=settle))
         if "fixture_transfer" in {e.name for e, _ in self._standing} and result.verdict == "unknown":
             return with_transfer(result, work)
         return result

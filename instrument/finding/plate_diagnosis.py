@@ -1,8 +1,10 @@
 """What a diagnosis does with one plate read at one spot."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from dataclasses import replace
 
-from fitting.diagnosis.diagnose import seen_in_channels
+from fitting.diagnosis.diagnose import ChannelsSeen, DiagnosisOptions, Trace, seen_in_channels
+from fitting.diagnosis.verdict.case import DiagnosisCase
 from fitting.diagnosis.verdict.result import Diagnosis
 from fitting.effects import Effect
 from fitting.errors import OutsideModel
@@ -48,20 +50,20 @@ class PlateDiagnosis:
         self._used = self.given.take(self._why_aside == "")
         self._ready = set_up(self._used, self._plate, self._hammer, progress, like=self._like)
 
-    def traced(self, trace: Callable[..., Diagnosis]) -> Diagnosis:
+    def traced(self, trace: Trace, options: DiagnosisOptions) -> Diagnosis:
         """Hand on what `trace` asks for."""
-        return trace(
-            self._ready.problem,
-            reduced=self._ready.reduced,
-            effects=self.effects,
-            noise=self._noise,
-            bare=self._ready.bare,
-            start=self._start,
-            channels=self._channels,
-            why_aside=self._why_aside,
-            remade=self._ready.remade,
-            resamples=self._resamples,
+        ready = self._ready
+        case = DiagnosisCase(
+            ready.problem,
+            self.effects,
+            self._noise,
+            self._start,
+            bare=ready.bare,
+            reduced=ready.reduced,
+            remade=ready.remade,
         )
+        seen = ChannelsSeen(self._channels, self._why_aside)
+        return trace(case, seen, replace(options, resamples=self._resamples))
 
     def remarks(self, result: Diagnosis, theory: Sequence[str]) -> tuple[str, ...]:
         """On what is stated and read, and on the theory; `theory` is what is said of the law it ends with."""

@@ -3,12 +3,13 @@
 from shear_pair_cases import pair, sweep
 
 from fitting.data.noise import noise_of
-from fitting.diagnosis.diagnose import diagnose_problem
+from fitting.diagnosis.diagnose import DiagnosisOptions, diagnose_problem
 from fitting.diagnosis.executor import ALONE
 from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.diagnosis.search.candidate_fits import CandidateFits
 from fitting.diagnosis.search.catalogue_search import Search
+from fitting.diagnosis.verdict.case import DiagnosisCase
 from fitting.effects import CATALOGUE
 
 PAIR = pair(0.2533)
@@ -32,6 +33,6 @@ class ShearPairProblem:
     def search(self, *effects, executor=ALONE):
         return Search(self.begun.problem, self.begun.evidence, self.begun.none, effects, executor)
 
-    def diagnosed(self, *effects, **how):
-        given = {"reduced": None, "bare": None, "start": PAIR.core.law, "noise": self.noise}
-        return diagnose_problem(self.problem, effects=effects, **given, **how)
+    def diagnosed(self, *effects, **options):
+        case = DiagnosisCase(self.problem, effects, self.noise, PAIR.core.law)
+        return diagnose_problem(case, options=DiagnosisOptions(**options))

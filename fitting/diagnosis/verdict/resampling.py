@@ -9,22 +9,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array, Mask
-from fitting.data.noise import Noise, noise_of
+from fitting.data.noise import noise_of
 from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.inference.begin import begin
-from fitting.diagnosis.inference.evidence import BareModes
 from fitting.diagnosis.inference.refitted import Refitted
 from fitting.diagnosis.problem.base import DiagnosisProblem
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
 from fitting.diagnosis.search.singles import Singles
 from fitting.diagnosis.several.responses import response_of
+from fitting.diagnosis.verdict.case import DiagnosisCase
 from fitting.diagnosis.verdict.judgement import judge
-from fitting.effects.base import Effect
 from fitting.identification.result import differences_percent
 from fitting.identification.validation import MOST_POINTS_ONE_BY_ONE, rms
-from fitting.laws import CoreLaw
 from fitting.progress import Report, unheard
-from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.sweep import Sweep
 
 SMALL = MOST_POINTS_ONE_BY_ONE
@@ -39,33 +36,29 @@ REPEATS = 19
 class Again:
     """A search that can be done once more with other data of the same plate."""
 
-    problem: DiagnosisProblem
+    case: DiagnosisCase
     remade: Callable[[Sweep], DiagnosisProblem]
-    """The problem of some of the points."""
-    reduced: ReducedPlate | None
-    effects: Sequence[Effect]
-    bare: BareModes | None
-    start: CoreLaw
+    """The case's problem of some of the points."""
     none: Refitted
     """The fit without effects: what sweeps without any are drawn from."""
-    noise: Noise
 
     def searched(self, problem: DiagnosisProblem) -> tuple[Search, list[ScoredFit]]:
         """Every effect alone, as the search of the data themselves begins."""
-        begun = begin(problem, self.reduced, noise_of(problem.sweep), self.bare, self.start)
-        search = Search(begun.problem, begun.evidence, begun.none, self.effects, Executor())
+        case = self.case
+        begun = begin(problem, case.reduced, noise_of(problem.sweep), case.bare, case.start)
+        search = Search(begun.problem, begun.evidence, begun.none, case.effects, Executor())
         return search, Singles(search, unheard).best()
 
     def gain_without_effect(self, seed: int) -> float:
         """What the best explanation gains on a sweep drawn from the fit without effects."""
         rng = np.random.default_rng([_SEED, seed])
-        search, scored_fits = self.searched(replace(self.problem, sweep=self._drawn(rng)))
+        search, scored_fits = self.searched(replace(self.case.problem, sweep=self._drawn(rng)))
         return gain(search.none, scored_fits)
 
     def _drawn(self, rng: np.random.Generator) -> Sweep:
-        sweep, v = self.problem.sweep, self.none.velocity_m_s
-        if self.noise.is_known:
-            sigma = self.noise.std_m_s
+        sweep, v, noise = self.case.problem.sweep, self.none.velocity_m_s, self.case.noise
+        if noise.is_known:
+            sigma = noise.std_m_s
         else:
             dof = max(1, self.none.data - self.none.parameter_count)
             sigma = np.abs(v) * rms(differences_percent(sweep, v) / 100) * np.sqrt(len(sweep) / dof)
@@ -81,17 +74,17 @@ class Again:
 
         Shape (held out,), of `held` (points,).
         """
-        problem = self.remade(self.problem.sweep.take(~held))
-        search, scored_fits = self.searched(problem)
+        problem = self.case.problem
+        search, scored_fits = self.searched(self.remade(problem.sweep.take(~held)))
         judged = judge(
             *search.tempered(scored_fits),
             hidden=frozenset(),
             held_out=lambda scored: float("nan"),
         )
         best = (judged.accepted or search.none).fitted
-        whole = self.problem.condensed(best.law).around(best.law)
+        whole = problem.condensed(best.law).around(best.law)
         v = response_of(whole, best.effects).velocity(best.law, best.u)
-        return differences_percent(self.problem.sweep, v)[held]
+        return differences_percent(problem.sweep, v)[held]
 
 
 def gain(none: ScoredFit, scored_fits: Sequence[ScoredFit]) -> float:
@@ -115,7 +108,7 @@ def resampled_of(
     again: Again, found: float, repeats: int | None, executor: Executor, report: Report
 ) -> Resampled:
     """Both; `found` is the gain of the data. Nothing where points are many and nobody asks."""
-    repeats = repeats_of(len(again.problem.sweep), repeats)
+    repeats = repeats_of(len(again.case.problem.sweep), repeats)
     if not repeats:
         return Resampled()
     tasks = list(range(repeats))
@@ -132,13 +125,13 @@ def repeats_of(points: int, wanted: int | None) -> int:
 
 def nested_rms_percent(again: Again, executor: Executor, report: Report) -> float | None:
     """Error on points left out one by one, or segments; None where nothing can be learnt without them."""
-    sweep = again.problem.sweep
+    sweep = again.case.problem.sweep
     if len(sweep) <= SMALL:
         folds = [np.arange(len(sweep)) == k for k in range(len(sweep))]
     else:
         folds = [sweep.segment == number for number in np.unique(sweep.segment)]
     numbers = (len(sweep) - 1) * (2 if sweep.has_phase else 1)
-    if len(folds) < 2 or numbers <= len(again.start.names):
+    if len(folds) < 2 or numbers <= len(again.case.start.names):
         return None
     return rms(np.concatenate(list(executor.each(again.left_out, folds, report))))
 

@@ -1,10 +1,11 @@
 """What a diagnosis looks for in files under one law."""
 
-from types import SimpleNamespace
+from types import SimpleNamespace as Like
 
 import pytest
 from shear_pair_cases import pair, sweep
 
+from fitting.diagnosis.diagnose import DiagnosisOptions
 from fitting.effects import CATALOGUE
 from fitting.errors import OutsideModel
 from instrument.finding.effect_names import effects_among
@@ -36,8 +37,11 @@ def test_exchanged_specimens_are_refused_where_a_cause_is_searched_for():
     ]
     assert exchanged(turned) is not None
     with pytest.raises(OutsideModel):
-        diagnosis_of(turned).traced(lambda *_, **how: None)
+        diagnosis_of(turned).traced(lambda *_: None, DiagnosisOptions())
     way = diagnosis_of(turned, searches=False)
     way.set_up(quiet)
-    handed = way.traced(lambda problem, **how: SimpleNamespace(verdict="none", **how))
-    assert len(handed.why_aside) == len(way.given)
+    accepted = DiagnosisOptions(accepted_by_hand=["gain_error"])
+    handed = way.traced(lambda _, seen, options: Like(verdict="none", seen=seen, options=options), accepted)
+    assert len(handed.seen.why_aside) == len(way.given)
+    assert handed.options.accepted_by_hand == ["gain_error"]
+    assert handed.options.settle is not None

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from fitting.diagnosis.diagnose import DiagnosisOptions
 from fitting.effects import CATALOGUE
 from fitting.errors import OutsideModel
 from instrument.finding.plate_diagnosis import PlateDiagnosis
@@ -22,9 +23,11 @@ def test_a_bare_plate_is_refused_before_anything_is_made(table5, coarse):
 def test_what_is_traced_begins_with_the_stated_law_and_may_be_made_again_of_fewer_points(table5, coarse):
     way = diagnosis_of(table5, coarse)
     way.set_up(quiet)
-    handed = way.traced(lambda problem, **how: {"problem": problem, **how})
-    assert handed["start"] == coarse.core.law
-    assert handed["resamples"] == 3
-    assert np.array_equal(handed["why_aside"], [""] * len(table5))
-    few = handed["remade"](table5.take(np.arange(len(table5)) < 5))
-    assert len(few.sweep) == 5 < len(handed["problem"].sweep)
+    case, seen, options = way.traced(
+        lambda *handed: handed, DiagnosisOptions(accepted_by_hand=["gain_error"])
+    )
+    assert case.start == coarse.core.law
+    assert (options.resamples, options.accepted_by_hand) == (3, ["gain_error"])
+    assert np.array_equal(seen.why_aside, [""] * len(table5))
+    few = case.remade(table5.take(np.arange(len(table5)) < 5))
+    assert len(few.sweep) == 5 < len(case.problem.sweep)

@@ -14,6 +14,7 @@ from fitting.diagnosis.inference.marginal import cost
 from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.diagnosis.search.asked import FromLaw
 from fitting.diagnosis.search.catalogue_search import Search
+from fitting.diagnosis.verdict.case import DiagnosisCase
 from fitting.effects import CATALOGUE
 from fitting.laws import LAWS
 from fitting.laws.bent_law import BentLaw
@@ -110,14 +111,7 @@ def test_an_effect_is_named_though_its_core_is_off_any_formula_and_that_is_said(
     start = begun(0.8, LATER_S)
     v = start.problem.sweep.velocity_m_s
     noise = Noise(NOISE * np.abs(v) / np.sqrt(2), "stated")
-    found = diagnose_problem(
-        start.problem,
-        reduced=None,
-        effects=[CATALOGUE["channel_delay"]],
-        noise=noise,
-        bare=None,
-        start=STATED,
-    )
+    found = diagnose_problem(DiagnosisCase(start.problem, [CATALOGUE["channel_delay"]], noise, STATED))
     assert found.verdict == "effect"
     (one,) = found.effects
     assert one.name == "channel_delay"

@@ -24,9 +24,11 @@ def again(points, segments=1, parameters=4):
     """Without an effect the search gains 0, 1, 2, ...; a point left out is predicted 3 % off."""
     segment = np.arange(points) % segments
     return SimpleNamespace(
-        problem=SimpleNamespace(sweep=Sized(points, segment)),
+        case=SimpleNamespace(
+            problem=SimpleNamespace(sweep=Sized(points, segment)),
+            start=SimpleNamespace(names=["p"] * parameters),
+        ),
         gain_without_effect=float,
-        start=SimpleNamespace(names=["p"] * parameters),
         left_out=lambda held: np.full(held.sum(), 3.0),
     )
 
