@@ -50,7 +50,7 @@ class ManyResiduals:
         by = dv[n : n + none.stated].copy()
         for k in problem.nuisances.by_reading(none.velocity_m_s, omega, none.z):
             by[k] = 0.0
-        by = by / self._channel(none.z[None])[0] / (1j * omega * problem.points.acceleration_m_s2)
+        by = by / self._channel(none.z[None])[0] / (1j * omega * problem.points.drive_amplitude)
         G = none.law.modulus(omega)
         x, slope = self._plate.with_derivative(G)
         deaf = _DEAF * np.abs(x / G)
@@ -63,7 +63,7 @@ class ManyResiduals:
         none, points = self.task.begun.none, self.task.begun.problem.points
         _, slope = self._plate.with_derivative(none.law.modulus(points.omega))
         read = self._channel(none.z[None])[0]
-        return np.asarray(1j * points.omega * points.acceleration_m_s2 * slope * read)
+        return np.asarray(1j * points.omega * points.drive_amplitude * slope * read)
 
     def _channel(self, z: Array) -> Complex:
         """What the velocity channel makes of a velocity. Shapes (any, stated) to (any, points)."""
@@ -90,7 +90,7 @@ class ManyResiduals:
         """What is read of displacements for a unit of drive. Shapes (any, points), (any, unknowns)."""
         points, none = self.task.begun.problem.points, self.task.begun.none
         n = len(none.law.names)
-        v = 1j * points.omega * points.acceleration_m_s2 * x
+        v = 1j * points.omega * points.drive_amplitude * x
         return np.asarray((v + points.base_m_s) * self._channel(whole[:, n : n + none.stated]))
 
     def jacobians(self, X: Array) -> Array:
@@ -113,7 +113,7 @@ class ManyResiduals:
         x, slope = self._plate.with_derivative(G + off @ instead)
         v = self._read(x + off @ rest, whole)
         z = whole[:, n : n + none.stated]
-        drive = (1j * omega * problem.points.acceleration_m_s2) * self._channel(z)
+        drive = (1j * omega * problem.points.drive_amplitude) * self._channel(z)
         dv = np.zeros((*whole.shape, len(omega)), complex)
         for k in range(n):
             # Away from the upper limit, where a law stays within it.

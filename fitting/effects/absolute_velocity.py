@@ -24,7 +24,7 @@ class AbsoluteVelocityEffect(Effect):
         return "the data are stated to be absolute" if points.reads == "absolute" else None
 
     def reading(self, v: Complex, points: Points, u: Array) -> Complex:
-        return np.asarray(v + points.acceleration_m_s2 / (1j * points.omega))
+        return np.asarray(v + points.drive_amplitude / (1j * points.omega))
 
     def story(self, u: Mapping[str, float]) -> str:
         return "the laser reads the base's motion too: the velocities are absolute, not relative to the clamp"

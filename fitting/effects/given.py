@@ -18,8 +18,8 @@ class Points:
     """What is known of each point of a sweep apart from its reading. Shape (points,) each."""
 
     omega: Array
-    acceleration_m_s2: Array
-    """Commanded amplitude; newtons where a force drives."""
+    drive_amplitude: Array
+    """Commanded, zero to peak: m/s^2 of the base, or newtons where a force drives."""
     time_s: Array
     """Since the first point; by frequency, evenly, where no time is kept."""
     timed: bool
@@ -38,7 +38,7 @@ class Points:
     @property
     def levels(self) -> int:
         """How many levels there are, a tenth apart and more."""
-        return count_of_levels(self.acceleration_m_s2)
+        return count_of_levels(self.drive_amplitude)
 
     @property
     def struck(self) -> NDArray[np.bool_]:
@@ -50,7 +50,7 @@ class Points:
         """The base's own velocity, as far as it is read. Shape (points,), or zero."""
         if self.reads == "relative":
             return 0.0
-        moving = self.acceleration_m_s2 / (1j * self.omega)
+        moving = self.drive_amplitude / (1j * self.omega)
         return moving if self.at_rest is None else np.where(self.at_rest, 0.0, moving)
 
 

@@ -51,7 +51,7 @@ class SegmentGainEffect(Effect):
         f = points.omega * _HZ
         here = (f >= u[1] * (1 - _ROUNDING)) & (f <= u[2] * (1 + _ROUNDING))
         if u[3] != _EVERY:
-            here &= are_of(float(u[3]), points.acceleration_m_s2)
+            here &= are_of(float(u[3]), points.drive_amplitude)
         return np.asarray(v * np.where(here, u[0], 1.0))
 
     def story(self, u: Mapping[str, float]) -> str:
@@ -68,7 +68,7 @@ class SegmentGainEffect(Effect):
             return []
         found = []
         for label in np.unique(points.segment):
-            f, a = (x[points.segment == label] for x in (points.omega * _HZ, points.acceleration_m_s2))
+            f, a = (x[points.segment == label] for x in (points.omega * _HZ, points.drive_amplitude))
             levels = [float(np.median(a[part])) for part in by_level(a)]
             found.append((float(f.min()), float(f.max()), levels if len(levels) > 1 else []))
         return found

@@ -62,7 +62,7 @@ class SensorMountingEffect(Effect):
 
     def reading(self, v: Complex, points: Points, u: Array) -> Complex:
         r = points.omega / (2 * np.pi * u[0])
-        moves = points.acceleration_m_s2 / (1j * points.omega)
+        moves = points.drive_amplitude / (1j * points.omega)
         relative = 1.0 if points.reads == "relative" else 0.0
         T, alone = v / moves + relative, 1 - r**2 + 2j * u[1] * r
         pulled = 0.0 if self.on_base else r**2 * (points.mass_kg or 0.0) * u[3] * T

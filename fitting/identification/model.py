@@ -28,8 +28,8 @@ class SweepModel:
     rational: RationalSweep
     index: NDArray[np.intp]
     """Grid frequency of every point. Shape (points,)."""
-    acceleration_m_s2: Array
-    """Commanded base acceleration. Shape (points,)."""
+    drive_amplitude: Array
+    """Commanded: m/s^2 of the base, or newtons where a force drives. Shape (points,)."""
     reads: Reading
     at_rest: Mask | None = None
     """Points whose base does not move; None: that of all does. Shape (points,)."""
@@ -50,7 +50,7 @@ class SweepModel:
         v = velocity(omega, displacement, self.reads)[..., self.index]
         if self.at_rest is not None:
             v = np.where(self.at_rest, velocity(omega, displacement, "relative")[..., self.index], v)
-        return np.asarray(v * self.acceleration_m_s2)
+        return np.asarray(v * self.drive_amplitude)
 
     def with_derivatives(self, law: CoreLaw) -> tuple[Complex, Complex]:
         """Phasors and their derivatives to the log parameters. Shapes (points,), (parameters, points)."""
@@ -58,11 +58,11 @@ class SweepModel:
         x, dx_dG = self.rational.with_derivative(law.modulus(omega))
         dG = law.jacobian(omega) * law.values[:, None]
         v = self.velocities(x)
-        dv = (1j * omega * dx_dG * dG)[:, self.index] * self.acceleration_m_s2
+        dv = (1j * omega * dx_dG * dG)[:, self.index] * self.drive_amplitude
         return v, dv
 
     def take(self, points: NDArray[np.intp] | NDArray[np.bool_]) -> "SweepModel":
         """The model at some of the points. Numbers or shape (points,), true or false."""
         used, index = np.unique(self.index[points], return_inverse=True)
         at_rest = None if self.at_rest is None else self.at_rest[points]
-        return SweepModel(self.rational.at(used), index, self.acceleration_m_s2[points], self.reads, at_rest)
+        return SweepModel(self.rational.at(used), index, self.drive_amplitude[points], self.reads, at_rest)

@@ -21,7 +21,7 @@ class CrossTalk(Effect):
 
     def reading(self, v: Complex, points: Points, u: Array) -> Complex:
         """Both channels are phasors with the base's acceleration as their reference."""
-        return np.asarray(v + 1e-3 * u[0] * points.acceleration_m_s2)
+        return np.asarray(v + 1e-3 * u[0] * points.drive_amplitude)
 
     def story(self, u: Mapping[str, float]) -> str:
         """For the verdict."""

@@ -227,7 +227,7 @@ class DiagnosisProblem:
         """How the reading feels the core, d ln v / d ln G*, the specimen as stated. Shape (points,)."""
         G = law.modulus(self.sweep.omega)
         _, by_G = self.rational.with_derivative(G)
-        return np.asarray(1j * self.sweep.omega * by_G * G * self.points.acceleration_m_s2 / v)
+        return np.asarray(1j * self.sweep.omega * by_G * G * self.points.drive_amplitude / v)
 
     def adjusted(self, z: Array, errors: Array) -> tuple[Adjusted, ...]:
         """The stated numbers as a fit has them, and their errors, in standard deviations of tolerances.
@@ -285,7 +285,7 @@ def points_of(sweep: Sweep, specimen: StatedSpecimen) -> Points:
         time = _SECONDS_A_POINT * np.argsort(np.argsort(sweep.frequency_hz, kind="stable")).astype(float)
     return Points(
         omega=sweep.omega,
-        acceleration_m_s2=sweep.commanded_m_s2,
+        drive_amplitude=sweep.commanded_m_s2,
         time_s=time,
         timed=timed,
         has_phase=sweep.has_phase,

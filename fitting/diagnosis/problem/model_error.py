@@ -66,7 +66,7 @@ def own_errors(problem: DiagnosisProblem, reduced: ReducedPlate, law: CoreLaw, v
     answers = _answers(problem, reduced, omega, law.modulus(omega))
 
     def velocity(x: Complex) -> Complex:
-        return np.asarray((1j * omega * x)[index.ravel()] * problem.points.acceleration_m_s2)
+        return np.asarray((1j * omega * x)[index.ravel()] * problem.points.drive_amplitude)
 
     keys: list[tuple[float, str]] = [(0.0, COMMON)]
     common, rows, channels = np.zeros(len(v), complex), [], []

@@ -182,7 +182,7 @@ class SmallProblem(DiagnosisProblem):
         segments = [self.sweep.segment == number for number in np.unique(self.sweep.segment)]
         rows = [row for s in segments for row in channel_rows(self.sweep, s, v, has_phase=has_phase)]
         if isinstance(self.plate, SmallSystem):
-            drive, omega = self.points.acceleration_m_s2, self.sweep.omega
+            drive, omega = self.points.drive_amplitude, self.sweep.omega
             narrow = self.nuisances.narrow
             rows += theory_rows(self.specimen, self._system(), omega, law, drive, narrow)
         if self.misfit:

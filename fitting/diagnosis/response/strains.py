@@ -105,7 +105,7 @@ class Strains:
         Both are asked whether the loss gains.
         """
         points = self._problem.points
-        drive = points.acceleration_m_s2 if points.force_n is None else points.force_n
+        drive = points.drive_amplitude if points.force_n is None else points.force_n
         of = cache(table)
 
         def strain(softened: Array, gained: Array | None = None) -> Array:

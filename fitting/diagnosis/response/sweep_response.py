@@ -136,7 +136,7 @@ class SweepResponse:
 
     def _at_anew(self, law: CoreLaw, u: Array) -> "_At":
         points = self.problem.points
-        omega, a = points.omega, points.acceleration_m_s2
+        omega, a = points.omega, points.drive_amplitude
         plate = self._of_plate(law, u)
         pitch = np.zeros(len(omega), complex)
         for k in self._pitching:

@@ -49,7 +49,7 @@ def joined_points(each: Sequence[Points]) -> Points:
     at_rest = np.concatenate([np.full(len(p.omega), p.drive == "force") for p in each])
     return Points(
         omega=np.concatenate([p.omega for p in each]),
-        acceleration_m_s2=np.concatenate([p.acceleration_m_s2 for p in each]),
+        drive_amplitude=np.concatenate([p.drive_amplitude for p in each]),
         time_s=np.concatenate([p.time_s for p in each]),
         timed=all(p.timed for p in each),
         has_phase=each[0].has_phase,

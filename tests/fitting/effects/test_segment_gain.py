@@ -53,13 +53,13 @@ def test_a_range_may_be_of_one_level():
 
 def test_an_amplitude_of_each_point_is_no_level():
     one = points()
-    each = replace(one, acceleration_m_s2=9.81 * (1 + 0.01 * np.sin(np.arange(len(F)))))
+    each = replace(one, drive_amplitude=9.81 * (1 + 0.01 * np.sin(np.arange(len(F)))))
     assert all(u[3] == 0 for u in EFFECT.starts(None, each))
 
 
 def test_a_level_is_read_with_its_gain_where_it_scatters():
     two = points((4.9, 9.81))
-    each = replace(two, acceleration_m_s2=two.acceleration_m_s2 * (1 + 0.01 * np.sin(np.arange(2 * len(F)))))
+    each = replace(two, drive_amplitude=two.drive_amplitude * (1 + 0.01 * np.sin(np.arange(2 * len(F)))))
     starts = EFFECT.starts(None, each)
     assert len(starts) == 9
     ratio = EFFECT.reading(np.ones(2 * len(F), complex), each, np.array([1.1, *starts[2][1:]]))

@@ -35,13 +35,13 @@ def two_masses(omega, damping_ratio):
 @pytest.mark.parametrize("damping_ratio", [0.0, 0.2])
 def test_a_bracket_moves_as_two_masses_on_springs_do(at, damping_ratio):
     alone = K / (K - M * at.omega**2)
-    moves = at.acceleration_m_s2 / (1j * at.omega)
+    moves = at.drive_amplitude / (1j * at.omega)
     read = SensorMountingEffect().reading(alone * moves, at, np.array([F_0, damping_ratio, 0.0, 1 / BRACKET]))
     np.testing.assert_allclose(read / moves, two_masses(at.omega, damping_ratio)[1], rtol=1e-12)
 
 
 def test_a_relative_reading_is_one_less(at):
-    u, moves = np.array([F_0, 0.02, 0.0, 1.0]), at.acceleration_m_s2 / (1j * at.omega)
+    u, moves = np.array([F_0, 0.02, 0.0, 1.0]), at.drive_amplitude / (1j * at.omega)
     T = K / (K - M * at.omega**2)
     whole = SensorMountingEffect().reading(T * moves, at, u)
     relative = SensorMountingEffect().reading((T - 1) * moves, replace(at, reads="relative"), u)

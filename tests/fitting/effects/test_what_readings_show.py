@@ -54,7 +54,7 @@ def test_one_level_shows_softening_of_a_beam_and_none_of_a_pad():
     assert softening.on("beam").objection(one_level, sheared) is None
     assert "free layer" in softening.on("beam").objection(one_level, free_layer)
     assert "one level" in softening.on("shear-pair").objection(one_level, sheared)
-    two_levels = replace(one_level, acceleration_m_s2=np.array([9.81, 9.81, 2.45]))
+    two_levels = replace(one_level, drive_amplitude=np.array([9.81, 9.81, 2.45]))
     assert softening.on("shear-pair").objection(two_levels, sheared) is None
 
 
@@ -70,7 +70,7 @@ def test_softening_that_saturates_takes_k_at_the_reference_and_less_beyond():
         )
     untimed = replace(p, timed=False)
     assert [(f.saturates, f.rubs) for f in first.forms(untimed, None)] == [(False, False), (False, True)]
-    levels = replace(p, acceleration_m_s2=np.array([9.81, 4.9, 2.45]))
+    levels = replace(p, drive_amplitude=np.array([9.81, 4.9, 2.45]))
     each = [(False, False), (True, False), (False, True), (True, True)]
     assert [(f.saturates, f.rubs) for f in first.forms(replace(levels, timed=False), None)] == each
     assert [(f.saturates, f.rubs) for f in first.forms(levels, None)] == 2 * each

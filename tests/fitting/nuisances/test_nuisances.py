@@ -264,6 +264,6 @@ def test_a_sweep_of_the_moved_plate_is_that_of_the_reduced_one_at_every_point(re
         omega = problem.points.omega
         change = nuisances.change(problem.plate, z)
         x = answer(problem.plate, omega, law.modulus(omega), change, [], with_pitch=False)
-        expected = 1j * omega * problem.points.acceleration_m_s2 * x.heave
+        expected = 1j * omega * problem.points.drive_amplitude * x.heave
         expected = nuisances.reading(expected, omega, z)
         assert np.abs(response.velocity(law, z) / expected - 1).max() < 3e-4

@@ -78,7 +78,7 @@ def test_a_beam_that_loses_little_has_numbers_for_each_resonance_and_one_that_lo
 
 def test_what_is_a_number_of_the_fit_is_no_error_beside_it(stated):
     narrow = stated.with_narrow(LAW)
-    drive, omega = stated.points.acceleration_m_s2, stated.sweep.omega
+    drive, omega = stated.points.drive_amplitude, stated.sweep.omega
     before = theory_rows(BEAM, stated.plate, omega, LAW, drive)
     after = theory_rows(BEAM, narrow.plate, omega, LAW, drive, narrow.nuisances.narrow)
     assert len(before)
