@@ -8,7 +8,7 @@ from drivers.chamber.driver import ChamberDriver, ChamberOptions
 from drivers.chamber.interface import Chamber
 from drivers.chamber.registers import TemperatureRegisters
 from drivers.modbus.address import host_and_port
-from drivers.modbus.options import ModbusTcpAddress
+from drivers.modbus.options import ModbusSerialLine, ModbusTcpAddress
 
 _Address = Annotated[int, Field(ge=0, le=65535)]
 _TIMEOUT_S, _RETRIES = 0.5, 2
@@ -57,15 +57,11 @@ class ModbusTcpChamberOptions(ModbusTcpAddress, ModbusChamberOptions):
     kind: Literal["modbus-tcp"] = "modbus-tcp"
 
 
-class ModbusRtuChamberOptions(ModbusChamberOptions):
+class ModbusRtuChamberOptions(ModbusSerialLine, ModbusChamberOptions):
     """A chamber on a serial line of its own."""
 
     kind: Literal["modbus-rtu"] = "modbus-rtu"
-    address: str
-    """A serial port."""
     baud: Annotated[int, Field(gt=0)] = 9600
-    parity: Literal["N", "E", "O"] = "N"
-    stop_bits: Literal[1, 2] = 1
 
 
 class ModbusTcpChamberDriver(ChamberDriver[ModbusTcpChamberOptions]):

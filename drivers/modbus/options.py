@@ -1,10 +1,10 @@
-"""What a device on Modbus TCP is described by, whatever it is."""
+"""What a device on Modbus TCP or on a serial line is described by, whatever it is."""
 
-from typing import Self
+from typing import Annotated, Literal, Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
-from drivers.modbus.address import host_and_port
+from drivers.modbus.address import host_and_port, serial_port
 from drivers.options import DeviceOptions
 
 
@@ -18,4 +18,22 @@ class ModbusTcpAddress(DeviceOptions):
     def _reachable(self) -> Self:
         if self.is_addressed:
             host_and_port(self.address)
+        return self
+
+
+class ModbusSerialLine(DeviceOptions):
+    """Port and settings of a serial line, 8 data bits; a device's own model has the rest of its keys."""
+
+    address: str
+    """A serial port."""
+    baud: Annotated[int, Field(gt=0)]
+    parity: Literal["N", "E", "O"] = "N"
+    """None, even or odd: Modbus' own default is even, the device's document says which it has."""
+    stop_bits: Literal[1, 2] = 1
+    """1 or 2."""
+
+    @model_validator(mode="after")
+    def _a_port(self) -> Self:
+        if self.is_addressed:
+            serial_port(self.address)
         return self

@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from drivers.modbus.address import host_and_port
-from drivers.modbus.options import ModbusTcpAddress
+from drivers.modbus.options import ModbusSerialLine, ModbusTcpAddress
 from drivers.shaker.driver import ShakerDriver, ShakerOptions
 from drivers.shaker.interface import Shaker
 from drivers.shaker.register_map import DEFAULT
@@ -32,12 +32,11 @@ class ModbusTcpOptions(ModbusTcpAddress, ModbusOptions):
     kind: Literal["modbus-tcp"] = "modbus-tcp"
 
 
-class ModbusRtuOptions(ModbusOptions):
+class ModbusRtuOptions(ModbusSerialLine, ModbusOptions):
     """A controller or amplifier on a serial line."""
 
     kind: Literal["modbus-rtu"] = "modbus-rtu"
-    address: str
-    """A serial port."""
+    baud: Annotated[int, Field(gt=0)] = 115200
 
 
 class ModbusTcpDriver(ShakerDriver[ModbusTcpOptions]):
@@ -70,6 +69,8 @@ class ModbusRtuDriver(ShakerDriver[ModbusRtuOptions]):
         return ModbusShaker.rtu(
             options.address,
             baud=options.baud,
+            parity=options.parity,
+            stop_bits=options.stop_bits,
             unit=options.unit,
             registers=registers,
             timeout_s=timeout_s,

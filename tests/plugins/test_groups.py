@@ -214,6 +214,13 @@ def test_a_form_asks_what_the_driver_asks(vibrometers):
     assert fields.device_fields(section, "nobody") == ()
 
 
+def test_a_form_asks_for_the_settings_of_a_shaker_s_serial_line():
+    (section,) = [s for s in fields.section_of(RigDocument).sections if s.key == "shaker"]
+    asked = {f.key: f.choices for f in fields.device_fields(section, "modbus-rtu")}
+    assert asked.keys() >= {"unit", "baud", "parity", "stop_bits"}
+    assert asked["parity"] == ("N", "E", "O")
+
+
 def test_another_packages_reader_reads_its_ending(package, monkeypatch, tmp_path):
     package("reader-one", READER, readers={"dax": "read", "bad": "fail"})
     anew(monkeypatch, readers, "READERS")

@@ -4,7 +4,8 @@ import pytest
 from pydantic import ValidationError
 
 from drivers.shaker.driver import ShakerDriver, ShakerOptions
-from drivers.shaker.modbus_driver import ModbusRtuDriver, ModbusTcpDriver, ModbusTcpOptions
+from drivers.shaker.modbus import ModbusShaker
+from drivers.shaker.modbus_driver import ModbusRtuDriver, ModbusRtuOptions, ModbusTcpDriver, ModbusTcpOptions
 from drivers.shaker.register_map import DEFAULT
 
 
@@ -42,3 +43,11 @@ def test_a_shaker_is_opened_with_the_registers_of_its_table(make_rig, moved):
         shaker.start()
         assert shaker.status().running
         shaker.close()
+
+
+def test_a_shaker_on_a_serial_line_is_opened_with_its_parity_and_stop_bits(monkeypatch):
+    opened = {}
+    monkeypatch.setattr(ModbusShaker, "rtu", lambda port, **settings: opened.update(settings, port=port))
+    ModbusRtuDriver().open(ModbusRtuOptions(address="/dev/ttyUSB0", baud=19200, parity="E", stop_bits=2))
+    wanted = {"port": "/dev/ttyUSB0", "baud": 19200, "parity": "E", "stop_bits": 2}
+    assert opened.items() >= wanted.items()
