@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from drivers.modbus.address import host_and_port
+from drivers.modbus.answer_time import answer_time_s
 from drivers.modbus.options import ModbusSerialLine, ModbusTcpAddress
 from drivers.shaker.driver import ShakerDriver, ShakerOptions
 from drivers.shaker.interface import Shaker
@@ -73,6 +74,6 @@ class ModbusRtuDriver(ShakerDriver[ModbusRtuOptions]):
             stop_bits=options.stop_bits,
             unit=options.unit,
             registers=registers,
-            timeout_s=timeout_s,
+            timeout_s=min(timeout_s, answer_time_s(options.baud, options.heartbeat_timeout_s)),
             retries=retries,
         )
