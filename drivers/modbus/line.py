@@ -9,7 +9,7 @@ import struct
 import time
 from collections.abc import Callable, Sequence
 
-from pymodbus.client import ModbusSerialClient, ModbusTcpClient
+from pymodbus.client import ModbusTcpClient
 from pymodbus.constants import ExcCodes
 from pymodbus.exceptions import ConnectionException, ModbusIOException
 from pymodbus.pdu import ModbusPDU
@@ -17,6 +17,8 @@ from pymodbus.pdu.register_message import ReadHoldingRegistersResponse, WriteMul
 
 from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
 from drivers.modbus.fair_lock import FairLock
+from drivers.modbus.heard import Heard
+from drivers.modbus.serial_client import SerialClient, why_not_open
 
 # What goes wrong is raised, in one line; the library's own log is for those who ask for it.
 logging.getLogger("pymodbus").addHandler(logging.NullHandler())
@@ -34,18 +36,25 @@ class ModbusLine:
 
     def __init__(
         self,
-        client: ModbusTcpClient | ModbusSerialClient,
+        client: ModbusTcpClient | SerialClient,
         name: str,
         *,
         unit: int,
         timeout_s: float,
         retries: int,
+        heard: Heard | None = None,
+        settings: str = "",
     ) -> None:
+        """`client` passes its packets through `heard`; `settings` are what a serial line may have wrong."""
         self.name = name
         """Device and address, for messages."""
+        self.lost_answers = 0
+        """That did not come, or damaged, so far; those asked for again with success included."""
         self._client = client
         self._unit = unit
         self._timeout_s = timeout_s
+        self._heard = heard or Heard()
+        self._settings = settings
         self._attempts = retries + 1
         self._lock = FairLock()
 
@@ -54,9 +63,10 @@ class ModbusLine:
         cls, device: str, host: str, port: int, *, unit: int, timeout_s: float, retries: int
     ) -> "ModbusLine":
         """Modbus TCP; messages begin with `device`."""
-        client = ModbusTcpClient(host, port=port, timeout=timeout_s, retries=0)
+        heard = Heard()
+        client = ModbusTcpClient(host, port=port, timeout=timeout_s, retries=0, trace_packet=heard)
         name = f"{device} at {host}:{port} unit {unit}"
-        return cls(client, name, unit=unit, timeout_s=timeout_s, retries=retries)
+        return cls(client, name, unit=unit, timeout_s=timeout_s, retries=retries, heard=heard)
 
     @classmethod
     def rtu(
@@ -72,10 +82,25 @@ class ModbusLine:
         retries: int,
     ) -> "ModbusLine":
         """Modbus RTU on a serial port, 8 data bits; messages begin with `device`."""
-        client = ModbusSerialClient(
-            port, baudrate=baud, parity=parity, stopbits=stop_bits, timeout=timeout_s, retries=0
+        heard = Heard()
+        client = SerialClient(
+            port,
+            baudrate=baud,
+            parity=parity,
+            stopbits=stop_bits,
+            timeout=timeout_s,
+            retries=0,
+            trace_packet=heard,
         )
-        return cls(client, f"{device} at {port} unit {unit}", unit=unit, timeout_s=timeout_s, retries=retries)
+        return cls(
+            client,
+            f"{device} at {port} unit {unit}",
+            unit=unit,
+            timeout_s=timeout_s,
+            retries=retries,
+            heard=heard,
+            settings=f"baud ({baud}), parity ({parity}), stop bits ({stop_bits}) and unit ({unit})",
+        )
 
     def read(self, what: str, address: int, count: int) -> list[int]:
         """Holding registers; `what` is for messages.
@@ -120,6 +145,7 @@ class ModbusLine:
                 except Refused:
                     raise
                 except (Unreachable, TimedOut, Garbled) as problem:
+                    self.lost_answers += not isinstance(problem, Unreachable)
                     self._client.close()  # type: ignore[no-untyped-call]
                     last: DriverError = problem
                 except BaseException:
@@ -133,20 +159,22 @@ class ModbusLine:
     ) -> ModbusPDU:
         here = f"{self.name}, {what}"
         tried = f"in each of {self._attempts} attempts"
-        if not self._client.connect():
+        try:
+            connected = self._client.connect()
+        except OSError as problem:
+            raise Unreachable(f"{here}: {why_not_open(problem, tried)}") from problem
+        if not connected:
             raise Unreachable(
                 f"{here}: no connection within {self._timeout_s:g} s {tried}: check power, cable and address"
             )
+        self._heard.forget()
         try:
             answer = ask()
         except (ConnectionException, OSError) as problem:
             raise Unreachable(f"{here}: the connection was lost {tried}: {problem}") from problem
         except ModbusIOException as problem:
             if "No response" in str(problem):
-                raise TimedOut(
-                    f"{here}: an answer expected, none came within {self._timeout_s:g} s {tried}: "
-                    f"is its unit {self._unit}?"
-                ) from problem
+                raise self._unanswered(here, tried) from problem
             raise Garbled(f"{here}: a Modbus answer expected: {problem}") from problem
         except struct.error as problem:
             raise Garbled(f"{here}: a Modbus answer expected: {problem}") from problem
@@ -155,6 +183,13 @@ class ModbusLine:
         if objection := object_to(answer):
             raise Garbled(f"{here}: {objection} {tried}")
         return answer
+
+    def _unanswered(self, here: str, tried: str) -> TimedOut | Garbled:
+        check = f"check cable, {self._settings}" if self._settings else ""
+        if damaged := self._heard.damaged:
+            return Garbled(f"{here}: an answer expected, {damaged}, {tried}: {check or 'check the cable'}")
+        silent = f"none came within {self._timeout_s:.2g} s {tried}"
+        return TimedOut(f"{here}: an answer expected, {silent}: {check or f'is its unit {self._unit}?'}")
 
 
 # A serial line numbers nothing: a late answer to another question must not pass for this one's.

@@ -1,0 +1,52 @@
+"""A Modbus client on a serial port that says why the port does not open; the library's own tells its log."""
+
+import errno
+import re
+
+from pymodbus.client import ModbusSerialClient
+from serial import serial_for_url
+
+_CURES = {
+    errno.ENOENT: "is its adapter plugged in, the address its port's?",
+    errno.EACCES: "may this user open it? on Linux join the port's group, as a rule dialout, and log in anew",
+    errno.EAGAIN: "another program has it, maybe a run of this one: end that first",
+    errno.EBUSY: "another program has it, maybe a run of this one: end that first",
+}
+_NO_PORT = "is the address a serial port's, and free?"
+
+
+class SerialClient(ModbusSerialClient):
+    """`connect` raises `OSError` where the port does not open."""
+
+    def connect(self) -> bool:
+        """Open the port for this program alone, where it is not open."""
+        if self.socket is not None:
+            return True
+        params = self.comm_params
+        try:
+            port = serial_for_url(
+                params.host,
+                timeout=params.timeout_connect,
+                write_timeout=params.timeout_connect,
+                bytesize=params.bytesize,
+                stopbits=params.stopbits,
+                baudrate=params.baudrate,
+                parity=params.parity,
+                exclusive=True,
+            )
+            port.inter_byte_timeout = self.inter_byte_timeout
+        except OSError:
+            raise
+        except Exception as problem:
+            # A speed that the port has not, or a driver's own: of no kind that pyserial names.
+            raise OSError(f"could not set up port {params.host}: {problem}") from problem
+        self.socket = port
+        return True
+
+
+def why_not_open(problem: OSError, tried: str) -> str:
+    """In one line: the reason, how often it was `tried`, and what to do."""
+    reason = re.sub(r"\[Errno \d+\] ", "", " ".join(str(problem).split()))
+    # The system says once more which file it is of.
+    reason = re.sub(r": '[^']*'$", "", reason)
+    return f"{reason}, {tried}: {_CURES.get(problem.errno or 0, _NO_PORT)}"

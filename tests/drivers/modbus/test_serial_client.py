@@ -1,0 +1,50 @@
+"""A serial port that does not open says why."""
+
+import errno
+import os
+import pty
+
+import pytest
+from serial import SerialException
+
+from drivers.modbus.serial_client import SerialClient, why_not_open
+
+
+@pytest.fixture
+def port():
+    there, here = pty.openpty()
+    yield os.ttyname(here)
+    os.close(there)
+    os.close(here)
+
+
+def said_by(path):
+    with pytest.raises(OSError, match="port") as problem:
+        SerialClient(path).connect()
+    return why_not_open(problem.value, "in each of 3 attempts")
+
+
+def test_a_port_that_is_not_there_is_said_with_the_adapter_in_question():
+    assert said_by("/dev/no-such-port") == (
+        "could not open port /dev/no-such-port: No such file or directory, in each of 3 attempts: "
+        "is its adapter plugged in, the address its port's?"
+    )
+
+
+def test_a_port_that_another_has_is_said_to_be_in_use(port):
+    first = SerialClient(port)
+    assert first.connect()
+    assert "another program has it" in said_by(port)
+    first.close()
+    assert SerialClient(port).connect()
+
+
+def test_a_file_that_is_no_port_is_said_to_be_none():
+    assert said_by("/dev/null").endswith("is the address a serial port's, and free?")
+
+
+def test_a_port_that_this_user_may_not_open_asks_for_the_group_of_ports():
+    denied = SerialException(errno.EACCES, "could not open port x: [Errno 13] Permission denied: 'x'")
+    said = why_not_open(denied, "tried once")
+    assert said.startswith("could not open port x: Permission denied, tried once: may this user open it?")
+    assert "dialout" in said
