@@ -45,6 +45,8 @@ class ShakerStatus:
     """Amplitude at the output now."""
     frequency_hz: float
     limit_v: float
+    lost_answers: int = 0
+    """That did not come or came damaged so far, those asked for again included; of the line, as it counts."""
 
 
 class Shaker(Protocol):

@@ -4,6 +4,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 
 from drivers.errors import DriverError, Garbled, Refused, TimedOut
 from drivers.modbus.line import ModbusLine
@@ -146,7 +147,7 @@ class ModbusShaker:
         """What the device says of itself."""
         values = self._read(STATUS)
         with self._naming():
-            return decode_status(values)
+            return replace(decode_status(values), lost_answers=self._line.lost_answers)
 
     def reset_alarm(self) -> None:
         """Clear a latched alarm whose cause is gone. Refused where it is not."""

@@ -1,6 +1,7 @@
 """When the heartbeat was beaten, and what took the time of its longest pause.
 
-An instrument that answers slowly holds up the loop that beats; what shows of it is the shaker's alarm.
+An instrument that answers slowly holds up the loop that beats; what shows of it is the shaker's alarm. A line
+that loses answers does too, each of which is waited for, and a program that stands still.
 """
 
 from collections.abc import Callable, Iterator
@@ -8,6 +9,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import monotonic
 
+from instrument.run.stood_still import TICKING
+
+LOST = "check cable, connectors and network, of a serial line baud and parity"
+"""What answers that are lost or damaged on the way ask for."""
 _MOST = 0.5
 """Share of a pause from which on a device is named as what took it."""
 
@@ -18,15 +23,25 @@ class _Pause:
 
     seconds: float = 0.0
     taken: dict[str, float] = field(default_factory=dict)
+    stood_still_s: float = 0.0
+    """The longest time that this program itself did not run."""
 
 
 class Beats:
     """Counts the time between beats; a device is asked within `asking`."""
 
-    def __init__(self, clock: Callable[[], float] = monotonic) -> None:
-        """`clock` in s, from anywhere."""
-        self._clock = clock
+    def __init__(
+        self,
+        clock: Callable[[], float] = monotonic,
+        stood_still: Callable[[float], float] = TICKING.since,
+    ) -> None:
+        """`clock` in s, from anywhere; `stood_still` how long the program did at most since a time of it."""
+        self._clock, self._stood_still = clock, stood_still
+        self.lost_answers = 0
+        """Of the shaker, as it was last told."""
         self.restart()
+        # It is watched from now on, not from the first time it is asked for.
+        stood_still(self._since)
 
     def restart(self) -> None:
         """Forget what was before: nobody has to beat while the shaker is silent."""
@@ -57,13 +72,22 @@ class Beats:
         """The longest pause so far, the one that goes on included, for people."""
         pause = self._longest_yet()
         what = f"no beat for {pause.seconds:.1f} s"
+        if pause.stood_still_s >= _MOST * pause.seconds:
+            return (
+                f"{what}, for {pause.stood_still_s:.1f} s of which this program itself stood still: "
+                "was it stopped, or the computer too busy?"
+            )
         if not pause.taken:
             return what
         device = max(pause.taken, key=lambda name: pause.taken[name])
         if pause.taken[device] < _MOST * pause.seconds:
             return what
-        return f"{what}, of which the {device} took {pause.taken[device]:.1f} s: its answers are slow"
+        why = "its answers are slow"
+        if device == "shaker" and self.lost_answers:
+            why = f"{self.lost_answers} of its answers were lost or damaged so far: {LOST}"
+        return f"{what}, of which the {device} took {pause.taken[device]:.1f} s: {why}"
 
     def _longest_yet(self) -> _Pause:
         self._now.seconds = self._clock() - self._since
+        self._now.stood_still_s = self._stood_still(self._since)
         return max(self._longest, self._now, key=lambda pause: pause.seconds)

@@ -1,5 +1,6 @@
 """Between two blocks of a run: is it to end, is the shaker well, do devices do what they were told."""
 
+import logging
 from contextlib import suppress
 from dataclasses import dataclass
 
@@ -7,13 +8,17 @@ from drivers.errors import DriverError, Refused
 from drivers.shaker import Alarm, ShakerStatus
 from drivers.vibrometer import Range
 from instrument.errors import RigStopped
-from instrument.run.beats import Beats
+from instrument.run.beats import LOST, Beats
 from instrument.run.control import RunControl
 from instrument.run.rig import Rig
 from instrument.stepped_sine.soundness import MOST_OFF
 
+log = logging.getLogger(__name__)
+
 BEAT_S = 0.2
 """A tenth of the heartbeat's usual limit: a few may come late."""
+_LOST_SAID, _LOST_MORE = 3, 10
+"""Answers of the shaker lost before the first word of it, and times as many for each further one."""
 
 
 @dataclass
@@ -33,6 +38,7 @@ class Watching:
         """`told` is kept up to date by whoever commands the devices."""
         self._rig, self._control, self._told = rig, control, told
         self.beats = Beats()
+        self._say_lost = _LOST_SAID
 
     def look(self) -> None:
         """Beat the heartbeat where it is time to, and ask the shaker how it is.
@@ -50,6 +56,7 @@ class Watching:
         self.beats.beaten()
         with self.beats.asking("shaker"):
             status = self._rig.shaker.status()
+        self._count(status)
         if status.alarm != Alarm.NONE:
             why = f" ({self.beats.said})" if status.alarm is Alarm.HEARTBEAT else ""
             raise RigStopped(
@@ -72,6 +79,14 @@ class Watching:
                 f"it was told {told.frequency_hz:g} Hz"
             )
 
+    def _count(self, status: ShakerStatus) -> None:
+        """The answers of the shaker that were lost; said while the run can still bear them."""
+        lost = self.beats.lost_answers = status.lost_answers
+        if lost >= self._say_lost:
+            log.warning("shaker: %d answers lost or damaged so far: %s", lost, LOST)
+            while lost >= self._say_lost:
+                self._say_lost *= _LOST_MORE
+
     def confirm_range(self) -> None:
         """Before a reading counts: the range is still the one it is scaled by. Raises `RigStopped`.
 
@@ -89,6 +104,8 @@ class Watching:
     def explained(self, refusal: Refused) -> Refused:
         """A command's refusal; where the heartbeat went stale before it, with what held the beat up."""
         with suppress(DriverError):
-            if self._rig.shaker.status().alarm is Alarm.HEARTBEAT:
+            status = self._rig.shaker.status()
+            self._count(status)
+            if status.alarm is Alarm.HEARTBEAT:
                 return Refused(f"{refusal}; {self.beats.said}")
         return refusal

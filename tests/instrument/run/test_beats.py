@@ -23,7 +23,7 @@ def clock():
 
 @pytest.fixture
 def beats(clock):
-    return Beats(clock)
+    return Beats(clock, lambda since: 0.0)
 
 
 def test_a_beat_is_due_at_first_and_then_after_its_time(beats, clock):
@@ -65,3 +65,25 @@ def test_what_was_before_a_start_is_forgotten(beats, clock):
     beats.restart()
     clock.now_s += 0.3
     assert beats.said == "no beat for 0.3 s"
+
+
+def test_a_shaker_that_loses_answers_is_not_called_slow(beats, clock):
+    beats.lost_answers = 4
+    with beats.asking("shaker"):
+        clock.now_s += 2.1
+    assert "took 2.1 s: 4 of its answers were lost or damaged so far: check cable" in beats.said
+    beats.restart()
+    with beats.asking("vibrometer"):
+        clock.now_s += 2.1
+    assert beats.said.endswith("its answers are slow")
+
+
+def test_no_device_is_blamed_for_the_time_that_the_program_itself_stood_still(clock):
+    beats = Beats(clock, lambda since: min(4.1, clock.now_s - since))
+    with beats.asking("front-end"):
+        clock.now_s += 4.2
+    beats.beaten()
+    assert beats.said == (
+        "no beat for 4.2 s, for 4.1 s of which this program itself stood still: "
+        "was it stopped, or the computer too busy?"
+    )

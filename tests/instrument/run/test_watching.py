@@ -64,7 +64,7 @@ def test_an_abort_ends_the_run_before_the_heart_beats():
 def slowed(asked):
     """The vibrometer took its time before now."""
     now = iter((0.0, 0.0, 2.1, 2.4))
-    asked.beats = Beats(lambda: next(now, 2.4))
+    asked.beats = Beats(lambda: next(now, 2.4), lambda since: 0.0)
     with asked.beats.asking("vibrometer"):
         pass
     return asked
@@ -84,6 +84,15 @@ def test_an_alarm_of_the_heartbeat_says_what_held_the_beat_up():
 def test_a_command_that_is_refused_for_a_stale_heartbeat_says_so_too(alarm, said):
     asked = slowed(watching(shaker_that_says(alarm=alarm)))
     assert re.fullmatch(said, str(asked.explained(Refused("refused"))))
+
+
+def test_answers_that_the_shaker_loses_are_said_a_few_times_while_the_run_goes_on(caplog):
+    asked = watching(shaker_that_says())
+    for lost in (2, 3, 4, 29, 31):
+        asked._rig.shaker, asked.beats = shaker_that_says(lost_answers=lost), Beats()
+        asked.look()
+    said = [record.getMessage() for record in caplog.records]
+    assert [one.split(" answers")[0] for one in said] == ["shaker: 3", "shaker: 31"]
 
 
 def test_a_range_is_asked_for_in_the_vibrometers_own_time():
