@@ -4,7 +4,7 @@ from typing import Annotated, Any, Generic, TypeVar
 
 from pydantic import Field
 
-from drivers.front_end.interface import FrontEnd
+from drivers.front_end.interface import FrontEnd, InputChannel
 from drivers.options import DeviceOptions
 
 
@@ -43,6 +43,13 @@ class FrontEndDriver(Generic[OptionsT]):
             return device.identity()
         finally:
             device.close()
+
+    def objection(self, options: OptionsT, channels: tuple[InputChannel, ...]) -> str:
+        """Why the device there cannot sample these; empty where it can, or nobody knows before it does.
+
+        As `look`, it leaves the device as it is. Raises `DriverError`.
+        """
+        return ""
 
 
 AnyFrontEndDriver = FrontEndDriver[Any]

@@ -104,6 +104,15 @@ class LanXiFrontEnd:
         """Model and serial number, as the device states them."""
         return f"LAN-XI {self._info.type}, serial number {self._info.serial}"
 
+    def objection(self, channels: tuple[InputChannel, ...], sample_rate_hz: float) -> str:
+        """Why it would refuse to start with these; empty where it would not."""
+        try:
+            documents.choose_rate(self._info, sample_rate_hz)
+            self._setups(channels)
+        except Refused as refusal:
+            return str(refusal)
+        return ""
+
     def start(self, channels: tuple[InputChannel, ...], sample_rate_hz: float) -> None:
         """Begin to sample; index 0 is the first sample after it. Refused where the rate is not to be had."""
         if not self._taken:
@@ -330,5 +339,14 @@ def module_identity(url: str) -> str:
     module = LanXiFrontEnd(url, take_over=False)
     try:
         return module.identity()
+    finally:
+        module.close()
+
+
+def module_objection(url: str, channels: tuple[InputChannel, ...], sample_rate_hz: float) -> str:
+    """Why the module there cannot sample these, whatever it does just now. Raises `DriverError`."""
+    module = LanXiFrontEnd(url, take_over=False)
+    try:
+        return module.objection(channels, sample_rate_hz)
     finally:
         module.close()

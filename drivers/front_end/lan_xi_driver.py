@@ -5,7 +5,7 @@ from typing import Literal, Self
 from pydantic import model_validator
 
 from drivers.front_end.driver import FrontEndDriver, FrontEndOptions
-from drivers.front_end.interface import FrontEnd
+from drivers.front_end.interface import FrontEnd, InputChannel
 from drivers.front_end.lan_xi_address import host_of
 
 
@@ -39,3 +39,9 @@ class LanXiDriver(FrontEndDriver[LanXiOptions]):
         from drivers.front_end.lan_xi import module_identity
 
         return module_identity(options.address)
+
+    def objection(self, options: LanXiOptions, channels: tuple[InputChannel, ...]) -> str:
+        """By what the module says of its rates, inputs and ranges."""
+        from drivers.front_end.lan_xi import module_objection
+
+        return module_objection(options.address, channels, options.sample_rate_hz)

@@ -207,10 +207,10 @@ def heartbeat_timeout_objection(timeout_s: float) -> str | None:
 
 def limit_objection(limit_v: float) -> str | None:
     """Why a device's own drive limit is none that a shaker has; None where it may be one."""
-    if limit_v >= LEAST_LIMIT_V:
+    if LEAST_LIMIT_V <= limit_v <= HIGHEST_DRIVE_V:
         return None
-    hint = word_order_hint(limit_v)
-    return f"its limit_v is {limit_v:.3g} V, at least {LEAST_LIMIT_V:g} V expected{hint}"
+    wanted = f"at least {LEAST_LIMIT_V:g}" if limit_v < LEAST_LIMIT_V else f"at most {HIGHEST_DRIVE_V:g}"
+    return f"its limit_v is {limit_v:.3g} V, {wanted} V expected{word_order_hint(limit_v)}"
 
 
 def word_order_hint(value: float) -> str:

@@ -1,5 +1,6 @@
 """`viscorig doctor`: the installation, and the instruments it can reach."""
 
+import tomllib
 from pathlib import Path
 
 import click
@@ -9,7 +10,9 @@ from instrument.cli.options import json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.facts.doctor import DoctorResult, Finding
+from instrument.files.plausible_rig import rig_doubts
 from instrument.files.sensor_file import read_rig
+from instrument.files.text import read_text
 from instrument.progress import bar
 from instrument.run.visit import visit
 
@@ -30,7 +33,8 @@ def doctor(rig: Path | None, json_path: str | None) -> None:
     findings: list[Finding] = []
     with bar("looking"):
         findings += look_at_installation()
-        if document is not None:
+        if document is not None and rig is not None:
+            findings += (_doubted(doubt) for doubt in rig_doubts(tomllib.loads(read_text(rig))))
             findings += visit(document)
     for group in dict.fromkeys(found.group for found in findings):
         out.say()
@@ -45,3 +49,9 @@ def doctor(rig: Path | None, json_path: str | None) -> None:
     if faults:
         first = faults[0]
         raise BadInput(f"{len(faults)} to be mended, first {first.name}: {first.found}")
+
+
+def _doubted(doubt: str) -> Finding:
+    """A number that `check` and a run refuse unless somebody insists."""
+    cure = "correct it; where it is so, check and run take --force"
+    return Finding(group="rig", name="its file", state="remark", found=doubt, cure=cure)

@@ -10,7 +10,7 @@ State = Literal["good", "remark", "fault"]
 class Finding(Result):
     """One thing looked at."""
 
-    group: Literal["installation", "window", "instruments"]
+    group: Literal["installation", "window", "rig", "instruments"]
     name: str
     state: State
     """`remark`: something is missing that not everybody needs; `fault`: it has to be mended."""

@@ -3,16 +3,22 @@
 from collections.abc import Callable, Iterator
 
 from drivers.errors import DriverError
+from drivers.front_end.interface import InputChannel
 from drivers.shaker import Shaker
 from drivers.shaker.interface import Alarm
+from drivers.shaker.protocol import limit_objection
 from instrument.facts.doctor import Finding
 from instrument.files.devices import FRONT_ENDS, VIBROMETERS
 from instrument.files.rig_file import RigDocument
+from instrument.run.beats import LOST
 from instrument.run.rig import open_chamber, open_shaker
 
 _LEAST_LIGHT = 0.1
+_NEARLY = 1.0 + 1e-6
+"""A device's limit is a float32."""
 _CURES = {
-    "shaker": "is it switched on, its cable in, its address and unit those of [shaker]?",
+    "shaker": "is it switched on, its cable in, its address and unit (on a serial line baud and parity too) "
+    "those of [shaker]?",
     "vibrometer": "is it switched on, the cable in, the port that of [vibrometer], and used by no other?",
     "chamber": "is it switched on, its address that of [chamber], its registers the maker's?",
     "front_end": "is it switched on, does `ping` reach it, is its address that of [front_end]?",
@@ -40,21 +46,30 @@ def visit(document: RigDocument) -> Iterator[Finding]:
 def _shaker(document: RigDocument) -> Finding:
     shaker = open_shaker(document.shaker)
     try:
-        return _shaker_stands(shaker)
+        return _shaker_stands(shaker, document.limits.drive_v)
     finally:
         shaker.close()
 
 
-def _shaker_stands(shaker: Shaker) -> Finding:
+def _shaker_stands(shaker: Shaker, most_v: float) -> Finding:
     who, status = shaker.identity(), shaker.status()
     if status.alarm is not Alarm.NONE:
         return _fault("shaker", f"{who}: alarm {status.alarm.name}", "remove its cause and reset it")
     if status.interlock_open:
         return _fault("shaker", f"{who}: the interlock is open", "close it")
+    if objection := limit_objection(status.limit_v):
+        return _fault("shaker", f"{who}: {objection}", "set the device's own limit of the drive")
     limit = f"{who}, limit {status.limit_v:.3g} V"
     if status.running:
-        said = f"{limit}: it is running"
-        return Finding(group="instruments", name="shaker", state="remark", found=said, cure="stop it first")
+        return _remark("shaker", f"{limit}: it is running", "stop it first")
+    if status.limit_v > _NEARLY * most_v:
+        return _remark(
+            "shaker",
+            f"{limit}, above limits.drive_v = {most_v:g} V: it does not protect what this rig cannot bear",
+            "set the device's own limit to that of [limits]",
+        )
+    if status.lost_answers:
+        return _remark("shaker", f"{limit}: {status.lost_answers} answers lost or damaged", LOST)
     return _good("shaker", limit)
 
 
@@ -67,12 +82,18 @@ def _vibrometer(document: RigDocument) -> Finding:
     found = f"{who}, light {level:.2f} of 1"
     if level < _LEAST_LIGHT:
         cure = "focus it; a dot of retro-reflective film on the spot"
-        return Finding(group="instruments", name="vibrometer", state="remark", found=found, cure=cure)
+        return _remark("vibrometer", found, cure)
     return _good("vibrometer", found)
 
 
 def _front_end(document: RigDocument) -> Finding:
-    return _good("front_end", FRONT_ENDS[document.front_end.kind].look(document.front_end))
+    driver, options = FRONT_ENDS[document.front_end.kind], document.front_end
+    who = driver.look(options)
+    sensors = document.channels.named().items()
+    channels = tuple(InputChannel(one.input, name, one.iepe, one.range_v) for name, one in sensors)
+    if objection := driver.objection(options, channels):
+        return _fault("front_end", f"{who}: {objection}", "change it in [front_end] or [channels]")
+    return _good("front_end", who)
 
 
 def _chamber(document: RigDocument) -> Finding:
@@ -86,6 +107,10 @@ def _chamber(document: RigDocument) -> Finding:
 
 def _good(name: str, found: str) -> Finding:
     return Finding(group="instruments", name=name, state="good", found=found)
+
+
+def _remark(name: str, found: str, cure: str) -> Finding:
+    return Finding(group="instruments", name=name, state="remark", found=found, cure=cure)
 
 
 def _fault(name: str, found: str, cure: str) -> Finding:

@@ -5,6 +5,7 @@ from pydantic import ValidationError
 
 from drivers.errors import TimedOut
 from drivers.front_end.driver import FrontEndDriver, FrontEndOptions
+from drivers.front_end.interface import InputChannel
 from drivers.front_end.lan_xi_driver import LanXiDriver, LanXiOptions
 from drivers.simulated.lan_xi_server import LanXiServer
 
@@ -46,6 +47,10 @@ def test_so_is_one_that_did_not_answer():
     assert driver.device.closed
 
 
+def test_a_driver_that_does_not_know_before_it_samples_objects_to_nothing():
+    assert Driver(Device("a front-end")).objection(OPTIONS, (InputChannel(99, "base"),)) == ""
+
+
 @pytest.mark.parametrize("rate_hz", [99.0, 1.1e6])
 def test_a_rate_that_no_front_end_samples_at_is_refused(rate_hz):
     with pytest.raises(ValidationError, match="sample_rate_hz"):
@@ -57,4 +62,6 @@ def test_a_lan_xi_module_is_looked_at_while_another_program_has_it():
         options, driver = LanXiOptions(address=server.url, paced_by_reader=True), LanXiDriver()
         taken = driver.open(options)
         assert driver.look(options) == taken.identity() == "LAN-XI SIM-LAN-XI, serial number 000001"
+        assert driver.objection(options, (InputChannel(1, "base"),)) == ""
+        assert "inputs 1 to 2" in driver.objection(options, (InputChannel(3, "base"),))
         taken.close()

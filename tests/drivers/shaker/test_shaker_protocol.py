@@ -250,6 +250,11 @@ def test_a_drive_limit_of_nothing_is_none_in_any_order_of_words():
     assert limit_objection(0.0) == "its limit_v is 0 V, at least 0.001 V expected"
 
 
+def test_a_drive_limit_that_no_amplifier_has_protects_nothing_and_is_none():
+    assert limit_objection(1000.0) is None
+    assert limit_objection(5e30) == "its limit_v is 5e+30 V, at most 1000 V expected"
+
+
 def test_what_is_not_finite_or_negative_may_be_a_matter_of_word_order():
     with pytest.raises(Garbled, match=r"finite number expected.*words exchanged 3\.281: word order"):
         decode(DEFAULT["limit_v"], [0xFF80, 0x4051])

@@ -8,6 +8,7 @@ import pytest
 from click.testing import CliRunner
 from formula_rig import formula_rig
 
+from drivers.modbus.line import ModbusLine
 from instrument.check import installation
 from instrument.cli.doctor import doctor
 from instrument.cli.main import main
@@ -15,6 +16,7 @@ from instrument.facts.doctor import DoctorResult
 from instrument.files.rig_file import RigDocument
 from instrument.files.toml import read_document
 from instrument.run.visit import visit
+from instrument.simulated_case import case_file
 
 
 @pytest.fixture
@@ -83,6 +85,64 @@ def test_an_open_interlock_is_said(rig):
     found = by_name(path)["shaker"]
     assert found.state == "fault"
     assert "interlock" in found.found
+
+
+@pytest.mark.parametrize(
+    ("limit_v", "state", "said"),
+    [
+        (5.0, "good", "limit 5 V"),
+        (0.0, "fault", "its limit_v is 0 V, at least 0.001 V expected"),
+        (5e30, "fault", "at most 1000 V expected"),
+        (24.0, "remark", "limit 24 V, above limits.drive_v = 5 V: it does not protect"),
+    ],
+)
+def test_a_limit_of_the_shaker_s_own_that_protects_nothing_is_said(rig, limit_v, state, said):
+    rig, path = rig
+    with rig.world.lock:
+        rig.device.limit_v = limit_v
+    found = by_name(path)["shaker"]
+    assert found.state == state
+    assert said in found.found
+
+
+def test_a_shaker_whose_answers_get_lost_is_asked_for_its_cable(rig, monkeypatch):
+    _, path = rig
+    monkeypatch.setattr(ModbusLine, "lost_answers", property(lambda _: 2, lambda *_: None), raising=False)
+    found = by_name(path)["shaker"]
+    assert (found.state, found.found.split(": ")[-1]) == ("remark", "2 answers lost or damaged")
+    assert "cable" in found.cure
+
+
+@pytest.mark.parametrize(
+    ("key", "said"),
+    [
+        ("sample_rate_hz = 10000.0", "10000 Hz is no sample rate of"),
+        ("input = 33", "channel 33: SIM-LAN-XI has inputs 1 to 8"),
+    ],
+)
+def test_what_the_front_end_will_refuse_to_sample_is_a_fault_before_any_run(rig, key, said):
+    _, path = rig
+    was = "sample_rate_hz = 8192.0" if "rate" in key else "input = 1"
+    path.write_text(path.read_text().replace(was, key))
+    found = by_name(path)["front_end"]
+    assert found.state == "fault"
+    assert said in found.found
+
+
+def test_a_number_of_the_rig_that_check_would_question_is_a_note(rig, quick):
+    _, path = rig
+    usual = CliRunner().invoke(doctor, [str(path)])
+    path.write_text(path.read_text().replace("velocity_m_s = 1.0", "velocity_m_s = 1000.0"))
+    doubted = CliRunner().invoke(doctor, [str(path)])
+    assert "rig\n" not in usual.output
+    assert "note  its file             limits.velocity_m_s = 1000 is outside" in doubted.output
+    assert doubted.exit_code == 0
+
+
+def test_a_simulated_rig_is_in_order(quick):
+    ended = CliRunner().invoke(doctor, [str(case_file("rig.toml"))])
+    assert ended.exit_code == 0, ended.output
+    assert "its file" not in ended.output
 
 
 def test_a_fault_is_exit_2_and_one_line_and_in_the_json(rig, quick, tmp_path, monkeypatch, capfd):
