@@ -1,7 +1,11 @@
-"""A value beside its limit: the numbers, and a bar that says how near it is."""
+"""A value beside its limit: the numbers, and a bar that says how near it is.
 
-from PySide6.QtCore import QRectF
-from PySide6.QtGui import QPainter, QPaintEvent
+A unit that is cut is another unit. Where there is no room for all of it the limit is left out, which the bar
+shows too; where there still is none, the line is shortened so that it shows.
+"""
+
+from PySide6.QtCore import QEvent, QRectF, Qt
+from PySide6.QtGui import QFont, QFontMetrics, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
 from gui.state.readings import FRESH_S
@@ -9,6 +13,10 @@ from gui.style.theme import Role, current_theme
 
 _NEAR, _AT = 0.8, 1.0
 _BAR_PX = 3
+_SPARE_PX = 2
+"""A label rounds the width of its text up, and rich text that of each word."""
+_LARGE = 1.2
+"""Type that is `large` to Qt's rich text, over the usual one."""
 _OLD = "Nothing newer has come"
 
 
@@ -17,7 +25,9 @@ class Gauge(QLabel):
 
     def __init__(self, name: str, parent: QWidget | None = None, *, large: bool = False) -> None:
         super().__init__(parent)
-        self._name, self._share, self._said, self._large = name, 0.0, "", large
+        self._name, self._share, self._large = name, 0.0, large
+        self._said: tuple[str, ...] = ()
+        """All of it first, then less and less."""
         self.value: float | None = None
         self.marked = False
         """Whether it says that the value is not of now."""
@@ -30,20 +40,44 @@ class Gauge(QLabel):
         """The value, the limit it is held under, and how old it is; None where there is none."""
         self.value, self.marked = value, value is not None and age_s > FRESH_S
         share = 0.0 if value is None else min(1.0, value / limit)
-        said = f"{self._name} \u2013"
+        said: tuple[str, ...] = (f"{self._name} \u2013",)
         if value is not None:
             # Where there is room for part of it the age counts most, and no limit is near of what is over.
+            now = f"{self._name} {_short(value)}"
             said = (
-                f"{self._name} {_old(age_s)} ago: {_short(value)} {unit}"
+                (f"{self._name} {_old(age_s)} ago: {_short(value)} {unit}",)
                 if self.marked
-                else f"{self._name} {_short(value)} / {_short(limit)} {unit}"
+                else (f"{now} / {_short(limit)} {unit}", f"{now} {unit}")
             )
         if share != self._share or said != self._said:
             self._share, self._said = share, said
-            self.setText(f"<span style='font-size:large'>{said}</span>" if self._large else said)
-            self.setToolTip(_OLD if self.marked else "")
+            self._show()
             self.setEnabled(not self.marked)
             self.update()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """More of it, or less."""
+        super().resizeEvent(event)
+        self._show()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Type follows the window's."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange and hasattr(self, "_said"):
+            self._show()
+
+    def _show(self) -> None:
+        font = QFont(self.font())
+        if self._large:
+            font.setPointSizeF(_LARGE * font.pointSizeF())
+        metrics, room = QFontMetrics(font), self.contentsRect().width() - _SPARE_PX
+        fitting = [said for said in self._said if metrics.horizontalAdvance(said) <= room]
+        # Of a value its name goes first, of an old one what it was.
+        side = Qt.TextElideMode.ElideRight if self.marked else Qt.TextElideMode.ElideLeft
+        shown = fitting[0] if fitting else metrics.elidedText(self._said[-1], side, room)
+        self.setText(f"<span style='font-size:large'>{shown}</span>" if self._large else shown)
+        cut = self._said[0] if shown != self._said[0] else ""
+        self.setToolTip("\n".join(filter(None, (cut, _OLD if self.marked else ""))))
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """The numbers, and the bar below them."""

@@ -87,6 +87,7 @@ def test_the_drive_shown_is_that_of_the_device_through_hold_hang_and_stop(qtbot,
 def test_an_old_value_is_greyed_and_says_its_age(qtbot):
     gauge = Gauge("drive")
     qtbot.addWidget(gauge)
+    gauge.resize(400, 20)
     gauge.show_value(1.04, 5.0, "V", 0.1)
     assert gauge.isEnabled()
     assert gauge.text() == "drive 1.04 / 5 V"
@@ -127,3 +128,25 @@ def test_compare_lays_another_session_beside_this_one(qtbot, opened, monkeypatch
     opened.replay.compare.click()
     assert read == [session_path]
     assert opened.tabs.currentWidget() is material
+
+
+@pytest.mark.parametrize("large", [False, True])
+def test_a_gauge_without_room_leaves_out_its_limit_and_never_cuts_a_unit_unseen(qtbot, large):
+    gauge = Gauge("velocity", large=large)
+    qtbot.addWidget(gauge)
+    gauge.show()
+    gauge.show_value(8.66, 1000.0, "mm/s")
+    shown = []
+    for width in range(600, 20, -1):
+        gauge.resize(width, 20)
+        said = gauge.text().removeprefix("<span style='font-size:large'>").removesuffix("</span>")
+        if said not in shown:
+            shown.append(said)
+        assert gauge.sizeHint().width() <= width
+    assert shown[:2] == ["velocity 8.66 / 1000 mm/s", "velocity 8.66 mm/s"]
+    assert "\u202666 mm/s" in shown
+    assert all(said.startswith("\u2026") for said in shown[2:])
+    assert gauge.toolTip() == "velocity 8.66 / 1000 mm/s"
+    gauge.resize(600, 20)
+    assert (gauge.text() == shown[0]) is not large
+    assert gauge.toolTip() == ""

@@ -279,7 +279,7 @@ class RunPage(Page):
         self.tabs.setDocumentMode(True)
         self.tabs.addTab(self.now, "State")
         self.tabs.addTab(self.checked, "Dry run")
-        self.tabs.addTab(self.drawing, "PlateSpecimen")
+        self.tabs.addTab(self.drawing, "Specimen")
         below = QHBoxLayout()
         below.setContentsMargins(6, 0, 6, 6)
         below.addStretch(1)

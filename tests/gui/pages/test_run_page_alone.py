@@ -43,6 +43,11 @@ def opened(qtbot, page, tmp_path):
     return page
 
 
+def test_the_tabs_are_called_as_the_guide_calls_them(page):
+    titles = [page.tabs.tabText(number) for number in range(page.tabs.count())]
+    assert titles == ["State", "Dry run", "Specimen"]
+
+
 def test_an_experiment_is_proposed_to_be_kept_beside_its_file(opened, tmp_path):
     assert opened.starting.folder == tmp_path
     assert opened.starting.start.isEnabled()
