@@ -20,7 +20,7 @@ from gui.state.time_to_go import TimeToGo
 from instrument.check.piece import Region
 from instrument.errors import BadInput
 from instrument.impact.record import Hit, ResponseChannel
-from instrument.results.event_words import said_of
+from instrument.results.event_words import Saying
 from instrument.session.configuration import Configuration
 from instrument.session.contents import Contents, Gather, RecordedHit
 from instrument.session.setup import sweep_settings
@@ -155,7 +155,7 @@ class SessionState:
         self.signal_level: float | None = None
         self.fits: list[FitUpdated] = []
         self.fit_running: int | None = None
-        self.log = Log()
+        self.log, self._saying = Log(), Saying()
         self.changed: Counter[Topic] = Counter()
         self._clock = SessionClock()
         self._now_s = 0.0
@@ -183,7 +183,7 @@ class SessionState:
         self.time_to_go.take(event, self._now_s, at)
         self._follow(event)
         self.readings.take(event, at)
-        said = said_of(event)
+        said = self._saying.line(event)
         if said is not None:
             self.say(said, "warning" if isinstance(event, LimitWarned) else "said")
         self._changed(*_TOPICS.get(type(event), ()))

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from instrument.progress import Screen
-from instrument.results.event_words import said_of
+from instrument.results.event_words import Saying
 from instrument.stepped_sine.soak import Soak
 from instrument.stream.derived import PointMeasured
 from instrument.stream.event import Event
@@ -28,6 +28,7 @@ class Watcher:
         )
         self._task = self._bars.add_task("", total=1, visible=False)
         self._soak: Soak | None = None
+        self._saying = Saying()
 
     def __enter__(self) -> Callable[[list[Event]], None]:
         return self.watch
@@ -58,6 +59,6 @@ class Watcher:
                 self._bars.update(
                     self._task, completed=round(self._soak.near_s), description=self._soak.words
                 )
-            line = said_of(event)
+            line = self._saying.line(event)
             if line:
                 self._console.print(line, markup=False, soft_wrap=True)

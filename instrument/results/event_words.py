@@ -1,11 +1,14 @@
 """One line for people of an event: what the log of a window and the console of a run say."""
 
+from dataclasses import replace
+
 from instrument.facts.doubts import doubts_of
 from instrument.facts.identification import IdentificationResult
 from instrument.files.acceleration import shown_quantity
 from instrument.results.diagnosis_words import DOUBTED, verdict_line
 from instrument.results.next_words import apart_words
 from instrument.results.numbers import with_error
+from instrument.stepped_sine.point_of_reading import NOT_CALIBRATED
 from instrument.stream.derived import (
     CalibrationFound,
     DampingFound,
@@ -27,6 +30,21 @@ from instrument.stream.raw import (
     SoakEnded,
     StepDeclined,
 )
+
+
+class Saying:
+    """What is said of one event after the other: what is so of a whole range of the vibrometer, once."""
+
+    def __init__(self) -> None:
+        self._said: set[str] = set()
+
+    def line(self, event: Event) -> str | None:
+        """As `said_of`; None also where it has been said."""
+        if not isinstance(event, PointMeasured):
+            return said_of(event)
+        new = tuple(remark for remark in event.remarks if remark not in self._said)
+        self._said |= {remark for remark in new if NOT_CALIBRATED in remark}
+        return said_of(replace(event, remarks=new))
 
 
 def said_of(event: Event) -> str | None:

@@ -8,12 +8,13 @@ import numpy as np
 from fitting.specimen import PlacedMass, PlateSpecimen
 from fitting.sweep import Sweep
 from instrument.files.column import reading_std_m_s
+from instrument.stepped_sine.point_of_reading import NOT_CALIBRATED
 from instrument.stream.derived import PointMeasured
 
 
 def uncalibrated(points: Sequence[PointMeasured]) -> list[str]:
     """A warning where points were read in a range that was not calibrated; nothing otherwise."""
-    raw = sum(any("is not calibrated" in r for r in p.remarks) for p in points)
+    raw = sum(any(NOT_CALIBRATED in r for r in p.remarks) for p in points)
     if not raw:
         return []
     return [

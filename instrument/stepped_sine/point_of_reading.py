@@ -13,6 +13,9 @@ from instrument.stream.raw import StepBegan
 _BOUND = 3.0
 """What may be left of a transient is bounded; a third of that counts as a standard deviation of each part."""
 
+NOT_CALIBRATED = "is not calibrated"
+"""Of a range of the vibrometer: whoever counts or says remarks knows that one by it."""
+
 
 @dataclass(frozen=True)
 class Reading:
@@ -41,7 +44,7 @@ def point_of(reading: Reading, began: StepBegan, context: StepContext) -> PointM
     if context.calibration is not None:
         calibration = context.calibration(reading.range_name)
         if calibration is None:
-            remarks.append(f"range {reading.range_name} is not calibrated")
+            remarks.append(f"range {reading.range_name} {NOT_CALIBRATED}")
         else:
             velocity = calibration.true_velocity(began.frequency_hz, velocity)
             velocity_std = velocity_std / calibration.gain

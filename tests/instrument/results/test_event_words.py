@@ -3,7 +3,7 @@
 import pytest
 from sessions import block, point
 
-from instrument.results.event_words import said_of
+from instrument.results.event_words import Saying, said_of
 from instrument.stream.derived import DiagnosisFound, FitUpdated, HitJudged, SentinelCompared, StepsChosen
 from instrument.stream.raw import DiagnosisStarted, PlanOverruled, SoakEnded, StepDeclined
 
@@ -45,3 +45,16 @@ def test_a_choice_of_steps_says_why_and_which_where_it_is_one():
     assert said_of(chosen(97.5)) == "next 97.5 Hz: 2 % everywhere"
     assert said_of(chosen(97.5, 98.0)) == "2 % everywhere"
     assert said_of(chosen(ended=True)) == "the sweep ends: 2 % everywhere"
+
+
+def test_a_range_that_is_not_calibrated_is_said_once_and_the_next_one_too():
+    saying, fine, coarse = Saying(), "range fine is not calibrated", "range coarse is not calibrated"
+    remarks = [(fine,), (fine, "hum"), (fine,), (coarse,), (fine, coarse)]
+    lines = [saying.line(point(number, 20.0 + number, remarks=r)) for number, r in enumerate(remarks)]
+    assert lines == [f"20 Hz: {fine}", "21 Hz: hum", None, f"23 Hz: {coarse}", None]
+    assert saying.line(SoakEnded(61.2)) == "soaked: at the set point after 61 s"
+
+
+def test_what_is_of_one_point_is_said_of_each():
+    saying = Saying()
+    assert [saying.line(point(n, 20.0, remarks=("hum",))) for n in (1, 2)] == ["20 Hz: hum"] * 2
