@@ -12,10 +12,11 @@ from instrument.finding.identification import Identified
 from instrument.report.blocks import Block, FactsBlock, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.report.fitted import ReportedFit
 from instrument.report.law_figures import law_figure, residual_figures
+from instrument.report.law_tables import LawAt, band_table, parameter_table
+from instrument.report.law_to_use import TITLE, found_with_effect
 from instrument.report.measured import segments_of
 from instrument.results.adjusted_words import COLUMNS, adjusted_rows
 from instrument.results.diagnosis_words import UNKNOWN, with_verdict
-from instrument.results.error_words import is_below_floor, percent_words
 from instrument.results.numbers import format_number, with_error
 from instrument.results.session_result import (
     BEFORE_DIAGNOSIS,
@@ -29,10 +30,10 @@ from instrument.session.contents import Contents
 
 _SAME = 1e-6
 """Relative difference to the run's own fit that is rounding."""
-_ROWS = 9
+_WITHOUT = "Without the effect found, not to be used"
 _BEFORE = (
-    "This is the law before the diagnosis, which found an effect that the model lacked: the law to use is "
-    "the one after it, at the head of the page and in the section Diagnosis."
+    "This is the law before the diagnosis, which found an effect that the model lacked. The law to use is "
+    f"the one after it: at the head of the page and in the section {TITLE}."
 )
 
 _NOT_EXCLUDED = (
@@ -53,17 +54,17 @@ def identification_section(contents: Contents, fitted: ReportedFit) -> ReportSec
         *_doubt(contents),
         *(Sentence(note(warning), "note") for warning in r.warnings),
         FigureBlock(
-            law_figure(fit, doubted("identified", contents)),
-            doubted(f"Shear modulus and loss factor in the measured band, {_banded(r)}", contents),
+            law_figure(fit, _named(contents)),
+            _titled(f"Shear modulus and loss factor in the measured band, {_banded(r)}", contents),
         ),
         _band(r, contents),
         _parameters(r, contents),
-        _correlations(r),
-        *_adjusted(fit),
+        _correlations(r, contents),
+        *_adjusted(fit, contents),
         _live(contents, r),
     ]
     blocks += [
-        FigureBlock(f, "Residual: model less measurement, by segment")
+        FigureBlock(f, _titled("Residual: model less measurement, by segment", contents))
         for f in residual_figures(segments_of(contents, fitted.points_set_aside), fitted)
     ]
     return ReportSection(title, tuple(blocks))
@@ -160,6 +161,13 @@ def _doubt(contents: Contents) -> list[Block]:
     return [Sentence(_BEFORE, "warning")]
 
 
+def _named(contents: Contents) -> str:
+    """The law in the legend."""
+    if found_with_effect(contents) is not None:
+        return "without the effect found"
+    return doubted("identified", contents)
+
+
 def _banded(r: Identification) -> str:
     known = np.isfinite(r.band.storage_modulus_standard_error_pa).all()
     return "with 95 % bands" if known else "without bands: these points carry no standard error"
@@ -173,57 +181,52 @@ def doubted(title: str, contents: Contents) -> str:
 
 def _band(r: Identification, contents: Contents) -> TableBlock:
     b = r.band
-    every = max(1, -(-len(b.frequency_hz) // _ROWS))
-    shown = sorted({*range(0, len(b.frequency_hz), every), len(b.frequency_hz) - 1})
-    rows = tuple(
-        (
-            f"{b.frequency_hz[k]:.4g}",
-            with_error(b.storage_modulus_pa[k], b.storage_modulus_standard_error_pa[k], 1e-6),
-            with_error(b.loss_factor[k], b.loss_factor_standard_error[k]),
-        )
-        for k in shown
+    columns = (
+        b.frequency_hz,
+        b.storage_modulus_pa,
+        b.storage_modulus_standard_error_pa,
+        b.loss_factor,
+        b.loss_factor_standard_error,
     )
+    law = [LawAt(*map(float, row)) for row in zip(*columns, strict=True)]
     title = "The law in the band, ± one standard error (noise, model error, tolerances)"
-    return TableBlock(doubted(title, contents), ("f / Hz", "G' / MPa", "loss factor"), rows)
+    return band_table(_titled(title, contents), law)
 
 
 def _parameters(r: Identification, contents: Contents) -> TableBlock:
-    errors = r.standard_errors
-    rows = []
-    for name, value in zip(r.law.names, r.law.values, strict=True):
-        error = errors[name]
-        bound = r.uncertainty.at_bound.get(name)
-        below = is_below_floor(error, value)
-        said = format_number(float(value), 5) if below else with_error(float(value), error)
-        percent = percent_words(error, value)
-        rows.append((quantity(name), said, percent, f"at its {bound} bound" if bound else ""))
-    return TableBlock(
-        doubted("Parameters, ± one standard error", contents),
-        ("parameter", "value", "error / %", "remark"),
-        tuple(rows),
-    )
+    values = dict(zip(r.law.names, map(float, r.law.values), strict=True))
+    title = _titled("Parameters, ± one standard error", contents)
+    return parameter_table(title, values, r.standard_errors, r.uncertainty.at_bound)
 
 
-def _correlations(r: Identification) -> TableBlock:
+def _titled(title: str, contents: Contents) -> str:
+    """Marked where another law is the one to use."""
+    if found_with_effect(contents) is not None:
+        return f"{_WITHOUT}: {title[0].lower()}{title[1:]}"
+    return doubted(title, contents)
+
+
+def _correlations(r: Identification, contents: Contents) -> TableBlock:
     C, names = r.uncertainty.correlations, r.law.names
     rows = tuple(
         (quantity(name).split(" / ")[0], *(f"{c:+.3f}" if np.isfinite(c) else "-" for c in row))
         for name, row in zip(names, C, strict=True)
     )
     return TableBlock(
-        "Correlations of the logarithms of the parameters",
+        _titled("Correlations of the logarithms of the parameters", contents),
         ("", *(quantity(n).split(" / ")[0] for n in names)),
         rows,
     )
 
 
-def _adjusted(fit: Identified) -> list[Block]:
+def _adjusted(fit: Identified, contents: Contents) -> list[Block]:
     """The stated numbers as the fit has them; nothing where all are exact."""
     found = fit.result.fit.adjusted
     if not found:
         return []
     rows = tuple(tuple(row) for row in adjusted_rows(found, fit.files[0].specimen, len(found)))
-    return [TableBlock("Stated numbers the data moved, most moved first", COLUMNS, rows, folded=True)]
+    title = _titled("Stated numbers the data moved, most moved first", contents)
+    return [TableBlock(title, COLUMNS, rows, folded=True)]
 
 
 def _live(contents: Contents, r: Identification) -> Sentence:

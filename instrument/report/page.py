@@ -17,6 +17,7 @@ from instrument.report.identification import (
     result_in_short,
     unexplained_section,
 )
+from instrument.report.law_to_use import law_to_use_sections
 from instrument.report.pdf import save_pdf, save_pictures
 from instrument.report.setting import rig_section, specimen_section, versions_section
 from instrument.report.struck import struck_sections
@@ -84,6 +85,7 @@ def sections_of(contents: Contents, fitted: ReportedFit) -> list[ReportSection]:
         calibration_section(contents),
         sweep_section(contents, fitted),
         *struck_sections(contents),
+        *law_to_use_sections(contents),
         identification_section(contents, fitted),
         unexplained_section(fitted),
         *diagnosis_sections(contents),

@@ -21,7 +21,7 @@ from instrument.report.page import report_of
 from instrument.report.setting import rig_section
 from instrument.results.diagnosis_words import verdict_line
 from instrument.results.session_result import recorded_result
-from instrument.results.typeset import typeset
+from instrument.results.typeset import quantity, typeset
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import LimitWarned
@@ -223,6 +223,25 @@ def test_the_result_is_the_law_after_the_diagnosis(tmp_path):
     assert typeset(words) in head
     assert typeset(verdict_line(found)) in typeset(words)
     assert "the law before the diagnosis" in section(page, "Identification of the core, before the diagnosis")
+
+
+def test_the_law_to_use_has_its_table_and_parameters_before_the_law_without_the_effect(tmp_path):
+    found = diagnosis()
+    page = page_of(diagnosed_session(tmp_path, diagnosis=found))
+    use = section(page, "Law to use, after the diagnosis")
+    before = section(page, "Identification of the core, before the diagnosis")
+    assert page.index("Law to use, after the diagnosis</h2>") < page.index("before the diagnosis</h2>")
+    assert "This is the law to use." in use
+    assert "The law after the diagnosis, with" in use
+    parameters = use.split("Parameters after the diagnosis", 1)[1]
+    assert all(quantity(name) in parameters for name in found.after.parameters)
+    for title in ("the law in the band", "parameters", "correlations of", "shear modulus and", "residual:"):
+        assert f"Without the effect found, not to be used: {title}" in before
+
+
+def test_a_diagnosis_without_an_effect_leaves_one_law_and_marks_none(page):
+    assert "Law to use, after the diagnosis" not in page
+    assert "not to be used" not in page
 
 
 def test_a_law_that_nothing_explains_is_doubted_at_the_head_and_wherever_it_is_shown(tmp_path):

@@ -1,0 +1,34 @@
+"""Which law a report puts first."""
+
+from types import SimpleNamespace
+
+from diagnosis_cases import diagnosis
+
+from instrument.report.law_to_use import TITLE, found_with_effect, law_to_use_sections
+
+
+def contents(found):
+    return SimpleNamespace(diagnosis=None if found is None else SimpleNamespace(result=found))
+
+
+def test_a_law_found_with_an_effect_comes_first_with_its_errors():
+    found = diagnosis()
+    (section,) = law_to_use_sections(contents(found))
+    assert section.title == TITLE
+    said, band, parameters = section.blocks
+    assert said.text.endswith("This is the law to use.")
+    assert len(band.rows) >= min(9, len(found.after.law))
+    assert len(parameters.rows) == len(found.after.parameters)
+
+
+def test_without_an_effect_the_identifications_law_is_the_one_to_use():
+    for found in (None, diagnosis(verdict="unknown")):
+        assert found_with_effect(contents(found)) is None
+        assert law_to_use_sections(contents(found)) == []
+
+
+def test_a_session_that_kept_no_parameters_shows_the_law_alone():
+    found = diagnosis()
+    bare = found.after.model_copy(update={"parameters": {}, "standard_errors": {}})
+    (section,) = law_to_use_sections(contents(found.model_copy(update={"after": bare})))
+    assert len(section.blocks) == 2
