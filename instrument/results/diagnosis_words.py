@@ -14,6 +14,7 @@ from instrument.facts.rows import LawRow, StretchSetAside
 from instrument.results.error_words import FLOOR_PERCENT, is_below_floor
 from instrument.results.numbers import with_error
 from instrument.results.standing import none_is_likelier
+from instrument.results.units_shown import shown_in, without_rounding
 
 _MOST_PARAMETERS = 4
 UNKNOWN = "verdict unknown"
@@ -198,10 +199,12 @@ def parameter_words(key: str, p: ParameterFound) -> str:
     meant = _MEANT.get((last, p.value))
     if meant is not None:
         return f"{of} {meant}".strip()
-    unit = "" if p.unit == "1" else f" {p.unit}"
-    if p.value and is_below_floor(p.standard_error, p.value):
-        return f"{key} {p.value:.4g} (+- below {FLOOR_PERCENT:g} %){unit}"
-    return f"{key} {with_error(p.value, p.standard_error, sign='+-')}{unit}"
+    scale, shown = shown_in(p.unit)
+    unit = f" {shown}" if shown else ""
+    value = without_rounding(p.value, p.standard_error, p.unit)
+    if value and is_below_floor(p.standard_error, value):
+        return f"{key} {scale * value:.4g} (+- below {FLOOR_PERCENT:g} %){unit}"
+    return f"{key} {with_error(value, p.standard_error, scale, '+-')}{unit}"
 
 
 def law_at(law: Sequence[LawRow], frequency_hz: float) -> LawRow | None:

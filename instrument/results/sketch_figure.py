@@ -47,6 +47,7 @@ def _height_in(view: View) -> float:
 
 
 def _draw(ax: Axes, view: View) -> None:
+    x0, y0, x1, y1 = view.bounds
     for box in view.boxes:
         colour, hatch = _FILL[box.kind]
         at = (box.x, box.y)
@@ -61,8 +62,16 @@ def _draw(ax: Axes, view: View) -> None:
     for mark in view.marks:
         symbol, colour = _MARKS[mark.kind]
         ax.plot(mark.x, mark.y, symbol, color=colour, markersize=5)
-        ax.annotate(mark.name, (mark.x, mark.y), xytext=(5, 4), textcoords="offset points", fontsize=8)
-    x0, y0, x1, y1 = view.bounds
+        # A name that began right of a mark in the right half would run over the edge, or off the page.
+        right = mark.x > (x0 + x1) / 2
+        ax.annotate(
+            mark.name,
+            (mark.x, mark.y),
+            xytext=(-5 if right else 5, 4),
+            textcoords="offset points",
+            ha="right" if right else "left",
+            fontsize=8,
+        )
     room = _ROOM * max(x1 - x0, y1 - y0)
     ax.set_xlim(x0 - room, x1 + room)
     ax.set_ylim(y0 - room, y1 + room)

@@ -2,6 +2,7 @@
 
 from fitting.digits import two_digits
 from instrument.facts.diagnosis import UnseenEffect
+from instrument.results.units_shown import shown_in
 
 UNSEEN_TITLE = "not found, but would not be seen if it were there: how far off the law would be"
 UNSEEN_COLUMNS = ("effect", "up to", "chance/%", "G' by/%", "loss factor by/%", "in standard errors")
@@ -21,4 +22,5 @@ def _size(one: UnseenEffect) -> str:
         # Of a factor near 1 what counts stands further behind.
         near_one = round(one.size) == 1
         return f"{one.parameter} {one.size:.{5 if near_one else 3}g}"
-    return f"{one.parameter} {one.size:.3g} {one.unit}"
+    scale, shown = shown_in(one.unit or "1")
+    return f"{one.parameter} {scale * one.size:.3g} {shown}"

@@ -128,6 +128,10 @@ def test_it_is_dark_where_that_is_preferred_and_prints_light(page):
     assert "@media print" in page
 
 
+def test_a_page_that_is_printed_has_a_margin(page):
+    assert "@page { margin: 18mm; }" in page
+
+
 def test_foreign_text_is_escaped(page):
     assert "ZN_1 &lt;second&gt; &amp; last" in page
     assert "<second>" not in page

@@ -106,7 +106,7 @@ def test_a_person_reads_verdict_reasons_and_numbers(capsys, how):
     said = capsys.readouterr().out
     assert said.startswith(f"verdict: {how.get('verdict', 'effect')}")
     for words in (
-        "added_mass (mass 0.00800 +- 0.00010 kg",
+        "added_mass (mass 8.00 +- 0.10 g",
         "a mass of 8 g",
         "Next measurement",
         "spot_offset",

@@ -18,3 +18,8 @@ def test_what_is_there_or_not_has_no_size_and_a_factor_no_unit():
 def test_a_number_without_unit_that_is_no_factor_has_three_digits():
     grade = UNSEEN[0].but(parameter="grade_x", size=0.064741, unit="1")
     assert unseen_row(grade)[1] == "grade_x 0.0647"
+
+
+def test_a_length_is_in_millimetres_and_a_mass_in_grams():
+    assert unseen_row(UNSEEN[0].but(parameter="dx", size=0.0002175, unit="m"))[1] == "dx 0.217 mm"
+    assert unseen_row(UNSEEN[0].but(parameter="mass", size=0.00047, unit="kg"))[1] == "mass 0.47 g"
