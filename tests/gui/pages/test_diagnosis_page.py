@@ -67,7 +67,7 @@ def select(qtbot, page, name):
 
 def test_the_verdict_is_what_was_recorded(looked_at):
     page = looked_at
-    assert page.finding.verdict.said.startswith("Ambiguous: added_mass (mass 0.00800 ± 0.00010 kg")
+    assert page.finding.verdict.said.startswith("Ambiguous: added_mass (mass 8.00 ± 0.10 g")
     assert page.finding.origin.said == "recorded with the session"
     assert page.finding.next.text.endswith(AMBIGUOUS.next_measurement)
     assert "a mass of 8 g" in page.story.toPlainText()

@@ -256,7 +256,7 @@ def test_the_report_tells_the_recorded_diagnosis(contents):
     kinds = [b.kind for b in section.blocks]
     assert kinds.count("picture") == kinds.count("table") == 3
     said = " ".join(b.text for b in section.blocks if b.kind == "sentence")
-    assert "added_mass (mass 0.00800 +- 0.00010 kg" in said
+    assert "added_mass (mass 8.00 +- 0.10 g" in said
     assert "Next measurement" in said
 
 
