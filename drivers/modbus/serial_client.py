@@ -9,6 +9,7 @@ from serial import serial_for_url
 _CURES = {
     errno.ENOENT: "is its adapter plugged in, the address its port's?",
     errno.EACCES: "may this user open it? on Linux join the port's group, as a rule dialout, and log in anew",
+    errno.EINVAL: "does the port have this baud, parity and number of stop bits?",
     errno.EAGAIN: "another program has it, maybe a run of this one: end that first",
     errno.EBUSY: "another program has it, maybe a run of this one: end that first",
 }
@@ -39,7 +40,9 @@ class SerialClient(ModbusSerialClient):
             raise
         except Exception as problem:
             # A speed that the port has not, or a driver's own: of no kind that pyserial names.
-            raise OSError(f"could not set up port {params.host}: {problem}") from problem
+            code = problem.args[0] if problem.args else 0
+            said = f"could not set up port {params.host}: {problem}"
+            raise OSError(code if isinstance(code, int) else errno.EINVAL, said) from problem
         self.socket = port
         return True
 
@@ -47,6 +50,6 @@ class SerialClient(ModbusSerialClient):
 def why_not_open(problem: OSError, tried: str) -> str:
     """In one line: the reason, how often it was `tried`, and what to do."""
     reason = re.sub(r"\[Errno \d+\] ", "", " ".join(str(problem).split()))
-    # The system says once more which file it is of.
-    reason = re.sub(r": '[^']*'$", "", reason)
+    # The system says once more which file it is of, and pyserial passes its words on as a tuple.
+    reason = re.sub(r"\(\d+, '([^']*)'\)", r"\1", re.sub(r": '[^']*'$", "", reason))
     return f"{reason}, {tried}: {_CURES.get(problem.errno or 0, _NO_PORT)}"

@@ -68,8 +68,9 @@ def _shaker_stands(shaker: Shaker, most_v: float) -> Finding:
             f"{limit}, above limits.drive_v = {most_v:g} V: it does not protect what this rig cannot bear",
             "set the device's own limit to that of [limits]",
         )
-    if status.lost_answers:
-        return _remark("shaker", f"{limit}: {status.lost_answers} answers lost or damaged", LOST)
+    if lost := status.lost_answers:
+        said = f"{lost} answer{'' if lost == 1 else 's'} lost or damaged"
+        return _remark("shaker", f"{limit}: {said}", LOST)
     return _good("shaker", limit)
 
 

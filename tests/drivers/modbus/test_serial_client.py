@@ -3,10 +3,12 @@
 import errno
 import os
 import pty
+import termios
 
 import pytest
 from serial import SerialException
 
+from drivers.modbus import serial_client
 from drivers.modbus.serial_client import SerialClient, why_not_open
 
 
@@ -40,7 +42,20 @@ def test_a_port_that_another_has_is_said_to_be_in_use(port):
 
 
 def test_a_file_that_is_no_port_is_said_to_be_none():
-    assert said_by("/dev/null").endswith("is the address a serial port's, and free?")
+    assert said_by("/dev/null") == (
+        "Could not configure port: Inappropriate ioctl for device, in each of 3 attempts: "
+        "is the address a serial port's, and free?"
+    )
+
+
+def test_a_port_without_the_settings_asked_for_has_them_in_question(port, monkeypatch):
+    def refused(*_, **__):
+        raise termios.error(errno.EINVAL, "Invalid argument")
+
+    monkeypatch.setattr(serial_client, "serial_for_url", refused)
+    said = said_by(port)
+    assert said.startswith(f"could not set up port {port}: Invalid argument, in each")
+    assert said.endswith("does the port have this baud, parity and number of stop bits?")
 
 
 def test_a_port_that_this_user_may_not_open_asks_for_the_group_of_ports():
