@@ -27,8 +27,9 @@ _STOPPING = "stopping already: the shaker is silenced, what is complete is kept"
 def safe_stop(control: RunControl) -> Iterator[None]:
     """While this is open SIGTERM and SIGHUP raise `RigStopped`, Ctrl-C `KeyboardInterrupt`: the first counts.
 
-    What is raised may be lost where Python runs code that nobody waits for; the run hears of it by `control`
-    then, between two blocks.
+    Where the run has ended by itself before, that was the first: nothing is raised. What is raised may be
+    lost where Python runs code that nobody waits for; the run hears of it by `control` then, between two
+    blocks.
     """
     known = [getattr(signal, name) for name in _SIGNALS if hasattr(signal, name)]
     before = {number: signal.getsignal(number) for number in (*known, signal.SIGINT)}
@@ -37,7 +38,7 @@ def safe_stop(control: RunControl) -> Iterator[None]:
     def stop(number: int, _: FrameType | None) -> None:
         for other in known:
             signal.signal(other, signal.SIG_IGN)
-        if stopped_s:
+        if stopped_s or control.ending:
             return
         stopped_s.append(monotonic())
         what = "the terminal was closed" if number == getattr(signal, "SIGHUP", None) else "terminated"
@@ -45,6 +46,8 @@ def safe_stop(control: RunControl) -> Iterator[None]:
         raise RigStopped(what)
 
     def interrupt(_: int, __: FrameType | None) -> None:
+        if control.ending and not stopped_s:
+            stopped_s.append(monotonic())
         if stopped_s and monotonic() - stopped_s[0] < _INSISTS_S:
             click.echo(_STOPPING, err=True)
             return

@@ -66,7 +66,7 @@ def silenced(shaker: Shaker, within_s: float) -> str:
     """`came_to_rest`, tried again until the time is over, though nobody answers; no signal breaks it off.
 
     It goes on on a thread of its own: signals reach the main thread alone. What a signal raises there
-    meanwhile is raised once the shaker is silent.
+    meanwhile is raised once the shaker is silent; where it does not say so, that is what counts.
     """
     said = ["it was not told to stop"]
     # Not a `Thread`: its start can be broken off too, and a `join` that was takes a living one for ended.
@@ -79,7 +79,7 @@ def silenced(shaker: Shaker, within_s: float) -> str:
             done.wait()
         except BaseException as error:  # Ctrl-C, or what a handler makes of a SIGTERM
             raised = error
-    if raised is not None:
+    if raised is not None and not said[0]:
         raise raised
     return said[0]
 

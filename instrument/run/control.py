@@ -4,14 +4,17 @@ import threading
 from collections import deque
 from typing import Literal
 
+from instrument.errors import ShakerNotSilent
+
 
 class RunControl:
-    """Hold, resume, abort. The runner looks at it between blocks."""
+    """Hold, resume, abort. The runner looks at it between blocks, and says here when the run ends."""
 
     def __init__(self) -> None:
         self._held = threading.Event()
         self._abort: str | None = None
-        self._interrupted = False
+        self._interrupted = self._measured = False
+        self._ended_by: BaseException | None = None
         self._declines = threading.Event()
         self._words: deque[tuple[Literal["add", "end"], float | None]] = deque()
         self.chooses_steps = False
@@ -50,6 +53,29 @@ class RunControl:
     def word(self) -> tuple[Literal["add", "end"], float | None] | None:
         """The next word to the plan; None where there is none."""
         return self._words.popleft() if self._words else None
+
+    def ends(self, error: BaseException) -> BaseException:
+        """The run ends by this; what counts of all that ended it: the first, or that the shaker is loud.
+
+        Whoever would break it off is too late from here on: silencing and keeping are what is left.
+        """
+        if self._ended_by is None or (isinstance(error, ShakerNotSilent) and not self.ended_loud):
+            self._ended_by = error
+        return self._ended_by
+
+    def measured(self) -> None:
+        """There is nothing left to break off: the session is put together."""
+        self._measured = True
+
+    @property
+    def ending(self) -> bool:
+        """Whether a stop would only break off what a stop does."""
+        return self._measured or self._ended_by is not None
+
+    @property
+    def ended_loud(self) -> bool:
+        """Whether the run has ended over a shaker that nobody knows to be silent."""
+        return isinstance(self._ended_by, ShakerNotSilent)
 
     @property
     def held(self) -> bool:

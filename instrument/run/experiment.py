@@ -104,23 +104,31 @@ def _run(request: RunRequest, out: Path, resume: Path | None, watch: Watch | Non
             session.run(recorder)
         recorder.check()
         finish_session(journal, path)
-    except OSError as error:
-        said = f"{error.filename or journal.folder}: {system_words(error)}"
-        raise RigStopped(f"{' '.join(said.split())}; {kept(journal, path, begun)}") from error
-    except ShakerNotSilent as error:
-        raise ShakerNotSilent(f"{error}; {kept(journal, path, begun)}") from error
-    except (RigStopped, DriverError) as error:
-        raise RigStopped(f"{' '.join(str(error).split())}; {kept(journal, path, begun)}") from error
-    except KeyboardInterrupt:
-        raise StoppedByUser(kept(journal, path, begun)) from None
-    except BadInput as error:
-        raise BadInput(f"{error}; {kept(journal, path, begun)}") from error
-    except Exception as error:  # a fault of this program: what was measured is kept all the same
-        log.debug("internal error", exc_info=True)
-        said = f"internal error, {type(error).__name__}: {' '.join(str(error).split())}"
-        raise RigStopped(f"{said}; {kept(journal, path, begun)}") from error
+    except (Exception, KeyboardInterrupt) as error:
+        first = request.control.ends(error)
+        raise _told(first, journal.folder, kept(journal, path, begun)) from first
     finally:
         journal.unlock()
     points = tuple(session.analysis.points)
     damping, following = session.analysis.damping, tuple(session.following)
     return Finished(path, damping, session.fit, points, session.diagnosis, following)
+
+
+def _told(error: BaseException, folder: Path, kept_words: str) -> Exception:
+    """How a run that ended by this is told of, with what is kept of it."""
+    said = " ".join(str(error).split())
+    match error:
+        case OSError():
+            why = f"{error.filename or folder}: {system_words(error)}"
+            return RigStopped(f"{' '.join(why.split())}; {kept_words}")
+        case ShakerNotSilent():
+            return ShakerNotSilent(f"{said}; {kept_words}")
+        case RigStopped() | DriverError():
+            return RigStopped(f"{said}; {kept_words}")
+        case KeyboardInterrupt():
+            return StoppedByUser(kept_words)
+        case BadInput():
+            return BadInput(f"{said}; {kept_words}")
+    # A fault of this program: what was measured is kept all the same.
+    log.debug("internal error", exc_info=error)
+    return RigStopped(f"internal error, {type(error).__name__}: {said}; {kept_words}")

@@ -73,7 +73,8 @@ def finish_session(journal: SessionJournal, path: Path) -> int:
 def kept(journal: SessionJournal, path: Path, begun: Sequence[str] = ("run", "EXPERIMENT.toml")) -> str:
     """Put together what is complete, and say where it is and how to go on.
 
-    `begun` is the command and its experiment. A run without anything complete leaves nothing.
+    `begun` is the command and its experiment. A run without anything complete leaves nothing. Where a person
+    does not wait for it any more, the folder is what is kept.
     """
     try:
         entries = journal.entries()
@@ -87,6 +88,8 @@ def kept(journal: SessionJournal, path: Path, begun: Sequence[str] = ("run", "EX
         done = " and ".join(f"{n} {what}" for n, what in ((hits, "hits"), (steps, "steps")) if n)
         again = shlex.join(["viscorig", *begun, "--resume", str(journal.folder)])
         return f"{done} kept in {path}; to go on: {again}"
+    except KeyboardInterrupt:
+        return f"what is complete is in {journal.folder}: viscorig recover {journal.folder}"
     except (OSError, ValueError, RuntimeError) as error:
         first = "make room, or copy that folder to another disk; then " if is_full(error) else ""
         why = system_words(error) if isinstance(error, OSError) else str(error)

@@ -128,6 +128,7 @@ class Runner:
             yield
         except BaseException as error:
             ended = error
+            self._control.ends(error)
             raise
         finally:
             try:

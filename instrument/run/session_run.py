@@ -116,16 +116,13 @@ class SessionRun:
             if not self._follows:
                 # The rig is let go of first: nothing of it is needed any more.
                 self.diagnosis = self._diagnose()
-        except (RigStopped, DriverError) as error:
-            why = NOT_SILENT if isinstance(error, ShakerNotSilent) else "stopped safely"
-            self._end(why, " ".join(str(error).split()))
+        except (Exception, KeyboardInterrupt) as error:
+            first = self._request.control.ends(error)
+            self._end(*_ending(first))
+            if first is not error:
+                raise first from None
             raise
-        except KeyboardInterrupt:
-            self._end("stopped by the user", "")
-            raise
-        except Exception as error:
-            self._end("stopped safely", f"internal error, {type(error).__name__}")
-            raise
+        self._request.control.measured()
         self._end("done", "")
 
     def _prepare(self) -> None:
@@ -262,6 +259,18 @@ class SessionRun:
         except RigStopped:
             # The recorder itself is what failed; its own message is on the way already.
             return
+
+
+def _ending(error: BaseException) -> tuple[Ending, str]:
+    """How a run ended that ended by this, and its message."""
+    match error:
+        case ShakerNotSilent():
+            return NOT_SILENT, " ".join(str(error).split())
+        case RigStopped() | DriverError():
+            return "stopped safely", " ".join(str(error).split())
+        case KeyboardInterrupt():
+            return "stopped by the user", ""
+    return "stopped safely", f"internal error, {type(error).__name__}"
 
 
 def _without_a_hit(analysis: Analysis, wait_s: float) -> str:

@@ -74,6 +74,10 @@ def write_session(path: Path, configuration: Configuration, parts: list[Path]) -
         with suppress(OSError):
             temporary.unlink(missing_ok=True)
         raise _by_the_system(error, path) from error
+    except BaseException:
+        with suppress(OSError):
+            temporary.unlink(missing_ok=True)
+        raise
 
 
 _ERRNO = re.compile(r"errno = (\d+)")

@@ -11,6 +11,7 @@ from run_at_point import RunAtPoint
 
 from drivers.errors import Refused, TimedOut, Unreachable
 from drivers.shaker import Alarm, ShakerStatus
+from instrument.cli.stopping import safe_stop
 from instrument.errors import NOT_SILENT, SWITCH_OFF, RigStopped, ShakerNotSilent
 from instrument.run import runner
 from instrument.run.at_rest import bring_to_rest, came_to_rest, silenced
@@ -100,6 +101,18 @@ def _raise():
     raise KeyboardInterrupt
 
 
+def test_what_keeps_a_shaker_from_silence_is_told_though_a_ctrl_c_came_meanwhile():
+    def interrupted():
+        os.kill(os.getpid(), signal.SIGINT)
+        be_away()
+
+    before = signal.signal(signal.SIGINT, lambda *_: _raise())
+    try:
+        assert "no connection" in silenced(Deaf(10**9, interrupted), 0.3)
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
 def deafen(rig):
     """The stop is acknowledged, and nothing happens; no watchdog either."""
     device = rig.device
@@ -139,6 +152,45 @@ def test_what_ended_the_run_is_told_too(tmp_path, quick_watchdog):
             run(experiment, tmp_path, control=control, companion=RunAtPoint(3, lambda: end(rig)))
         rig.device.stop = honest
         honest(rig.world.clock()[1])
+
+
+@pytest.mark.parametrize("insists_s", [10.0, 0.0])
+@pytest.mark.parametrize("ended_by", ["itself", "Ctrl-C"])
+def test_no_ctrl_c_hides_that_a_shaker_is_not_silent(
+    tmp_path, quick_watchdog, monkeypatch, ended_by, insists_s
+):
+    monkeypatch.setattr("instrument.cli.stopping._INSISTS_S", insists_s)
+    control, left = RunControl(), [None] * 3
+
+    def interrupt():
+        os.kill(os.getpid(), signal.SIGINT)
+
+    def end(rig):
+        deafen(rig)
+        honest = rig.device.status
+
+        def asked(*now):
+            # Of a shaker that is being silenced.
+            if control.ending and left:
+                left.pop()
+                interrupt()
+            return honest(*now)
+
+        rig.device.status = asked
+        interrupt() if ended_by == "Ctrl-C" else control.abort("enough")
+
+    with formula_rig(tmp_path) as (rig, experiment):
+        honest = rig.device.stop, rig.device.status
+        with (
+            pytest.raises(ShakerNotSilent, match=r"^SWITCH THE AMPLIFIER OFF.*3 steps kept"),
+            safe_stop(control),
+        ):
+            run(experiment, tmp_path, control=control, companion=RunAtPoint(3, lambda: end(rig)))
+        rig.device.stop, rig.device.status = honest
+        rig.device.stop(rig.world.clock()[1])
+    (session,) = tmp_path.glob("*.h5")
+    with SessionFile(session) as file:
+        assert contents_of(file).ended.why == NOT_SILENT
 
 
 def test_a_hold_that_is_not_obeyed_ends_the_run(tmp_path, quick_watchdog):

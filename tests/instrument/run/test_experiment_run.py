@@ -1,5 +1,7 @@
 """Whole runs over the real wires: what is measured, what a fault does, what is kept."""
 
+import os
+import signal
 import threading
 import time
 from collections.abc import Callable
@@ -12,11 +14,13 @@ from run_at_point import RunAtPoint
 from sessions import events_of, points_of
 
 from drivers.simulated.rig import SimulatedRig
+from instrument.cli.stopping import safe_stop
 from instrument.errors import NOT_SILENT, RigStopped
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl
 from instrument.run.experiment import run_experiment
 from instrument.run.replay import replay
+from instrument.session import storage
 from instrument.session.storage import SessionFile
 from instrument.stream.raw import SessionEnded, StepBegan
 
@@ -156,6 +160,54 @@ def test_an_abort_ends_the_run_and_a_resume_measures_only_what_is_missing(tmp_pa
     assert len(frequencies) == len(set(frequencies)) == 15
     with SessionFile(finished.session) as file:
         assert replay(file, fit=no_fit).differences == []
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_no_signal_breaks_off_the_keeping_of_a_run_that_ended_by_itself(tmp_path, monkeypatch, number):
+    control = RunControl()
+    interrupted_as_it_is_put_together(monkeypatch, number)
+    with formula_rig(tmp_path) as (_, experiment):
+        end = RunAtPoint(3, lambda: control.abort("enough"))
+        with pytest.raises(RigStopped, match=r"^enough; 3 steps kept in .*; to go on: "), safe_stop(control):
+            run(experiment, tmp_path, ("sweep",), control=control, companion=end)
+    assert len(list(tmp_path.glob("*.h5"))) == 1
+    assert not list(tmp_path.glob("*.tmp"))
+
+
+def test_a_ctrl_c_once_all_is_measured_leaves_a_whole_session(tmp_path, monkeypatch):
+    control = RunControl()
+    interrupted_as_it_is_put_together(monkeypatch, signal.SIGINT)
+    with formula_rig(tmp_path) as (_, experiment), safe_stop(control):
+        finished = run(experiment, tmp_path, ("sweep",), control=control)
+    assert len(finished.points) == 15
+    assert not list(tmp_path.glob("*.running"))
+
+
+def test_whoever_insists_while_a_session_is_put_together_hears_why_it_ended_and_where_it_is(
+    tmp_path, monkeypatch
+):
+    monkeypatch.setattr("instrument.cli.stopping._INSISTS_S", 0.0)
+    control = RunControl()
+    interrupted_as_it_is_put_together(monkeypatch, signal.SIGINT)
+    with formula_rig(tmp_path) as (_, experiment):
+        end = RunAtPoint(3, lambda: control.abort("enough"))
+        with pytest.raises(RigStopped) as stopped, safe_stop(control):
+            run(experiment, tmp_path, ("sweep",), control=control, companion=end)
+    (folder,) = tmp_path.glob("*.running")
+    said = f"enough; what is complete is in {folder}: viscorig recover {folder}"
+    assert str(stopped.value) == said
+    assert not list(tmp_path.glob("*.h5"))
+    assert not list(tmp_path.glob("*.tmp"))
+
+
+def interrupted_as_it_is_put_together(monkeypatch, number):
+    honest = storage._put_together
+
+    def put(*parts):
+        honest(*parts)
+        os.kill(os.getpid(), number)
+
+    monkeypatch.setattr(storage, "_put_together", put)
 
 
 def test_a_hold_silences_and_resuming_goes_on(tmp_path):
