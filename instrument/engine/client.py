@@ -18,6 +18,7 @@ from instrument.engine.messages import (
     Decided,
     DeclineWanted,
     Ended,
+    Happened,
     HoldWanted,
     Message,
     Order,
@@ -33,6 +34,7 @@ from instrument.engine.messages import (
 from instrument.engine.stop_path import StopPath
 from instrument.engine.wire import encode, read
 from instrument.errors import SWITCH_OFF
+from instrument.stream.raw import SessionEnded
 
 ENGINE = (sys.executable, "-m", "instrument.engine")
 ENDS_S = 10.0
@@ -69,6 +71,10 @@ class Engine:
         self._recorded: RecordingBegan | None = None
         self._stop_path: StopPath | None = None
         self._rig_open = self._ended_told = False
+        self._left_at_rest = True
+        """What the run said of the shaker as it let go of it."""
+        self._run_ended = ""
+        """Why, as its session says; empty where it has not ended or all was measured."""
         self._gave_end = False
         self._why_ended = ""
         self._at_rest, self._over = threading.Event(), threading.Event()
@@ -211,9 +217,11 @@ class Engine:
         if path is None:
             return False, "no rig is open: nothing was driven"
         if not self._rig_open or self._over.is_set():
-            # The run let go of the shaker at rest. Whoever drives it now is stopped all the same.
+            # Whoever drives the shaker by now is stopped all the same.
             problem = path.silence()
-            if problem and not self._rig_open:
+            if problem and not self._left_at_rest:
+                problem = f"{SWITCH_OFF}: the run had let go of a shaker that did not stop: {problem}"
+            elif problem and not self._rig_open:
                 problem = f"the run had let go of the shaker at rest before; asked again: {problem}"
             return not problem, problem or "the shaker is silent"
         if self._at_rest.wait(_SILENCES_S):
@@ -265,7 +273,8 @@ class Engine:
                 # What follows cannot be understood either.
                 self._end_process(f"said what cannot be understood ({error})")
         self._process.wait()
-        problem = self._stop_path.silence() if self._stop_path is not None and self._rig_open else None
+        may_run = self._stop_path is not None and (self._rig_open or not self._left_at_rest)
+        problem = self._stop_path.silence() if self._stop_path is not None and may_run else None
         if not self._ended_told:
             self._received.put(ended("died", self._why_it_died(problem), self._recorded))
         self._received.close()
@@ -281,8 +290,10 @@ class Engine:
                 self._stop_path = StopPath(message.shaker, self._received.put)
                 self._rig_open = True
             case RigClosed() if self._stop_path is not None:
-                self._rig_open = False
+                self._rig_open, self._left_at_rest = False, message.at_rest
                 self._stop_path.close()
+            case Happened(SessionEnded() as end):
+                self._run_ended = end.message
             case Silenced():
                 self._at_rest.set()
             case Ended():
@@ -290,7 +301,7 @@ class Engine:
         self._received.put(message)
 
     def _why_it_died(self, problem: str | None) -> str:
-        """One line: how the process ended, the last it said, the shaker, and what is left.
+        """One line: how the process ended, the last it said, the shaker, what is left; why the run had ended.
 
         `problem` of the shaker, which was stopped then; None where no rig was open.
         """
@@ -301,6 +312,8 @@ class Engine:
         folder = self._recorded.folder if self._recorded is not None else None
         kept = f"; what is complete is in {folder}: viscorig recover {folder}" if folder else ""
         ended = f"the engine {how}{said}"
+        if self._run_ended:
+            ended = f"{ended}; what came before: {self._run_ended}"
         if problem:
             return f"{SWITCH_OFF} to be sure: {problem}; {_HEARTBEAT}; {ended}{kept}"
         return f"{ended}{'; the shaker is silent' if problem is not None else ''}{kept}"

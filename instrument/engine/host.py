@@ -61,7 +61,8 @@ class Host(Companion):
     """Goes along with one run and tells its client of it."""
 
     def __init__(self, *, ask_content: bool) -> None:
-        self.control, self.interruption, self.mailbox = RunControl(), Interruption(), Mailbox()
+        self.control, self.mailbox = RunControl(), Mailbox()
+        self.interruption = Interruption(self.control)
         self.recorded: RecordingBegan | None = None
         """Where the run is recorded, once it is."""
         self._operator = RemoteOperator(self.mailbox.put, ask_content)
@@ -97,7 +98,7 @@ class Host(Companion):
         finally:
             with self._silencing:
                 self._shaker = None
-            self.mailbox.put(RigClosed())
+            self.mailbox.put(RigClosed(at_rest=not self.control.ended_loud))
 
     @contextmanager
     def progress(self, name: str) -> Iterator[Report]:

@@ -6,6 +6,7 @@ import threading
 from types import FrameType
 
 from instrument.errors import RigStopped
+from instrument.run.control import RunControl
 
 AGAIN_S = 0.05
 """A signal that comes just before the main thread begins to wait does not end the wait: it comes again."""
@@ -14,10 +15,11 @@ AGAIN_S = 0.05
 class Interruption:
     """Raises in the main thread, once, while it is inside this context; what was asked before, on entering.
 
-    A second one would break off the cleaning up after the first.
+    A second one would break off the cleaning up after the first; so would one of a run that ends by itself.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, control: RunControl) -> None:
+        self._control = control
         self._guard = threading.Lock()
         self._error: BaseException | None = None
         self._heard = threading.Event()
@@ -66,6 +68,8 @@ class Interruption:
     def _raise(self, _: int = 0, __: FrameType | None = None) -> None:
         self._ignore()
         self._heard.set()
+        if self._control.ending:
+            return
         raise self._error or KeyboardInterrupt
 
     def _ignore(self) -> None:

@@ -189,7 +189,10 @@ class RigOpened(Message):
 
 @dataclass(frozen=True)
 class RigClosed(Message):
-    """The shaker is silent, the devices are being let go of; a diagnosis may follow."""
+    """The devices are being let go of; a diagnosis may follow."""
+
+    at_rest: bool = True
+    """Whether the shaker is known to be silent."""
 
 
 @dataclass(frozen=True)

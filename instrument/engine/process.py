@@ -69,7 +69,7 @@ def _run(order: Order, host: Host, fit: Fitter, diagnose: Diagnoser) -> Ended:
     except StoppedByUser as error:
         return _ended("stopped by the user", error, host)
     except KeyboardInterrupt:
-        return _ended("stopped by the user", "nothing was measured", host)
+        return _ended("stopped by the user", _left(host), host)
     except (BadInput, FittingError) as error:
         return _ended("bad input", error, host)
     except ShakerNotSilent as error:
@@ -85,6 +85,13 @@ def _run(order: Order, host: Host, fit: Fitter, diagnose: Diagnoser) -> Ended:
 
 def _ended(why: Why, said: object, host: Host) -> Ended:
     return ended(why, " ".join(str(said).split()), host.recorded)
+
+
+def _left(host: Host) -> str:
+    """Of a run that was broken off before it could say."""
+    if host.recorded is None or not host.recorded.folder.is_dir():
+        return "nothing was measured"
+    return f"what is complete is in {host.recorded.folder}: viscorig recover {host.recorded.folder}"
 
 
 def _send(mailbox: Mailbox, replies: BinaryIO) -> None:

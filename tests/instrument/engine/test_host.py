@@ -2,6 +2,7 @@
 
 import io
 import logging
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
@@ -10,6 +11,7 @@ import pytest
 
 from drivers.errors import DriverError
 from instrument.engine import host as hosting
+from instrument.engine import process
 from instrument.engine.host import Host, LogToClient
 from instrument.engine.mailbox import Mailbox
 from instrument.engine.messages import (
@@ -29,7 +31,7 @@ from instrument.engine.messages import (
     StopWanted,
 )
 from instrument.engine.wire import encode
-from instrument.errors import RigStopped
+from instrument.errors import RigStopped, ShakerNotSilent
 from instrument.stream.raw import Held
 
 
@@ -165,6 +167,12 @@ def test_a_stop_silences_the_shaker_past_the_run_for_good(host, exits):
     assert [type(e) for e in host.interruption.asked] == [KeyboardInterrupt]
 
 
+def test_a_run_that_lets_go_of_a_shaker_that_does_not_stop_says_so(host):
+    with pytest.raises(ShakerNotSilent), host.with_rig(rig_with(Shaker())):
+        raise host.control.ends(ShakerNotSilent("no answer"))
+    assert heard(host)[-1] == RigClosed(at_rest=False)
+
+
 def test_an_abort_before_the_rig_is_open_or_after_it_is_closed_asks_for_the_end_alone(host):
     host._do(AbortWanted())
     shaker = Shaker()
@@ -204,3 +212,23 @@ def test_what_is_no_word_of_a_client_does_nothing(host):
     host._do(Order(Path("a.toml"), Path("out")))
     assert host.interruption.asked == []
     assert host.control.aborted is None
+
+
+@pytest.mark.parametrize("kept", [True, False])
+def test_a_run_that_is_broken_off_before_it_can_say_what_is_kept_is_not_said_to_be_empty(
+    tmp_path, monkeypatch, kept
+):
+    host, folder = Host(ask_content=False), tmp_path / "a.running"
+
+    def broken_off(*_, companion, **__):
+        if kept:
+            folder.mkdir()
+            companion.recording(folder, tmp_path / "a.h5")
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(process, "run_experiment", broken_off)
+    monkeypatch.setattr(process, "read_whole_experiment", lambda _: None)
+    host.interruption = nullcontext()
+    end = process._run(Order(tmp_path / "a.toml", tmp_path), host, None, None)
+    said = f"what is complete is in {folder}: viscorig recover {folder}" if kept else "nothing was measured"
+    assert (end.why, end.message) == ("stopped by the user", said)

@@ -10,6 +10,7 @@ import pytest
 from instrument.engine import __main__ as process
 from instrument.engine.interruption import AGAIN_S, Interruption
 from instrument.errors import RigStopped
+from instrument.run.control import RunControl
 
 
 @pytest.fixture
@@ -32,7 +33,7 @@ def waits(waiting):
 
 
 def test_another_thread_ends_what_the_main_thread_waits_for_once(signals):
-    interruption = Interruption()
+    interruption = Interruption(RunControl())
     waiting = threading.Event()
 
     def ask():
@@ -61,7 +62,7 @@ def test_a_signal_that_the_wait_did_not_hear_comes_again(signals, monkeypatch):
             real(*to)
 
     monkeypatch.setattr(signal, "pthread_kill", kill)
-    interruption, waiting = Interruption(), threading.Event()
+    interruption, waiting = Interruption(RunControl()), threading.Event()
     asking = threading.Thread(target=lambda: (waiting.wait(), interruption.ask(Wanted("again"))))
     asking.start()
     with pytest.raises(Wanted, match="again"), interruption:
@@ -76,7 +77,7 @@ def test_a_signal_that_the_wait_did_not_hear_comes_again(signals, monkeypatch):
 def test_a_run_that_has_ended_meanwhile_is_not_signalled_again_and_again(signals, monkeypatch):
     sent = []
     monkeypatch.setattr(signal, "pthread_kill", lambda *to: sent.append(to))
-    interruption = Interruption()
+    interruption = Interruption(RunControl())
     with interruption:
         pass
     interruption.ask(Wanted("too late"))
@@ -86,7 +87,7 @@ def test_a_run_that_has_ended_meanwhile_is_not_signalled_again_and_again(signals
 
 def test_what_was_asked_before_is_raised_on_entering(signals):
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    interruption = Interruption()
+    interruption = Interruption(RunControl())
     assert not interruption.asked
     interruption.ask(Wanted("before"))
     with pytest.raises(Wanted, match="before"), interruption:
@@ -94,10 +95,21 @@ def test_what_was_asked_before_is_raised_on_entering(signals):
 
 
 def test_a_process_that_is_terminated_stops_safely_and_ctrl_c_is_the_user(signals):
-    with pytest.raises(RigStopped, match="terminated"), Interruption():
+    with pytest.raises(RigStopped, match="terminated"), Interruption(RunControl()):
         os.kill(os.getpid(), signal.SIGTERM)
-    with pytest.raises(KeyboardInterrupt), Interruption():
+    with pytest.raises(KeyboardInterrupt), Interruption(RunControl()):
         os.kill(os.getpid(), signal.SIGINT)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_nothing_breaks_off_a_run_that_ends_by_itself(signals, number):
+    control = RunControl()
+    interruption = Interruption(control)
+    with interruption:
+        control.ends(RigStopped("a limit"))
+        os.kill(os.getpid(), number)
+        interruption.ask(Wanted("too late"))
+        assert not threading.Event().wait(3 * AGAIN_S)
 
 
 # The process
