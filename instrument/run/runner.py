@@ -288,8 +288,8 @@ class Runner:
             self.silence()
         except ShakerNotSilent as loud:
             if isinstance(ended, RigStopped | DriverError):
-                raise ShakerNotSilent(f"{loud}; what came before: {' '.join(str(ended).split())}") from ended
-            raise
+                loud = ShakerNotSilent(f"{loud}; what came before: {' '.join(str(ended).split())}")
+            raise self._control.ends(loud) from ended
 
 
 def _stop_at_a_limit(derived: list[Derived]) -> None:

@@ -112,7 +112,13 @@ class SessionRun:
                     bare = stack.enter_context(
                         open_rig(self._experiment.rig, self._experiment.rig_path, document.hammer)
                     )
-                self._go(stack.enter_context(self._request.companion.with_rig(bare)))
+                rig = stack.enter_context(self._request.companion.with_rig(bare))
+                try:
+                    self._go(rig)
+                except BaseException as error:
+                    # Letting go of the rig may take long, and whoever goes along with it asks why.
+                    self._request.control.ends(error)
+                    raise
             if not self._follows:
                 # The rig is let go of first: nothing of it is needed any more.
                 self.diagnosis = self._diagnose()

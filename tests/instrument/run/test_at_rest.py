@@ -3,6 +3,7 @@
 import os
 import signal
 import threading
+from contextlib import contextmanager
 
 import pytest
 from formula_rig import formula_rig
@@ -137,6 +138,33 @@ def test_a_run_whose_shaker_runs_on_at_its_end_does_not_end_well(tmp_path, quick
         ended = contents_of(file).ended
     assert ended.why == NOT_SILENT
     assert ended.message.startswith(SWITCH_OFF)
+
+
+class LooksAtTheEnd(RunAtPoint):
+    """Whether the shaker is known to be loud as the rig is let go of."""
+
+    def __init__(self, number, do, control):
+        super().__init__(number, do)
+        self._control, self.loud = control, None
+
+    @contextmanager
+    def with_rig(self, rig):
+        try:
+            yield rig
+        finally:
+            self.loud = self._control.ended_loud
+
+
+def test_who_goes_along_knows_that_a_shaker_is_not_silent_as_the_rig_is_let_go_of(tmp_path, quick_watchdog):
+    control = RunControl()
+    with formula_rig(tmp_path) as (rig, experiment):
+        honest = rig.device.stop
+        looks = LooksAtTheEnd(3, lambda: (deafen(rig), control.abort("enough")), control)
+        with pytest.raises(ShakerNotSilent):
+            run(experiment, tmp_path, control=control, companion=looks)
+        rig.device.stop = honest
+        honest(rig.world.clock()[1])
+    assert looks.loud
 
 
 def test_what_ended_the_run_is_told_too(tmp_path, quick_watchdog):
