@@ -5,6 +5,7 @@ import re
 import shlex
 from collections.abc import Sequence
 from datetime import UTC, datetime
+from itertools import count
 from pathlib import Path
 
 from instrument.errors import BadInput, is_full, system_words
@@ -47,11 +48,17 @@ def _opened(
         _refuse_another(before, experiment.configuration(before.name, before.created_utc))
         return journal, name
     stem = re.sub(r"[^A-Za-z0-9_-]+", "-", experiment.path.stem).strip("-") or "session"
-    name = f"{stem}-{now:%Y%m%dT%H%M%SZ}"
+    name = _free(out, f"{stem}-{now:%Y%m%dT%H%M%SZ}")
     journal = SessionJournal(out / f"{name}.running")
     made = experiment.configuration(name, now.isoformat(timespec="seconds"))
     journal.begin(made.model_copy(update={"command": command, "experiment_file": experiment.path.name}))
     return journal, name
+
+
+def _free(out: Path, name: str) -> str:
+    """The name, numbered where a session has it already: a clock that was put back gives times again."""
+    numbered = (name if k == 1 else f"{name}-{k}" for k in count(1))
+    return next(one for one in numbered if not (out / f"{one}.h5").exists())
 
 
 def finish_session(journal: SessionJournal, path: Path) -> int:

@@ -2,6 +2,7 @@
 
 import errno
 from dataclasses import dataclass, field
+from datetime import datetime
 from pathlib import Path
 from types import SimpleNamespace
 from typing import get_args
@@ -12,6 +13,7 @@ from sessions import configuration, point
 from instrument.engine.messages import Order
 from instrument.errors import BadInput
 from instrument.files.experiment_file import ExperimentDocument
+from instrument.run import keeping
 from instrument.run.keeping import finish_session, kept, open_journal
 from instrument.run.part import Part
 from instrument.session.configuration import Configuration
@@ -69,6 +71,27 @@ def test_a_new_session_is_called_by_its_experiment_and_the_time(begin, tmp_path)
     assert journal.entries() == []
     _, other = begin("§§.toml")
     assert other.startswith("session-")
+
+
+def test_a_clock_that_was_put_back_costs_no_session(begin, tmp_path, monkeypatch):
+    class Frozen(datetime):
+        @classmethod
+        def now(cls, tz=None):
+            return cls(2026, 11, 30, 12, 0, 0, tzinfo=tz)
+
+    monkeypatch.setattr(keeping, "datetime", Frozen)
+    names = []
+    for _ in range(3):
+        journal, name = begin()
+        add(journal, point(len(names) + 1))
+        finish_session(journal, tmp_path / f"{name}.h5")
+        names.append(name)
+    first = "a-first-try-20261130T120000Z"
+    assert names == [first, f"{first}-2", f"{first}-3"]
+    for k, name in enumerate(names):
+        with SessionFile(tmp_path / f"{name}.h5") as file:
+            assert file.configuration.name == name
+            assert [p.step for p in contents_of(file).measured] == [k + 1]
 
 
 def test_a_run_is_carried_on_in_its_own_folder_under_its_own_name_with_what_is_whole(begin, caplog):
