@@ -35,6 +35,13 @@ class ShakerNotSilent(RigStopped):
         super().__init__(said if said.startswith(SWITCH_OFF) else f"{SWITCH_OFF}: {said}")
 
 
+def fault_words(error: BaseException) -> str:
+    """What to say of an error that nobody foresaw."""
+    if isinstance(error, MemoryError):
+        return "no memory left"
+    return f"internal error, {type(error).__name__}: {' '.join(str(error).split())}"
+
+
 def is_full(error: Exception) -> bool:
     """Whether the disk, somebody's share of it, or what one file may hold is."""
     return isinstance(error, OSError) and error.errno in _FULL

@@ -14,7 +14,7 @@ from instrument.check.follow_up_remark import follow_up_remarks
 from instrument.check.forecast import Forecast
 from instrument.check.sensors import sensor_remarks
 from instrument.check.work import planned_regions, planned_work
-from instrument.errors import BadInput, RigStopped, ShakerNotSilent, StoppedByUser, system_words
+from instrument.errors import BadInput, RigStopped, ShakerNotSilent, StoppedByUser, fault_words, system_words
 from instrument.progress import Progress, quiet
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl
@@ -106,7 +106,10 @@ def _run(request: RunRequest, out: Path, resume: Path | None, watch: Watch | Non
         finish_session(journal, path)
     except (Exception, KeyboardInterrupt) as error:
         first = request.control.ends(error)
-        raise _told(first, journal.folder, kept(journal, path, begun)) from first
+        # The same again would want the same memory; a diagnosis alone wants less.
+        alone = session.lacks_fits_alone and isinstance(first, MemoryError)
+        words = kept(journal, path, begun, diagnosable=alone)
+        raise _told(first, journal.folder, words) from first
     finally:
         journal.unlock()
     points = tuple(session.analysis.points)
@@ -131,4 +134,4 @@ def _told(error: BaseException, folder: Path, kept_words: str) -> Exception:
             return BadInput(f"{said}; {kept_words}")
     # A fault of this program: what was measured is kept all the same.
     log.debug("internal error", exc_info=error)
-    return RigStopped(f"internal error, {type(error).__name__}: {said}; {kept_words}")
+    return RigStopped(f"{fault_words(error)}; {kept_words}")

@@ -77,11 +77,18 @@ def finish_session(journal: SessionJournal, path: Path) -> int:
     return len(entries)
 
 
-def kept(journal: SessionJournal, path: Path, begun: Sequence[str] = ("run", "EXPERIMENT.toml")) -> str:
+def kept(
+    journal: SessionJournal,
+    path: Path,
+    begun: Sequence[str] = ("run", "EXPERIMENT.toml"),
+    *,
+    diagnosable: bool = False,
+) -> str:
     """Put together what is complete, and say where it is and how to go on.
 
-    `begun` is the command and its experiment. A run without anything complete leaves nothing. Where a person
-    does not wait for it any more, the folder is what is kept.
+    `begun` is the command and its experiment; `diagnosable` where one goes on with the session alone. A run
+    without anything complete leaves nothing. Where a person does not wait for it any more, the folder is what
+    is kept.
     """
     try:
         entries = journal.entries()
@@ -93,7 +100,8 @@ def kept(journal: SessionJournal, path: Path, begun: Sequence[str] = ("run", "EX
         steps = sum(len(e.steps) for e in entries)
         hits = sum(isinstance(e, HitJudged) for e in events)
         done = " and ".join(f"{n} {what}" for n, what in ((hits, "hits"), (steps, "steps")) if n)
-        again = shlex.join(["viscorig", *begun, "--resume", str(journal.folder)])
+        goes_on = ["diagnose", str(path)] if diagnosable else [*begun, "--resume", str(journal.folder)]
+        again = shlex.join(["viscorig", *goes_on])
         return f"{done} kept in {path}; to go on: {again}"
     except KeyboardInterrupt:
         return f"what is complete is in {journal.folder}: viscorig recover {journal.folder}"

@@ -9,6 +9,7 @@ from threadpoolctl import threadpool_limits
 
 from fitting.errors import FittingError
 from fitting.structures import AnySpecimen
+from instrument.errors import RigStopped, fault_words
 from instrument.facts.identification import IdentificationResult
 from instrument.files.hammer_file import accepted_modes
 from instrument.finding.identification import identify
@@ -80,6 +81,7 @@ class LiveFit:
         self._newest: tuple[list[PointMeasured], DampingFound | None] | None = None
         self._ended = False
         self._failure: Exception | None = None
+        """Of the newest points; those before may have been fitted."""
         self.latest: FitUpdated | None = None
         self.number = number
         self._thread = threading.Thread(target=self._work, name="live fit", daemon=True)
@@ -107,18 +109,25 @@ class LiveFit:
                 raise self._failure
 
     def _work(self) -> None:
-        try:
-            while (task := self._next()) is not None:
-                points, damping = task
-                last = max(p.step for p in points)
-                if self.latest is not None and self.latest.last_step == last:
-                    continue
+        while (task := self._next()) is not None:
+            points, damping = task
+            last = max(p.step for p in points)
+            if self.latest is not None and self.latest.last_step == last:
+                continue
+            try:
                 self.number += 1
                 self._emit(FitStarted(self.number, last))
                 self.latest = self._fit(self.number, last, points, damping, self._specimen)
                 self._emit(self.latest)
-        except Exception as error:  # raised on leaving: a fit must not end a measurement
-            self._failure = error
+                self._failure = None
+            except RigStopped as error:  # the recorder failed, of which the run hears by itself
+                self._failure = error
+                return
+            except Exception as error:  # raised on leaving: a fit must not end a measurement
+                log.debug("internal error", exc_info=True)
+                # Without its frames: they would keep the memory that the next fit may need.
+                self._failure = error.with_traceback(None)
+                log.warning("no fit of the points up to step %d: %s", last, fault_words(error))
 
     def _next(self) -> tuple[list[PointMeasured], DampingFound | None] | None:
         with self._wake:

@@ -11,7 +11,7 @@ from fitting.errors import TooFewPoints
 from fitting.identification.bare_plate import match_modes
 from fitting.specimen import PlateSpecimen
 from instrument.check.forecast import Forecast, distinct
-from instrument.errors import NOT_SILENT, RigStopped, ShakerNotSilent
+from instrument.errors import NOT_SILENT, RigStopped, ShakerNotSilent, fault_words
 from instrument.files.hammer_file import accepted_modes
 from instrument.hammer_test.struck import FEWEST_HITS
 from instrument.progress import Progress, quiet
@@ -98,6 +98,11 @@ class SessionRun:
     def fit(self) -> FitUpdated | None:
         """The last fit of all points; None before there is one."""
         return self._sweep.fit if self._sweep is not None else None
+
+    @property
+    def lacks_fits_alone(self) -> bool:
+        """Whether the sweep is measured: what is left needs no rig."""
+        return self._sweep is not None and self._sweep.is_measured
 
     def run(self, recorder: Recorder) -> None:
         """Everything that needs the rig; the recorder hears of its end whatever it is."""
@@ -276,6 +281,8 @@ def _ending(error: BaseException) -> tuple[Ending, str]:
             return "stopped safely", " ".join(str(error).split())
         case KeyboardInterrupt():
             return "stopped by the user", ""
+        case MemoryError():
+            return "stopped safely", fault_words(error)
     return "stopped safely", f"internal error, {type(error).__name__}"
 
 

@@ -73,6 +73,8 @@ class SweepPart:
         self._choosing: LiveChoice | None = None
         self._live: LiveFit | None = None
         self._fits = 0
+        self.is_measured = False
+        """Whether every step of it is."""
         self.fit: FitUpdated | None = None
         """The last one of all points."""
 
@@ -167,6 +169,7 @@ class SweepPart:
         """Walk a plan, fits beside it; the last one is of all points."""
         with LiveFit(self._specimen, self._record, self._fitter, self._fits) as self._live:
             runner.sweep("sweep", plan)
+            self.is_measured = True
             self._live.offer(self._analysis.points, self._analysis.damping)
         self._fits = self._live.number
         self.fit, self._live = self._live.latest, None

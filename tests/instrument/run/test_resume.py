@@ -4,6 +4,7 @@ import pytest
 from formula_rig import formula_rig
 from quick_run import no_fit, run
 from run_at_point import RunAtPoint
+from sessions import events_of
 
 from instrument.errors import BadInput, RigStopped
 from instrument.run.control import RunControl
@@ -13,7 +14,7 @@ from instrument.session.configuration import read_whole_experiment
 from instrument.session.journal import JOURNAL, SessionJournal
 from instrument.session.storage import SessionFile, part_events
 from instrument.stream.derived import CalibrationFound, PointMeasured
-from instrument.stream.raw import SegmentEnded
+from instrument.stream.raw import SegmentEnded, SessionEnded
 
 SWEEP = """
 [[sweep.segments]]
@@ -151,3 +152,15 @@ def test_a_fit_that_goes_wrong_leaves_the_sweep_whole(tmp_path):
     (session,) = tmp_path.glob("*.h5")
     with SessionFile(session) as file:
         assert sum(isinstance(e, PointMeasured) for e in file.events(with_samples=False)) == 8
+
+
+def test_a_fit_without_memory_is_told_of_as_such_and_its_session_can_be_diagnosed(tmp_path):
+    def bad(number, last_step, points, damping, specimen):
+        raise MemoryError
+
+    with formula_rig(tmp_path, sweep=SWEEP) as (_, experiment), pytest.raises(RigStopped) as stopped:
+        run_experiment(experiment, tmp_path, ("sweep",), fit=bad)
+    (session,) = tmp_path.glob("*.h5")
+    said = f"no memory left; 8 steps kept in {session}; to go on: viscorig diagnose {session}"
+    assert str(stopped.value) == said
+    assert events_of(session)[-1] == SessionEnded("stopped safely", "no memory left")
