@@ -31,7 +31,7 @@ def run(session: Path | None) -> int:
 
     window = Window(appearance, settings)
     # Python sees a signal between two turns of the window's timer.
-    signal.signal(signal.SIGINT, lambda *_: window.close())
+    signal.signal(signal.SIGINT, lambda *_: window.interrupt())
     collector = Collector(application)
     window.show()
     first.finish(window)

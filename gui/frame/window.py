@@ -141,6 +141,14 @@ class Window(Shell):
         self._page_set.redraw()
         self.turn()
 
+    def interrupt(self) -> None:
+        """Ctrl-C on the terminal: closes as a person does; another one is a yes to whether a run may end."""
+        if self.controller.running and self._asked is not None and self._asked.isVisible():
+            self._asked.close()
+            self._leave()
+        else:
+            self.close()
+
     # What Qt tells
 
     def showEvent(self, event: QShowEvent) -> None:

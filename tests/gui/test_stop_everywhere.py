@@ -171,6 +171,22 @@ def test_a_file_dialog_gives_what_was_chosen(qtbot, opened, session_path):
     assert chosen == [path]
 
 
+def test_a_ctrl_c_on_the_terminal_asks_and_another_one_stops_the_run(busy, stops):
+    busy.interrupt()
+    (asked,) = dialogs()
+    assert asked.objectName() == "A run goes on"
+    assert not stops
+    asked.button(QMessageBox.StandardButton.Cancel).click()
+    # What was answered by a no is asked anew.
+    busy.interrupt()
+    assert not stops
+    busy.interrupt()
+    assert len(stops) == 1
+    assert not dialogs()
+    busy.interrupt()
+    assert not dialogs()
+
+
 # With a shaker
 
 
