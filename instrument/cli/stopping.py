@@ -1,7 +1,7 @@
-"""A run stopped or held from outside.
+r"""A run stopped or held from outside.
 
-Ctrl-C is the user's stop; a closed terminal or SIGTERM a safe one; Ctrl-Z holds, and again resumes. The first
-stop counts: another would break off the silencing and the keeping that follow it.
+Ctrl-C and Ctrl-\ are the user's stop; a closed terminal or SIGTERM a safe one; Ctrl-Z holds, and again
+resumes. The first stop counts: another would break off the silencing and the keeping that follow it.
 """
 
 import signal
@@ -17,6 +17,8 @@ from instrument.errors import RigStopped
 from instrument.run.control import RunControl
 
 _SIGNALS = ("SIGTERM", "SIGHUP")
+_BY_A_PERSON = tuple(getattr(signal, name) for name in ("SIGINT", "SIGQUIT") if hasattr(signal, name))
+r"""Ctrl-C, and Ctrl-\, which would end the program with the shaker running until its own watchdog."""
 _HOLD = getattr(signal, "SIGTSTP", None)
 _INSISTS_S = 10.0
 """After so long a further Ctrl-C counts again: something hangs, and a person wants to get out."""
@@ -25,14 +27,14 @@ _STOPPING = "stopping already: the shaker is silenced, what is complete is kept"
 
 @contextmanager
 def safe_stop(control: RunControl) -> Iterator[None]:
-    """While this is open SIGTERM and SIGHUP raise `RigStopped`, Ctrl-C `KeyboardInterrupt`: the first counts.
+    r"""SIGTERM and SIGHUP raise `RigStopped` here, Ctrl-C and Ctrl-\ `KeyboardInterrupt`: the first counts.
 
     Where the run has ended by itself before, that was the first: nothing is raised. What is raised may be
     lost where Python runs code that nobody waits for; the run hears of it by `control` then, between two
     blocks.
     """
     known = [getattr(signal, name) for name in _SIGNALS if hasattr(signal, name)]
-    before = {number: signal.getsignal(number) for number in (*known, signal.SIGINT)}
+    before = {number: signal.getsignal(number) for number in (*known, *_BY_A_PERSON)}
     stopped_s: list[float] = []
 
     def stop(number: int, _: FrameType | None) -> None:
@@ -65,7 +67,8 @@ def safe_stop(control: RunControl) -> Iterator[None]:
 
     for number in known:
         signal.signal(number, stop)
-    signal.signal(signal.SIGINT, interrupt)
+    for number in _BY_A_PERSON:
+        signal.signal(number, interrupt)
     if _HOLD is not None:
         before[_HOLD] = signal.signal(_HOLD, hold_or_resume)
     try:

@@ -28,10 +28,11 @@ def end(kept, first, *others):
         kept.append("all")
 
 
-def test_a_second_ctrl_c_does_not_break_off_the_first(capsys):
+@pytest.mark.parametrize("first", [signal.SIGINT, signal.SIGQUIT])
+def test_a_second_ctrl_c_does_not_break_off_the_first(capsys, first):
     control, kept = RunControl(), []
     with pytest.raises(KeyboardInterrupt), safe_stop(control):
-        end(kept, signal.SIGINT, signal.SIGINT, signal.SIGTERM, signal.SIGINT)
+        end(kept, first, signal.SIGQUIT, signal.SIGINT, signal.SIGTERM, signal.SIGINT)
     assert kept == ["all"]
     assert control.interrupted
     assert "stopping already" in capsys.readouterr().err
@@ -45,6 +46,17 @@ def test_a_ctrl_c_after_a_terminate_does_not_break_it_off():
     assert control.aborted == "terminated"
 
 
+def test_what_stops_once_a_run_ends_by_itself_only_says_that_it_stops(capsys):
+    control, kept = RunControl(), []
+    control.ends(RigStopped("a limit"))
+    with safe_stop(control):
+        end(kept, signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGQUIT)
+    assert kept == ["all"]
+    assert not control.interrupted
+    assert control.aborted is None
+    assert capsys.readouterr().err.count("stopping already") == 2
+
+
 def test_where_something_hangs_a_later_ctrl_c_counts_again(monkeypatch):
     monkeypatch.setattr("instrument.cli.stopping._INSISTS_S", 0.0)
     with safe_stop(RunControl()):
@@ -54,10 +66,12 @@ def test_where_something_hangs_a_later_ctrl_c_counts_again(monkeypatch):
 
 
 def test_afterwards_signals_mean_what_they_meant():
-    before = [signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)]
+    before = [signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)]
     with safe_stop(RunControl()):
         assert signal.getsignal(signal.SIGINT) is not before[0]
-    assert [signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)] == before
+    assert [
+        signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
+    ] == before
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
