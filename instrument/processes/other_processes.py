@@ -8,7 +8,7 @@ import signal
 from collections import deque
 from collections.abc import Iterator, Sequence
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from threading import Thread
 from time import sleep
 from types import TracebackType
@@ -27,6 +27,8 @@ _MOST_PROCESSES = 4
 """Processes of a diagnosis: it goes from one step to the next, and a fifth would mostly wait."""
 _LOOKS_ROUND_S = 1.0
 """How often another process asks whether the first one is still there."""
+_BY_A_PERSON = tuple(getattr(signal, name) for name in ("SIGINT", "SIGQUIT") if hasattr(signal, name))
+"""A terminal sends these to every process of a command; the first one ends the others."""
 _begun: "WeakSet[SeveralProcesses]" = WeakSet()
 """Those that have not been ended, for whoever gives up what they work on."""
 
@@ -123,6 +125,19 @@ class SeveralProcesses(Executor):
         yield from (found[k] for k in range(len(calls)))
 
 
+@contextmanager
+def _held_back() -> Iterator[None]:
+    """No Ctrl-C reaches this thread, nor the processes and threads that begin here; other threads hear it."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, _BY_A_PERSON)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 class _Other:
     """One process, and what it knows."""
 
@@ -130,7 +145,9 @@ class _Other:
         self.pool = ProcessPoolExecutor(
             1, initializer=_begin, initargs=(os.getpid(),), env={"OPENBLAS_NUM_THREADS": "1"}
         )
-        self.pool.submit(_nothing)
+        # Another process begins with the signals held back that this thread holds back: `_begin` is too late.
+        with _held_back():
+            self.pool.submit(_nothing)
         self._known: object = None
         self._number = 0
         """Of objects sent over so far."""

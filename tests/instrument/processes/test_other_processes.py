@@ -1,7 +1,7 @@
 """Other processes beside the first: the same answers, whoever gives them, and whatever becomes of them."""
 
 import os
-from signal import SIGKILL
+from signal import SIG_BLOCK, SIGINT, SIGKILL, SIGQUIT, pthread_sigmask
 
 import pytest
 from squares import Squares
@@ -32,6 +32,17 @@ def test_answers_come_in_order_whoever_gives_them(request, several):
     alone, shared = (list(executor.each(Squares().square, numbers)) for executor in executors)
     assert [a for a, _ in shared] == [a for a, _ in alone] == [n**2 for n in numbers]
     assert {pid for _, pid in alone} == {os.getpid()}
+
+
+def test_a_ctrl_c_while_another_process_loads_does_not_reach_it(capfd):
+    with SeveralProcesses(1) as executor:
+        pool = executor._others[0].pool
+        (pid,) = pool._processes
+        for number in (SIGINT, SIGQUIT):
+            os.kill(pid, number)
+        assert pool.submit(os.getpid).result() == pid
+    assert not pthread_sigmask(SIG_BLOCK, ()) & {SIGINT, SIGQUIT}
+    assert capfd.readouterr().err == ""
 
 
 def test_several_methods_of_one_object_are_asked_in_one_go(two):
