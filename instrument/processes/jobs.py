@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 from threadpoolctl import threadpool_limits
 
 from instrument.processes.other_processes import VARIABLE as PROCESSES
-from instrument.processes.other_processes import end_with
+from instrument.processes.other_processes import end_with, held_back
 
 A = TypeVar("A")
 B = TypeVar("B")
@@ -73,7 +73,9 @@ def _until_one_dies(
         try:
             while left or under_way:
                 while left and len(under_way) < ahead * workers:
-                    under_way[pool.submit(do, left[0])] = left[0]
+                    # A process that this begins is deaf to Ctrl-C before it can say so itself.
+                    with held_back():
+                        under_way[pool.submit(do, left[0])] = left[0]
                     left.popleft()
                 done = wait(under_way, return_when=FIRST_COMPLETED).done
                 if sum(map(take_in, done)) < len(done):

@@ -126,7 +126,7 @@ class SeveralProcesses(Executor):
 
 
 @contextmanager
-def _held_back() -> Iterator[None]:
+def held_back() -> Iterator[None]:
     """No Ctrl-C reaches this thread, nor the processes and threads that begin here; other threads hear it."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
@@ -150,7 +150,7 @@ class _Other:
             1, initializer=_begin, initargs=(os.getpid(),), env={"OPENBLAS_NUM_THREADS": "1"}
         )
         # Another process begins with the signals held back that this thread holds back: `_begin` is too late.
-        with _held_back():
+        with held_back():
             self.pool.submit(_nothing)
         self._known: object = None
         self._number = 0
