@@ -36,6 +36,11 @@ class Shift:
     """Standard deviation of each stated temperature; what a form makes of it is fitted."""
 
     @property
+    def fewest(self) -> int:
+        """How many temperatures fix it, none to spare."""
+        return 3 if self.kind == "wlf" else 2
+
+    @property
     def moves_temperatures(self) -> bool:
         """Whether the temperatures are unknowns of the fit: a free factor of one sweep takes any as it is."""
         several = len(self._temperatures) < len(self.temperature_c)

@@ -289,6 +289,8 @@ class Engine:
             case RigOpened():
                 self._stop_path = StopPath(message.shaker, self._received.put)
                 self._rig_open = True
+                # What a run that is resumed had ended by is past.
+                self._run_ended = ""
             case RigClosed() if self._stop_path is not None:
                 self._rig_open, self._left_at_rest = False, message.at_rest
                 self._stop_path.close()

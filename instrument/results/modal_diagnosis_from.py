@@ -90,7 +90,7 @@ def _few_of_law(
     """The same at a few frequencies."""
     f = listed_hz(tables, FEW)
     each = [
-        (band_of(*law_with(one.fitted, found.temper * one.fitted.covariance, kin), f), share)
+        (band_of(*law_with(one.fitted, one.fitted.tempered_covariance(found.temper), kin), f), share)
         for one, kin, share in each_of(weighing)
     ]
     return mixture_of([band for band, _ in each], np.array([share for _, share in each]))

@@ -6,6 +6,7 @@ nothing that ends with silence relies on having sent it.
 
 import _thread
 import threading
+from collections.abc import Callable
 from time import monotonic, sleep
 
 from drivers.errors import DriverError, Refused, TimedOut
@@ -74,14 +75,24 @@ def silenced(shaker: Shaker, within_s: float) -> str:
     raised: BaseException | None = None
     while not done.is_set():
         try:
-            # Begun twice where a signal comes just between, which does no harm.
-            began = began or bool(_thread.start_new_thread(_insist, (shaker, within_s, said, done)))
+            if not began:
+                # Begun twice where a signal comes just between, which does no harm.
+                began = _begins(_insist, shaker, within_s, said, done)
             done.wait()
         except BaseException as error:  # Ctrl-C, or what a handler makes of a SIGTERM
             raised = error
     if raised is not None and not said[0]:
         raise raised
     return said[0]
+
+
+def _begins(insist: Callable[..., None], *given: object) -> bool:
+    """Whether it has a thread; without memory for one it is done here, where a signal may break it off."""
+    try:
+        return bool(_thread.start_new_thread(insist, given))
+    except (RuntimeError, MemoryError):
+        insist(*given)
+        return True
 
 
 def _insist(shaker: Shaker, within_s: float, said: list[str], done: threading.Event) -> None:

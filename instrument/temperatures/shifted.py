@@ -219,7 +219,7 @@ def _check(every: Sequence[AtTemperature], stated: Sequence[AnySpecimen], kind: 
         raise OutsideModel("a bare specimen has no core to identify, expected a core in every one")
     if len({s.kind for s in stated}) > 1:
         raise BadInput(f"--shift: {' and '.join(sorted({s.kind for s in stated}))}, expected one of them")
-    needed = {"wlf": 3, "arrhenius": 2, "free": 2}[kind]
+    needed = Shift(kind, T, float(T[0])).fewest
     count = len(np.unique(T))
     if count < needed:
         raise BadInput(f"--shift {kind}: {count} temperature{'s' * (count > 1)}, expected {needed} or more")

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fitting.errors import FittingError
 from fitting.temperature.causes import Cause, causes_of, common, explains
 from fitting.temperature.joint import TemperatureProblem, fit_shifted
 from fitting.temperature.members import Alone
@@ -112,8 +113,6 @@ class TemperatureFits:
 
     def odd_ones(self, alone: Sequence[Alone]) -> list[OddOne]:
         """The members without any one of which one law explains all others; none where that is most."""
-        if len(alone) < _ENOUGH_LEFT + 1:
-            return []
         p = []
         with self.progress("the others, without each in turn") as report:
             for k in range(len(alone)):
@@ -123,15 +122,21 @@ class TemperatureFits:
         return found if len(found) <= len(alone) / 2 else []
 
     def _p_without(self, k: int, alone: Sequence[Alone]) -> float:
-        """Zero where not even a law for each of the others explains them."""
+        """Zero where not even a law for each of the others explains them, or they are too few to disagree."""
         others = [i for i in range(len(alone)) if i != k]
+        T = self.shift.temperature_c[others]
+        if len(others) < _ENOUGH_LEFT or len(np.unique(T)) <= self.shift.fewest:
+            return 0.0
         its = replace(
             self,
             members=replace(self.members, every=[self.members.every[i] for i in others], remarks=[]),
-            shift=replace(self.shift, temperature_c=self.shift.temperature_c[others]),
+            shift=replace(self.shift, temperature_c=T),
         )
         rest = [alone[i] for i in others]
-        fit = its._fit_of(its._task(rest, its.shift), rest)[1]
+        try:
+            fit = its._fit_of(its._task(rest, its.shift), rest)[1]
+        except FittingError:
+            return 0.0
         return fit.p_value if explains(fit) else 0.0
 
     def common_causes(

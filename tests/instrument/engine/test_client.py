@@ -78,3 +78,10 @@ def test_an_engine_ended_as_it_keeps_a_run_is_told_of_with_what_ended_that(says,
     assert "did not end within 0.3 s and was ended" in end.message
     assert f"what came before: {LOUD.message}" in end.message
     assert end.message.endswith(f"what is complete is in {end.folder}: viscorig recover {end.folder}")
+
+
+def test_what_a_run_that_is_resumed_had_ended_by_is_not_the_end_of_the_new_one(says, tmp_path):
+    began, rig = opened(tmp_path)
+    engine = says(began, Happened(LOUD), rig)
+    engine.stop()
+    assert "what came before" not in ended(follow(engine)).message

@@ -14,7 +14,7 @@ from drivers.errors import Refused, TimedOut, Unreachable
 from drivers.shaker import Alarm, ShakerStatus
 from instrument.cli.stopping import safe_stop
 from instrument.errors import NOT_SILENT, SWITCH_OFF, RigStopped, ShakerNotSilent
-from instrument.run import runner
+from instrument.run import at_rest, runner
 from instrument.run.at_rest import bring_to_rest, came_to_rest, silenced
 from instrument.run.control import RunControl
 from instrument.session.contents import contents_of
@@ -77,6 +77,17 @@ def test_silencing_goes_on_where_the_line_comes_back():
     shaker = Deaf(3, be_away)
     assert silenced(shaker, 5.0) == ""
     assert "no connection" in silenced(Deaf(10**9, be_away), 0.05)
+
+
+@pytest.mark.parametrize("error", [RuntimeError("can't start new thread"), MemoryError()])
+def test_without_a_thread_to_spare_it_is_told_to_stop_all_the_same(monkeypatch, error):
+    def none_to_spare(*_):
+        raise error
+
+    monkeypatch.setattr(at_rest._thread, "start_new_thread", none_to_spare)
+    shaker = Deaf(3)
+    assert silenced(shaker, 5.0) == ""
+    assert shaker.stops == 3
 
 
 def test_a_ctrl_c_does_not_break_it_off():

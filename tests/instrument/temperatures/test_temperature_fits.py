@@ -74,3 +74,12 @@ def test_one_sweep_of_another_material_is_the_odd_one():
     assert odd.p_value > 0.01
     # Of three sweeps any two may go together.
     assert of.odd_ones(alone[:3]) == []
+
+
+def test_sweeps_at_one_temperature_cannot_say_that_another_one_is_odd():
+    """Left to themselves they go together whatever the material is."""
+    laws = shifted()
+    other = replace(laws[0], law=LAWS["fractional-zener"](1e6, 9e6, 2e-3, 0.9))
+    of = fits([laws[1], laws[1], laws[1], other], (T[1], T[1], T[1], T[0]))
+    alone, *_ = of.fitted(with_effects=False)
+    assert of.odd_ones(alone) == []
