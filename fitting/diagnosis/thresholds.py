@@ -20,9 +20,11 @@ class VerdictThresholds:
     A gain that more than one in twenty sweeps without any effect would show too names nothing."""
     least_doubted: float = 0.2
     """Probability of 'no effect' up to which an effect is named; in a clean sweep it is about four fifths."""
-    favoured: float = 2.0
+    favoured: float = 1.4
     """The best effect is named too where 'no effect' is at most so many times as likely; in a clean sweep it
-    is twenty times as likely. Beside a cause of its kind in no catalogue, the same limit holds."""
+    is twenty times as likely."""
+    kin_favoured: float = 2.0
+    """Nothing is named where a cause of its kind in no catalogue is more than so many times as likely."""
     stand_in: float = 0.6
     """Largest part, of the probability that both have, for effects that no reading shows by itself beside
     explanations that pass all checks: such an effect may stand in for a cause that is in no catalogue."""

@@ -150,7 +150,7 @@ def judge(
     if not standing:
         return _unknown(weighed, named[0], against(none, named[0], held_out))
     best = standing[0]
-    if weighed.share_of_kin > VERDICT.favoured * (1 - weighed.share_of_kin):
+    if weighed.share_of_kin > VERDICT.kin_favoured * (1 - weighed.share_of_kin):
         share = two_digits(100 * weighed.share_of_kin)
         why = f"is less likely than something of its kind that is in no catalogue, which has {share} %"
         return _unknown(weighed, best, why)

@@ -22,7 +22,7 @@ NAMED = -2 * np.log(VERDICT.favoured)
 @pytest.mark.parametrize(
     ("gain", "verdict"), [(NAMED - 0.1, "none"), (NAMED + 0.1, "ambiguous"), (1.1 * EVEN, "effect")]
 )
-def test_an_effect_is_named_where_none_is_not_twice_as_likely(gain, verdict):
+def test_an_effect_is_named_where_none_is_hardly_likelier(gain, verdict):
     said = judged(scored(cost=100.0), scored("spot_offset", cost=100.0 - gain))
     assert said.verdict == verdict
     assert (said.accepted is not None) == (verdict != "none")

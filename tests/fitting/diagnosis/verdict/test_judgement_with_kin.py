@@ -22,8 +22,8 @@ def with_kin(odds, *scored_fits, none=POOR_NONE, apart=0.0):
     [
         (0.9 / 19, "effect"),
         (1.1 / 19, "ambiguous"),
-        (0.9 * VERDICT.favoured, "ambiguous"),
-        (1.1 * VERDICT.favoured, "unknown"),
+        (0.9 * VERDICT.kin_favoured, "ambiguous"),
+        (1.1 * VERDICT.kin_favoured, "unknown"),
     ],
 )
 def test_what_may_be_akin_and_in_no_catalogue_is_not_certain_and_not_named_where_that_is_likelier(
