@@ -37,6 +37,11 @@ def is_of_first(name: str) -> bool:
     )
 
 
+def plain_name(name: str) -> str:
+    """As a specimen calls a number found, without whose it is: `gain` of `gain [1]`."""
+    return name.partition(" [")[0]
+
+
 class _Adjusted(BaseModel):
     """A stated number as the fit has it, in the units of the file."""
 
@@ -52,9 +57,16 @@ class _Adjusted(BaseModel):
         return name
 
     def moved(self, specimen: StatedSpecimen) -> tuple[Nuisance, float]:
-        """The number as an unknown of a fit, and where it is; the specimen's own may be another one."""
+        """The number as an unknown of a fit, and where it is; the specimen's own may be another one.
+
+        Raises `BadInput` for one that the specimen does not state.
+        """
         nuisance = Nuisance(self.name, kind_of(self.name), 1.0)
-        stated, factor, _ = stated_number(specimen, nuisance)
+        try:
+            stated, factor, _ = stated_number(specimen, nuisance)
+        except (LookupError, AttributeError, TypeError, ValueError):
+            # A mass, layer or place that is not there: specimens have no error of their own for it.
+            raise BadInput(f"adjusted: {self.name}, expected a number that the specimen states") from None
         if not is_relative(nuisance):
             sigma, by = self.tolerance / factor, self.found / factor - stated
         elif self.found > 0 and self.stated > 0 and stated > 0:
@@ -85,9 +97,12 @@ class _Posterior(BaseModel):
         return self
 
     def covariance(self, names: list[str]) -> Array:
-        """Of some of them; zero for one that was not fitted. Shape (names, names)."""
+        """Of some of them, as the specimen calls them, of several files the first one's.
+
+        Zero for one that was not fitted. Shape (names, names).
+        """
         C = np.zeros((len(names), len(names)))
-        place = {name: k for k, name in enumerate(self.names)}
+        place = {plain_name(name): k for k, name in enumerate(self.names) if is_of_first(name)}
         for i, a in enumerate(names):
             for j, b in enumerate(names):
                 if a in place and b in place:
@@ -148,13 +163,20 @@ class FoundLaw(BaseModel):
 
     @property
     def of_specimen(self) -> list[_Adjusted]:
-        """Stated numbers, of several files the first one's: where narrow resonances lie is the data's."""
-        return [one for one in self.adjusted if kind_of(one.name) not in OF_NARROW and is_of_first(one.name)]
+        """Stated numbers as the specimen calls them, of several files the first one's.
+
+        Where narrow resonances lie is the data's.
+        """
+        return [
+            one.model_copy(update={"name": plain_name(one.name)})
+            for one in self.adjusted
+            if kind_of(one.name) not in OF_NARROW and is_of_first(one.name)
+        ]
 
     def plate(self, specimen: PlateSpecimen) -> FittedPlate:
         """The specimen's plate as it was found. Raises `BadInput` where that cannot be."""
         ratios = list(self.hammer.modal_ratios if self.hammer is not None else specimen.modal_ratios)
-        for one in self.adjusted:
+        for one in self.of_specimen:
             if one.name.startswith("damping_"):
                 mode = int(one.name.removeprefix("damping_"))
                 ratios += [0.0] * (mode - len(ratios))

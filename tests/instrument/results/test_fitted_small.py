@@ -7,7 +7,9 @@ import pytest
 
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
-from fitting.stated.layers import Core
+from fitting.specimen import PlacedMass
+from fitting.stated.layers import Core, Face
+from fitting.structures.beam import Beam
 from fitting.structures.shear_pair import ShearPair, disc
 from fitting.structures.small_modes import small_velocity
 from instrument.errors import BadInput
@@ -18,6 +20,12 @@ from instrument.results.fitted_small import FittedSmall
 LAW = FractionalZener(4e6, 30e6, 1e-4, 0.6)
 PAIR = ShearPair(0.5, 2, disc(30e-3, 10e-3)[0], Core(6e-3, 0.4999, 1100.0, LAW))
 F = np.array([60.0, 200.0, 350.0])
+FACE = Face(2e-3, 70e9, 0.3, 2700.0, 0.0)
+BEAM = Beam(
+    *(0.3, 0.02, "clamped-free", FACE, FACE, Core(0.5e-3, 0.49, 1000.0, LAW)),
+    pickup_m=0.29,
+    masses=(PlacedMass(1e-3, 0.2, 0.0),),
+)
 
 
 def found(**moved):
@@ -50,6 +58,31 @@ def test_moved_numbers_are_another_pair_read_by_another_channel():
     moved = replace(PAIR, mass_kg=0.51, core=replace(PAIR.core, thickness_m=6.2e-3))
     expected = 1.002 * small_velocity(moved, F)
     np.testing.assert_allclose(FittedSmall.of(PAIR, fit).velocity(F), expected, rtol=1e-9)
+
+
+def test_of_several_files_a_beam_is_the_first_one_s():
+    own = {
+        "length [1]": (300.0, 0.3, 300.5),
+        "place_1_x [1]": (200.0, 0.5, 201.0),
+        "mass [1]": (1.0, 0.02, 1.1),
+    }
+    other = {
+        "length [2]": (300.0, 0.3, 290.0),
+        "place_2_x [2]": (100.0, 0.5, 110.0),
+        "gain [2]": (1, 0.003, 2),
+    }
+    plain = {name.partition(" [")[0]: moved for name, moved in own.items()}
+    several, alone = (fitted_response(BEAM, found(**each), F) for each in (own | other, plain))
+    np.testing.assert_array_equal(several.velocity_m_s, alone.velocity_m_s)
+    np.testing.assert_array_equal(several.amplitude_standard_error_m_s, alone.amplitude_standard_error_m_s)
+    moved = replace(BEAM, length_m=0.3005, masses=(PlacedMass(1.1e-3, 0.201, 0.0),))
+    np.testing.assert_allclose(several.velocity_m_s, small_velocity(moved, F), rtol=2e-3)
+    assert np.all(np.abs(several.velocity_m_s / small_velocity(BEAM, F) - 1) > 4e-3)
+
+
+def test_a_place_of_a_mass_that_a_beam_does_not_have_is_refused_in_a_line():
+    with pytest.raises(BadInput, match=r"^adjusted: place_2_x, expected a number that the specimen states$"):
+        FittedSmall.of(BEAM, found(place_2_x=(100.0, 0.5, 100.1)))
 
 
 def test_errors_are_those_of_everything_that_was_fitted():
