@@ -13,6 +13,8 @@ from drivers.modbus.options import ModbusSerialLine, ModbusTcpAddress
 _Address = Annotated[int, Field(ge=0, le=65535)]
 _TIMEOUT_S, _RETRIES = 0.5, 2
 """Read between the steps of a sweep: while it is waited for, the shaker's heartbeat is not beaten."""
+_PATIENCE_S = 0.25
+"""For answers that come after their time-out; three attempts and this are less than the usual heartbeat."""
 
 
 class ModbusChamberOptions(ChamberOptions):
@@ -100,5 +102,6 @@ class ModbusRtuChamberDriver(ChamberDriver[ModbusRtuChamberOptions]):
             unit=options.unit,
             timeout_s=_TIMEOUT_S,
             retries=_RETRIES,
+            patience_s=_PATIENCE_S,
         )
         return ModbusChamber(line, options.registers)

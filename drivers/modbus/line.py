@@ -1,7 +1,7 @@
 """Modbus transactions, each bounded in time, over a connection that is made again where it is lost.
 
 One transaction at a time, in the order of arrival, and between two attempts the line is free: so a stop asked
-on another thread waits for one attempt at most.
+on another thread waits for one attempt at most, and on a serial line for what an answer still owed takes.
 """
 
 import logging
@@ -18,6 +18,7 @@ from pymodbus.pdu.register_message import ReadHoldingRegistersResponse, WriteMul
 from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
 from drivers.modbus.fair_lock import FairLock
 from drivers.modbus.heard import Heard
+from drivers.modbus.owed import Owed
 from drivers.modbus.serial_client import SerialClient, why_not_open
 
 # What goes wrong is raised, in one line; the library's own log is for those who ask for it.
@@ -31,7 +32,8 @@ class ModbusLine:
     """A device on a Modbus connection. Opens when first used.
 
     A transaction takes at most (retries + 1) x 3 timeout_s (connect, and an answer that trickles in) and the
-    pauses between the attempts. Repeating one must do no harm: an answer may be lost after the deed.
+    pauses between the attempts, on a serial line `patience_s` more for each. Repeating one must do no harm:
+    an answer may be lost after the deed.
     """
 
     def __init__(
@@ -44,8 +46,12 @@ class ModbusLine:
         retries: int,
         heard: Heard | None = None,
         settings: str = "",
+        patience_s: float = 0.0,
     ) -> None:
-        """`client` passes its packets through `heard`; `settings` are what a serial line may have wrong."""
+        """`client` passes its packets through `heard`; `settings` are what a serial line may have wrong.
+
+        `patience_s` is how long such a line is listened to for lost answers, beyond their time-outs.
+        """
         self.name = name
         """Device and address, for messages."""
         self.lost_answers = 0
@@ -55,6 +61,7 @@ class ModbusLine:
         self._timeout_s = timeout_s
         self._heard = heard or Heard()
         self._settings = settings
+        self._owed = Owed(patience_s)
         self._attempts = retries + 1
         self._lock = FairLock()
 
@@ -80,8 +87,12 @@ class ModbusLine:
         unit: int,
         timeout_s: float,
         retries: int,
+        patience_s: float,
     ) -> "ModbusLine":
-        """Modbus RTU on a serial port, 8 data bits; messages begin with `device`."""
+        """Modbus RTU on a serial port, 8 data bits; messages begin with `device`.
+
+        Before anything is sent after a lost answer, that is listened for `patience_s`.
+        """
         heard = Heard()
         client = SerialClient(
             port,
@@ -100,6 +111,7 @@ class ModbusLine:
             retries=retries,
             heard=heard,
             settings=f"baud ({baud}), parity ({parity}), stop bits ({stop_bits}) and unit ({unit})",
+            patience_s=patience_s,
         )
 
     def read(self, what: str, address: int, count: int) -> list[int]:
@@ -141,18 +153,33 @@ class ModbusLine:
                 time.sleep(FIRST_PAUSE_S * 2 ** (attempt - 1))
             with self._lock:
                 try:
-                    return self._once(what, ask, object_to)
+                    answer = self._once(what, ask, object_to)
                 except Refused:
+                    self._owed.row_ended()
                     raise
-                except (Unreachable, TimedOut, Garbled) as problem:
-                    self.lost_answers += not isinstance(problem, Unreachable)
+                except Unreachable as problem:
                     self._client.close()  # type: ignore[no-untyped-call]
                     last: DriverError = problem
+                except (TimedOut, Garbled) as problem:
+                    self.lost_answers += 1
+                    self._lose(is_last=attempt == self._attempts - 1)
+                    last = problem
                 except BaseException:
                     # Broken off by a signal: the answer that is still to come is nobody's.
-                    self._client.close()  # type: ignore[no-untyped-call]
+                    self._lose(is_last=False)
+                    self._owed.row_ended()
                     raise
+                else:
+                    self._owed.row_ended()
+                    return answer
+        self._owed.row_ended()
         raise last
+
+    def _lose(self, *, is_last: bool) -> None:
+        """A new connection knows no old answer; a serial port stays open to hear it, for a retry's sake."""
+        self._owed.lost()
+        if is_last or not isinstance(self._client, SerialClient):
+            self._client.close()  # type: ignore[no-untyped-call]
 
     def _once(
         self, what: str, ask: Callable[[], ModbusPDU], object_to: Callable[[ModbusPDU], str]
@@ -169,6 +196,8 @@ class ModbusLine:
             )
         self._heard.forget()
         try:
+            if isinstance(self._client, SerialClient):
+                self._owed.settle(self._client)
             answer = ask()
         except (ConnectionException, OSError) as problem:
             raise Unreachable(f"{here}: the connection was lost {tried}: {problem}") from problem

@@ -1,7 +1,11 @@
-"""A Modbus client on a serial port that says why the port does not open; the library's own tells its log."""
+"""A Modbus client on a serial port that says why the port does not open, and hears a late answer out.
+
+The library's own tells its log, and has no ear between two questions.
+"""
 
 import errno
 import re
+import time
 
 from pymodbus.client import ModbusSerialClient
 from serial import serial_for_url
@@ -14,6 +18,12 @@ _CURES = {
     errno.EBUSY: "another program has it, maybe a run of this one: end that first",
 }
 _NO_PORT = "is the address a serial port's, and free?"
+_LEAST_ANSWER_BYTES = 5
+"""Unit, function, exception and two of the check sum. Fewer are noise."""
+_PIECES_APART_S = 0.03
+"""An answer has ended when nothing more came for so long: an adapter on USB keeps bytes for 16 ms."""
+_LOOK_S = 0.002
+"""Between two looks at what has come."""
 
 
 class SerialClient(ModbusSerialClient):
@@ -45,6 +55,24 @@ class SerialClient(ModbusSerialClient):
             raise OSError(code if isinstance(code, int) else errno.EINVAL, said) from problem
         self.socket = port
         return True
+
+    def listen(self, until_s: float) -> bool:
+        """Drop what comes until one answer has, or until that moment of `time.monotonic`: whether one has.
+
+        Raises `OSError` where the port is gone.
+        """
+        if (port := self.socket) is None:
+            return False
+        came, last_s = 0, time.monotonic()
+        while (now_s := time.monotonic()) < until_s:
+            if waiting := port.in_waiting:
+                came += len(port.read(waiting))
+                last_s = now_s
+            elif came >= _LEAST_ANSWER_BYTES and now_s - last_s >= _PIECES_APART_S:
+                break
+            time.sleep(_LOOK_S)
+        came += len(port.read(port.in_waiting))
+        return came >= _LEAST_ANSWER_BYTES
 
 
 def why_not_open(problem: OSError, tried: str) -> str:

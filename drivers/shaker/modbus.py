@@ -75,8 +75,9 @@ class ModbusShaker:
         registers: RegisterMap = DEFAULT,
         timeout_s: float = 1.0,
         retries: int = 2,
+        patience_s: float = 0.5,
     ) -> "ModbusShaker":
-        """Over Modbus RTU on a serial port, 8 data bits."""
+        """Over Modbus RTU on a serial port, 8 data bits; `patience_s`: for answers lost in a row."""
         line = ModbusLine.rtu(
             "shaker",
             port,
@@ -86,6 +87,7 @@ class ModbusShaker:
             unit=unit,
             timeout_s=timeout_s,
             retries=retries,
+            patience_s=patience_s,
         )
         return cls(line, registers)
 

@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from drivers.modbus.address import host_and_port
-from drivers.modbus.answer_time import answer_time_s
+from drivers.modbus.answer_time import answer_time_s, patience_s
 from drivers.modbus.options import ModbusSerialLine, ModbusTcpAddress
 from drivers.shaker.driver import ShakerDriver, ShakerOptions
 from drivers.shaker.interface import Shaker
@@ -76,4 +76,5 @@ class ModbusRtuDriver(ShakerDriver[ModbusRtuOptions]):
             registers=registers,
             timeout_s=min(timeout_s, answer_time_s(options.baud, options.heartbeat_timeout_s)),
             retries=retries,
+            patience_s=patience_s(options.heartbeat_timeout_s),
         )
