@@ -11,6 +11,7 @@ from pymodbus.framer.rtu import FramerRTU
 
 from drivers.errors import TimedOut
 from drivers.modbus.line import ModbusLine
+from drivers.modbus.serial_client import SerialClient
 
 REQUEST_BYTES = 8
 TIMEOUT_S = 0.15
@@ -98,6 +99,21 @@ def test_a_late_answer_to_what_was_given_up_is_not_the_next_questions(asked):
     with pytest.raises(TimedOut):
         line.read("number", 1, 1)
     assert line.read("number", 2, 1) == [2]
+
+
+def test_the_answer_to_a_question_that_was_broken_off_is_not_the_next_questions(asked, monkeypatch):
+    line = asked(0.05)
+    assert line.read("number", 0, 1) == [0]
+
+    def broken_off(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(SerialClient, "recv", broken_off)
+        with pytest.raises(KeyboardInterrupt):
+            line.read("number", 1, 1)
+    assert line.read("number", 2, 1) == [2]
+    assert line.lost_answers == 0
 
 
 def test_two_lost_in_a_row_are_listened_for_no_longer_than_the_patience(asked):

@@ -4,6 +4,8 @@ import errno
 import os
 import pty
 import termios
+import time
+import tty
 
 import pytest
 from serial import SerialException
@@ -63,3 +65,19 @@ def test_a_port_that_this_user_may_not_open_asks_for_the_group_of_ports():
     said = why_not_open(denied, "tried once")
     assert said.startswith("could not open port x: Permission denied, tried once: may this user open it?")
     assert "dialout" in said
+
+
+@pytest.mark.parametrize(("came", "is_answer"), [(bytes(7), True), (bytes(2), False)])
+def test_what_is_heard_out_is_dropped_and_a_byte_or_two_are_no_answer(came, is_answer):
+    there, here = pty.openpty()
+    tty.setraw(here)
+    client = SerialClient(os.ttyname(here))
+    client.connect()
+    os.write(there, came)
+    began_s = time.monotonic()
+    assert client.listen(began_s + 0.3) is is_answer
+    assert (time.monotonic() - began_s < 0.25) is is_answer
+    assert client.socket.in_waiting == 0
+    client.close()
+    os.close(there)
+    os.close(here)
