@@ -14,11 +14,10 @@ from types import FrameType
 import click
 
 from instrument.errors import RigStopped
+from instrument.processes.terminal_signals import BY_A_PERSON
 from instrument.run.control import RunControl
 
 _SIGNALS = ("SIGTERM", "SIGHUP")
-_BY_A_PERSON = tuple(getattr(signal, name) for name in ("SIGINT", "SIGQUIT") if hasattr(signal, name))
-r"""Ctrl-C, and Ctrl-\, which would end the program with the shaker running until its own watchdog."""
 _HOLD = getattr(signal, "SIGTSTP", None)
 _INSISTS_S = 10.0
 """After so long a further Ctrl-C counts again: something hangs, and a person wants to get out."""
@@ -34,7 +33,7 @@ def safe_stop(control: RunControl) -> Iterator[None]:
     blocks.
     """
     known = [getattr(signal, name) for name in _SIGNALS if hasattr(signal, name)]
-    before = {number: signal.getsignal(number) for number in (*known, *_BY_A_PERSON)}
+    before = {number: signal.getsignal(number) for number in (*known, *BY_A_PERSON)}
     stopped_s: list[float] = []
 
     def stop(number: int, _: FrameType | None) -> None:
@@ -67,7 +66,7 @@ def safe_stop(control: RunControl) -> Iterator[None]:
 
     for number in known:
         signal.signal(number, stop)
-    for number in _BY_A_PERSON:
+    for number in BY_A_PERSON:
         signal.signal(number, interrupt)
     if _HOLD is not None:
         before[_HOLD] = signal.signal(_HOLD, hold_or_resume)

@@ -21,14 +21,13 @@ from fitting.diagnosis.executor import ALONE, Call, Executor
 from fitting.progress import Report, unheard
 from instrument.errors import BadInput
 from instrument.processes.background import step_back
+from instrument.processes.terminal_signals import BY_A_PERSON
 
 VARIABLE = "VISCORIG_PROCESSES"
 _MOST_PROCESSES = 4
 """Processes of a diagnosis: it goes from one step to the next, and a fifth would mostly wait."""
 _LOOKS_ROUND_S = 1.0
 """How often another process asks whether the first one is still there."""
-_BY_A_PERSON = tuple(getattr(signal, name) for name in ("SIGINT", "SIGQUIT") if hasattr(signal, name))
-"""A terminal sends these to every process of a command; the first one ends the others."""
 _begun: "WeakSet[SeveralProcesses]" = WeakSet()
 """Those that have not been ended, for whoever gives up what they work on."""
 
@@ -135,7 +134,7 @@ def held_back() -> Iterator[None]:
 
     # It comes with the first process, and its start lets a Ctrl-C through again.
     resource_tracker.ensure_running()
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, _BY_A_PERSON)
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, BY_A_PERSON)
     try:
         yield
     finally:
