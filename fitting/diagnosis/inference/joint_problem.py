@@ -14,6 +14,7 @@ from fitting.diagnosis.response.unknowns import Unknowns
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
+from fitting.nuisances.sums import Kept
 
 _APART = 1e-5
 """Of a column's size, what it must have of its own for its products to tell it from others: to 10^-6 then."""
@@ -41,6 +42,7 @@ class JointProblem:
         self.logarithmic = np.array([x.logarithmic for x in q], dtype=bool)
         self._seen: _Seen | None = None
         self._with_slopes: tuple[_Seen, Array] | None = None
+        self._bare_shifts = Kept()
 
     def _to_inner(self, u: Array) -> Array:
         return np.where(self.logarithmic, np.log(np.where(self.logarithmic, u, 1.0)), u)
@@ -156,7 +158,9 @@ class JointProblem:
         bare = self.evidence.bare
         if bare is None:
             return np.empty(0)
-        expected = bare.stated_shift(self.response.nuisances, u[: self._z])
+        # The same at every step along an effect's unknowns.
+        z, nuisances = u[: self._z], self.response.nuisances
+        expected = self._bare_shifts.get("shift", z, lambda: bare.stated_shift(nuisances, z))
         for e, part in self._each:
             expected = expected + e.bare_shift(bare, u[part])
         return -bare.whitened(expected)
@@ -167,7 +171,8 @@ class JointProblem:
         if bare is None:
             return J
         if self._z:
-            by_z = bare.by_stated(self.response.nuisances, u[: self._z])
+            z, nuisances = np.round(u[: self._z]), self.response.nuisances
+            by_z = self._bare_shifts.get("slopes", z, lambda: bare.by_stated(nuisances, z))
             J[:, self._n : self._n + self._z] = bare.whitened_change(by_z.T)
         for column, k in enumerate(np.flatnonzero(self.free)):
             if k < self._z:
