@@ -111,12 +111,12 @@ class SeveralProcesses(Executor):
             thread.start()
         while left or any(thread.is_alive() for thread in asking):
             try:
-                k, (do, one) = left.popleft()
+                k, (do, arguments) = left.popleft()
             except IndexError:
                 for thread in asking:
                     thread.join()
                 continue
-            found[k] = do(one)
+            found[k] = do(*arguments)
             report(len(found) / len(calls))
         if failed:
             raise failed[0]
@@ -159,12 +159,12 @@ class _Other:
         self.pool.shutdown(wait=True, kill_workers=True)
 
     def asked(self, call: Call) -> Any:
-        do, one = call
+        do, arguments = call
         owner: object = do.__self__  # type: ignore[attr-defined]
         if owner is not self._known:
             self._known, self._number = owner, self._number + 1
             self.pool.submit(learn, self._number, owner)
-        found = self.pool.submit(_do, self._number, do.__name__, one).result()
+        found = self.pool.submit(_do, self._number, do.__name__, arguments).result()
         if isinstance(found, _Forgotten):
             # loky replaces a process whose memory has grown; the new one knows nothing.
             self._known = None
@@ -211,5 +211,5 @@ def learn(number: int, owner: object) -> None:
     _owner, _number = owner, number
 
 
-def _do(number: int, name: str, one: object) -> object:
-    return getattr(_owner, name)(one) if number == _number else _Forgotten()
+def _do(number: int, name: str, arguments: tuple[object, ...]) -> object:
+    return getattr(_owner, name)(*arguments) if number == _number else _Forgotten()

@@ -7,7 +7,7 @@ from fitting.progress import Report, unheard
 def test_work_that_nobody_watches_is_the_same_work():
     told = list[float]()
     report: Report = told.append
-    watched = list(ALONE.each(str, [1, 2, 3, 4], report))
-    assert watched == list(ALONE.each(str, [1, 2, 3, 4], unheard)) == ["1", "2", "3", "4"]
+    watched = list(ALONE.map(str, [1, 2, 3, 4], report))
+    assert watched == list(ALONE.map(str, [1, 2, 3, 4], unheard)) == ["1", "2", "3", "4"]
     assert told[-1] == 1.0
     assert told == sorted(told)

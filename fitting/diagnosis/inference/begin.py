@@ -148,7 +148,7 @@ def _from_elsewhere(
     """The best of a fit and those from everything as stated, and from the wide valley about its law."""
     wide = in_wide_valley(problem, (), evidence, none.law, np.zeros(0))
     starts = [(stated, problem.as_stated), (wide.law, with_stated(problem, wide))]
-    found = executor.each(_Elsewhere(problem, evidence, none).polished, starts)
+    found = executor.starmap(_Elsewhere(problem, evidence, none).polished, starts)
     return min([none, *found], key=by_chi2)
 
 
@@ -160,10 +160,10 @@ class _Elsewhere:
     evidence: Evidence
     none: Refitted
 
-    def polished(self, start: tuple[CoreLaw, Array]) -> Refitted:
+    def polished(self, law: CoreLaw, z: Array) -> Refitted:
         """From a law and stated numbers, shape (stated,)."""
         rough = response_of(self.problem, (), self.problem.coarse)
-        found, goal = refit(rough, self.evidence, *start, tolerance=ROUGH), self.none.chi2
+        found, goal = refit(rough, self.evidence, law, z, tolerance=ROUGH), self.none.chi2
         if found.chi2 >= goal and (found.converged or not found.may_reach(goal)):
             return self.none
         return polished(self.problem, (), self.evidence, found.law, found.u, goal=goal)

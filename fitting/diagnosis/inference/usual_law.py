@@ -42,7 +42,7 @@ def followed(
     ways = _Ways(problem, evidence)
     if ways.usual(fitted) is not fitted.law:
         # Neither way needs to know of the other: two processes go one each.
-        both = executor.together([(ways.on, fitted), (ways.from_usual, fitted)])
+        both = executor.together([(ways.on, (fitted,)), (ways.from_usual, (fitted,))])
         return min(both, key=by_chi2)
     found = ways.on(fitted)
     if ways.usual(found) is found.law:

@@ -17,6 +17,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.diagnosis.checks.prediction import held_out
 from fitting.diagnosis.checks.predictive import temper
 from fitting.diagnosis.checks.stretches import parts_held_out
@@ -25,23 +26,9 @@ from fitting.diagnosis.inference.marginal import cost
 from fitting.diagnosis.inference.refit import ROUGH, evaluated, refit
 from fitting.diagnosis.inference.refitted import Refitted, by_chi2
 from fitting.diagnosis.inference.usual_law import finished, followed, polished
-from fitting.diagnosis.search.asked import (
-    Beside,
-    BesideBest,
-    FormFit,
-    FormStart,
-    FromLaw,
-    LawBeside,
-    OfEffect,
-    OfForm,
-    OneOfPair,
-    Second,
-    State,
-    ToEnd,
-    ToFollow,
-)
 from fitting.diagnosis.search.candidates import CandidateFit, CandidateState, is_over_decades
 from fitting.diagnosis.search.looks import Start, has_place
+from fitting.diagnosis.search.tasks import Form, FormFit, FormStart, State
 from fitting.diagnosis.search.wide_fits import WideFits
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.thresholds import PAIRS, STARTS, STOPPING
@@ -89,12 +76,11 @@ class CandidateFits(WideFits):
         laws = effect.laws(self.none.law, self.problem.points)
         return self._best_laws(self.none, effect, laws)
 
-    def fit_other_laws_beside(self, asked: LawBeside) -> list[Refitted]:
+    def fit_other_laws_beside(self, before: Refitted, name: str, goal: float) -> list[Refitted]:
         """Fits with each of the laws of an effect beside a fit of another effect.
 
         None where the law that is freest to bend does not come down to `goal`.
         """
-        before, name, goal = asked
         effect = self.effects[name]
         laws = effect.laws(before.law, self.problem.points)
         freest = max(laws, key=lambda law: len(law.names))
@@ -135,18 +121,16 @@ class CandidateFits(WideFits):
         """Chi-square that an effect may gain by one linear step."""
         return max((c.promise() for c in self.candidates[name]), default=0.0)
 
-    def begin(self, asked: OfEffect) -> FirstLook:
+    def begin(self, name: str, state: State) -> FirstLook:
         """An effect's rough fits near by, or its other laws in the place of the stated one."""
-        name, state = asked
         if self.effects[name].laws(self.none.law, self.problem.points):
             return FirstLook(name, self.fit_other_laws(self.effects[name]), [])
         self.learn(name, state)
         fits = [f for candidate in self.candidates[name] for f in candidate.fit_near()]
         return FirstLook(name, fits, self.state(name))
 
-    def begin_beside_the_best(self, asked: BesideBest) -> FirstLook:
+    def begin_beside_the_best(self, name: str, state: State, best: Refitted) -> FirstLook:
         """`begin` where another effect explains everything: from its law, if this one can do so there."""
-        name, state, best = asked
         if self.effects[name].laws(self.none.law, self.problem.points):
             return FirstLook(name, self.fit_other_laws(self.effects[name]), [])
         self.learn(name, state)
@@ -173,14 +157,13 @@ class CandidateFits(WideFits):
         goal = self.goal(best)
         return bare, [CandidateFit(self.problem, self.evidence, bare, e, goal=goal) for e in effects]
 
-    def fit_another_form(self, asked: FormFit) -> list[Refitted]:
+    def fit_another_form(self, form: Form, best: Refitted) -> list[Refitted]:
         """Rough fits of a form from the law of another one of its effect that explains everything."""
-        _, (there,) = self._from_the_law_of(asked.fitted, [self.form(asked.form)])
+        _, (there,) = self._from_the_law_of(best, [self.form(form)])
         return there.fit_near()
 
-    def fit_plain(self, asked: OfEffect) -> State:
+    def fit_plain(self, name: str, state: State) -> State:
         """Fits of the first variant from plain starts."""
-        name, state = asked
         self.learn(name, state)
         self.candidates[name][0].fit_plain()
         return self.state(name)
@@ -210,10 +193,9 @@ class CandidateFits(WideFits):
             return np.inf
         return best.chi2 + STOPPING.cost_near_best * temper(self.none, best)
 
-    def finish(self, asked: ToFollow) -> Refitted:
+    def finish(self, form: Form, rough: Refitted, goal: float) -> Refitted:
         """A rough fit followed to the end, or to where a chi-square is out of reach."""
-        (name, number), rough, goal = asked
-        return self.candidates[name][number].finished(rough, goal)
+        return self.candidate(form).finished(rough, goal)
 
     def unfollowed(self, name: str, *, every: bool = False) -> list[FormStart]:
         """Further starts of an effect whose place is to be found, where nobody has followed them; or all.
@@ -228,20 +210,17 @@ class CandidateFits(WideFits):
             found += [FormStart((name, k), s, rival) for s in [*starts, *(c.last_starts() if every else [])]]
         return found
 
-    def set_out(self, asked: FormStart) -> Refitted:
+    def set_out(self, form: Form, start: Start) -> Refitted:
         """A fit that has gone a few steps from one start."""
-        (name, number), start, _ = asked
-        return self.candidates[name][number].set_out(start)
+        return self.candidate(form).set_out(start)
 
-    def go_on(self, asked: ToFollow) -> Refitted:
-        """What has set out, followed roughly; its goal is a `rival` as `refit` takes it."""
-        (name, number), begun, rival = asked
-        return self.candidates[name][number].gone_on(begun, rival)
+    def go_on(self, form: Form, begun: Refitted, rival: float) -> Refitted:
+        """What has set out, followed roughly; `rival` as `refit` takes it."""
+        return self.candidate(form).gone_on(begun, rival)
 
-    def fit_far(self, asked: OfForm) -> CandidateState:
+    def fit_far(self, form: Form, known: CandidateState) -> CandidateState:
         """Rough fits of a form in wide valleys, and nothing else of it: the rest is known already."""
-        (name, number), known = asked
-        candidate = self.candidates[name][number]
+        candidate = self.candidate(form)
         candidate.learn(known)
         far = candidate.fit_far()
         return CandidateState(plain=candidate.fit_plain(), far=far)
@@ -269,46 +248,46 @@ class CandidateFits(WideFits):
         each = enumerate(self.candidates[name])
         return [FormFit((name, k), f) for k, c in each for f in c.known.elsewhere or ()]
 
-    def look(self, beside: Beside) -> list[list[Start]]:
+    def look(self, before: Refitted, forms: Sequence[Form]) -> list[list[Start]]:
         """Starts of second effects beside a fit, a list for each."""
-        return self.look_by(beside, self.evidence)
+        return self.look_by(before, forms, self.evidence)
 
-    def fit_second(self, asked: Second) -> Refitted | None:
+    def fit_second(
+        self, before: Refitted, form: Form, starts: Sequence[Start], goal: float
+    ) -> Refitted | None:
         """A second effect beside a fit, from the starts that a look has found; `goal` as `refit` takes it."""
-        rough = self.fit_second_roughly(asked)
-        return rough and self.follow_to_end(ToEnd(rough, asked.goal))
+        rough = self.fit_second_roughly(before, form, starts, goal)
+        return rough and self.follow_to_end(rough, goal)
 
-    def fit_second_roughly(self, asked: Second) -> Refitted | None:
+    def fit_second_roughly(
+        self, before: Refitted, form: Form, starts: Sequence[Start], goal: float
+    ) -> Refitted | None:
         """A second effect beside a fit, followed roughly."""
-        before, form, starts, goal = asked
         effect = self.form(form)
         candidate = CandidateFit(self.problem, self.evidence, before, effect, starts, goal, one=True)
         return next(iter(candidate.fit_near()), None)
 
-    def evaluate_alone(self, asked: OneOfPair) -> Refitted:
+    def evaluate_alone(self, pair: Refitted, effect: Effect) -> Refitted:
         """One effect of a pair as the pair has it, law and all, the other one taken away."""
-        pair, effect = asked
         response = response_of(self.problem, [effect])
         u = np.concatenate([pair.z, pair.of(effect)])
         return evaluated(response, self.evidence, pair.law, u)
 
-    def follow_to_end(self, asked: ToEnd) -> Refitted:
+    def follow_to_end(self, rough: Refitted, goal: float) -> Refitted:
         """A rough fit followed to the end, or to where a chi-square is out of reach."""
-        rough, goal = asked
         if not rough.may_reach(goal):
             return rough
         return finished(self.problem, self.evidence, rough, goal)
 
-    def fit(self, asked: FromLaw) -> Refitted:
-        """Some effects fitted to the end, from a law and unknowns."""
-        effects, law, u = asked
+    def fit(self, effects: Sequence[Effect], law: CoreLaw, u: Array) -> Refitted:
+        """Some effects fitted to the end, from a law and unknowns. Shape of `u` as in `Refitted`."""
         return polished(self.problem, effects, self.evidence, law, u)
 
     def loosen_as_asked(self, fitted: Refitted) -> Refitted:
         """A fit with a law that bends as far as the data ask for."""
 
         def again(law: CoreLaw, begun: Refitted) -> Refitted:
-            return self.fit(FromLaw(begun.effects, law, begun.u))
+            return self.fit(begun.effects, law, begun.u)
 
         return as_free_as_asked(fitted, again, lambda one: cost(one, self.problem.plate))
 

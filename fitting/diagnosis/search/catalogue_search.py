@@ -14,11 +14,11 @@ from fitting.diagnosis.inference.marginal import cost
 from fitting.diagnosis.inference.refit import refit
 from fitting.diagnosis.inference.refitted import Refitted, by_chi2
 from fitting.diagnosis.problem.base import DiagnosisProblem
-from fitting.diagnosis.search.asked import FromLaw, OfEffect
 from fitting.diagnosis.search.candidate_fits import CandidateFits
 from fitting.diagnosis.search.candidates import CandidateFit
 from fitting.diagnosis.search.looks import has_place, look
 from fitting.diagnosis.search.stand_in import stands_in, too_large, unsized
+from fitting.diagnosis.search.tasks import FromLaw
 from fitting.diagnosis.several.responses import response_of
 from fitting.diagnosis.thresholds import PAIRS, STARTS, STOPPING, VERDICT
 from fitting.effects.base import Effect
@@ -81,7 +81,12 @@ def best_of_each(scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
 
 
 class Search:
-    """Fits of one set of data."""
+    """Fits of one set of data, and what each is worth.
+
+    A fit's own cost is the same whenever it is judged. What a difference of costs says (`temper`, and all
+    that asks it) rests on the least chi-square that each of two effects has left by itself so far, which
+    `judged` keeps: single effects are judged before pairs, and what is found of them later counts too.
+    """
 
     def __init__(
         self,
@@ -124,15 +129,19 @@ class Search:
         return search
 
     def judged(self, fitted: Refitted) -> ScoredFit:
-        """A fit with what it is worth."""
+        """A fit with what it is worth. One of a single effect counts in `temper` from now on."""
         struck = self.problem.points.struck
         found = checks(self.problem.sweep, self.evidence, self._none, fitted, struck)
         doubt = stands_in(self.problem, fitted)
-        if len(fitted.effects) == 1:
-            (name,) = (e.name for e in fitted.effects)
-            self._alone[name] = min(fitted.chi2, self._alone.get(name, np.inf))
+        self._keep_alone(fitted)
         large = too_large(fitted, self.problem.plate)
         return ScoredFit(fitted, self._cost(fitted), found, doubt, large, unsized(fitted))
+
+    def _keep_alone(self, fitted: Refitted) -> None:
+        """Of a single effect, the least that it has left so far."""
+        if len(fitted.effects) == 1:
+            name = fitted.effects[0].name
+            self._alone[name] = min(fitted.chi2, self._alone.get(name, np.inf))
 
     def _cost(self, fitted: Refitted, temper: float = 1.0) -> float:
         """`marginal.cost`, and a penalty for each doubling of how far the law may bend: few materials do."""
@@ -174,7 +183,7 @@ class Search:
     def validate(self, scored_fits: Sequence[ScoredFit]) -> None:
         """Validations to come, side by side."""
         new = self._not_validated(scored_fits)
-        self._learn_validations(new, self.executor.each(self.work.predict_held_out, [t.fitted for t in new]))
+        self._learn_validations(new, self.executor.map(self.work.predict_held_out, [t.fitted for t in new]))
 
     def _not_validated(self, scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
         return [t for t in scored_fits if t.fitted not in self._validations]
@@ -203,7 +212,7 @@ class Search:
         if any(e.replaces_law for e in pair.effects):
             return []
         begun = [FromLaw([e], pair.law, np.concatenate([pair.z, pair.of(e)])) for e in pair.effects]
-        return [self.judged(f) for f in self.executor.each(self.work.fit, begun)]
+        return [self.judged(f) for f in self.executor.starmap(self.work.fit, begun)]
 
     def converged_group(
         self, scored_fits: Sequence[ScoredFit], best: ScoredFit, validated: Sequence[ScoredFit] = ()
@@ -213,8 +222,8 @@ class Search:
         Fits that are to be `validated` are so in the same batch of work.
         """
         moving, new = self.moving([self.none, *scored_fits], best), self._not_validated(validated)
-        calls: list[Call] = [(self.work.follow_to_convergence, fitted) for fitted in moving]
-        calls += [(self.work.predict_held_out, t.fitted) for t in new]
+        calls: list[Call] = [(self.work.follow_to_convergence, (fitted,)) for fitted in moving]
+        calls += [(self.work.predict_held_out, (t.fitted,)) for t in new]
         found = list(self.executor.together(calls))
         self.keep_converged(moving, found[: len(moving)])
         self._learn_validations(new, found[len(moving) :])
@@ -264,13 +273,13 @@ class Search:
         """
         near = [t.fitted for t in scored_fits if t.cost < self.reach(best)]
         begun = [f for f in near if sum(e.causes for e in f.effects) == 1]
-        found = self.executor.each(self.work.loosen_as_asked, begun)
+        found = self.executor.map(self.work.loosen_as_asked, begun)
         return [self.judged(f) for f in found if freedom_of(f.law) > freedom_of(self.stated)]
 
     def simpler(self, scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
         """What effects contain in their places, fitted from where each was found."""
         begun = [one for scored in scored_fits for one in self._contained(scored.fitted)]
-        return [self.judged(f) for f in self.executor.each(self.work.fit, begun)]
+        return [self.judged(f) for f in self.executor.starmap(self.work.fit, begun)]
 
     def elsewhere(self, scored: ScoredFit) -> list[ScoredFit]:
         """A single effect fitted from other places of its own, its law as it was found."""
@@ -279,12 +288,12 @@ class Search:
             return []
         places = effect.elsewhere(self.problem.plate, scored.fitted.of(effect))
         begun = [FromLaw([effect], scored.fitted.law, np.concatenate([scored.fitted.z, u])) for u in places]
-        return [self.judged(f) for f in self.executor.each(self.work.fit, begun)]
+        return [self.judged(f) for f in self.executor.starmap(self.work.fit, begun)]
 
     def twofold(self, scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
         """Fits of two of a kind (two masses), from where a single one was found and a second place."""
         begun = [one for scored in scored_fits for one in self._doubled(scored.fitted)]
-        found = self.executor.each(self.work.fit, begun)
+        found = self.executor.starmap(self.work.fit, begun)
         return [self.judged(f) for f in found if self.determined(f)]
 
     def _doubled(self, fitted: Refitted) -> list[FromLaw]:
@@ -316,8 +325,8 @@ class Search:
     def fit_plainly(self, names: Sequence[str]) -> None:
         """These effects from plain starts, in wide valleys."""
         work = self.work
-        tasks = [OfEffect(n, work.state(n)) for n in names]
-        for name, state in zip(names, self.executor.each(work.fit_plain, tasks), strict=True):
+        tasks = [(n, work.state(n)) for n in names]
+        for name, state in zip(names, self.executor.starmap(work.fit_plain, tasks), strict=True):
             work.learn(name, state)
 
     def order_of_plain(self) -> list[str]:

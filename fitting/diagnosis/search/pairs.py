@@ -7,9 +7,9 @@ import numpy as np
 
 from fitting.diagnosis.executor import Call
 from fitting.diagnosis.inference.refitted import Refitted, by_chi2
-from fitting.diagnosis.search.asked import Beside, Form, LawBeside, OneOfPair, Second, SecondWide, ToEnd
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search, best_of_each, by_cost
 from fitting.diagnosis.search.looks import Start, has_place
+from fitting.diagnosis.search.tasks import Beside, Form
 from fitting.diagnosis.thresholds import PAIRS, SEARCH, STOPPING, WIDE_VALLEYS
 from fitting.effects.base import Effect
 from fitting.progress import Report, unheard
@@ -50,18 +50,17 @@ class Pairs:
 
     def _first(self, singles: Sequence[ScoredFit], report: Report, *, wide: bool) -> list[ScoredFit]:
         """Beside the leading single effects, those that promise most; where none will do, every one."""
-        search, work, each = self._search, self._search.work, self._search.executor.each
+        search, work, starmap = self._search, self._search.work, self._search.executor.starmap
         seen = self._beside_all if wide else self._beside_the_near
         chosen = seen(singles, lambda x: report(0.4 * x))
-        full = [Second(t.fitted, form, starts, np.inf) for t, form, starts in chosen]
-        begun = each(work.fit_second_roughly, full, lambda x: report(0.4 + 0.2 * x))
+        full = [(t.fitted, form, starts, np.inf) for t, form, starts in chosen]
+        begun = starmap(work.fit_second_roughly, full, lambda x: report(0.4 + 0.2 * x))
         rough = _longest_first([f for f in begun if f is not None])
         best = search.judged(min(rough, key=by_chi2)) if rough and wide else None
         if best:
             rough = [f for f in rough if f.chi2 < STOPPING.rough_chi2_factor * best.fitted.chi2]
-        goals = [self._goal(best, f.effects) if best else np.inf for f in rough]
-        asked = [ToEnd(f, goal) for f, goal in zip(rough, goals, strict=True)]
-        fits = each(work.follow_to_end, asked, lambda x: report(0.6 + 0.2 * x))
+        asked = [(f, self._goal(best, f.effects) if best else np.inf) for f in rough]
+        fits = starmap(work.follow_to_end, asked, lambda x: report(0.6 + 0.2 * x))
         found = sorted((search.judged(f) for f in fits), key=by_cost)
         if wide and found and not self._will_do([*singles[:1], *found]):
             # The best may only have begun from the wrong place, or not have looked promising.
@@ -121,7 +120,7 @@ class Pairs:
 
     def _looks(
         self,
-        do: Callable[[Beside], list[A]],
+        do: Callable[[Refitted, Sequence[Form]], list[A]],
         asked: Sequence[Beside],
         report: Report = unheard,
         moving: Sequence[Refitted] = (),
@@ -135,7 +134,7 @@ class Pairs:
             for before, forms in asked
             for k in range(0, len(forms), _LOOKED_AT)
         ]
-        calls: list[Call] = [(self._search.work.follow_to_convergence, fitted) for fitted in moving]
+        calls: list[Call] = [(self._search.work.follow_to_convergence, (fitted,)) for fitted in moving]
         calls += [(do, one) for one in some]
         found = list(self._search.executor.together(calls, report))
         self._search.keep_converged(moving, found[: len(moving)])
@@ -146,7 +145,7 @@ class Pairs:
         work = self._search.work
         plain = sorted((t for t in known if len(_plainly(t)) == len(t.names)), key=by_cost)
         best = [t.fitted for t in plain[: WIDE_VALLEYS.measured]]
-        left = self._search.executor.each(work.left_in_wide_valley, best)
+        left = self._search.executor.map(work.left_in_wide_valley, best)
         return WIDE_VALLEYS.times_least_left * max(work.noise_in_wide_valleys, min(left, default=np.inf))
 
     def _will_do(self, scored_fits: Sequence[ScoredFit]) -> bool:
@@ -179,7 +178,7 @@ class Pairs:
         All begin where a leading one alone has come to in its wide valley. Those that do well go on there;
         what leaves no more than `most` there goes on as the readings are, then to the end.
         """
-        search, work, each = self._search, self._search.work, self._search.executor.each
+        search, work, executor = self._search, self._search.work, self._search.executor
         order = [
             *(t.names[0] for t in leaders[: WIDE_VALLEYS.leaders]),
             *search.order_of_plain()[: WIDE_VALLEYS.leaders],
@@ -192,15 +191,16 @@ class Pairs:
         asked = [Beside(fitted, forms) for fitted, forms in zip(before, others, strict=True)]
         starts = self._looks(work.look_wide, asked)
         beside = [(fitted, form) for fitted, forms in asked for form in forms]
-        tasks = [SecondWide(fitted, form, us) for (fitted, form), us in zip(beside, starts, strict=True)]
-        able = [fits for fits in each(work.begin_wide, tasks) if fits[0].chi2 < WIDE_VALLEYS.falls_by * most]
+        tasks = [(fitted, form, us) for (fitted, form), us in zip(beside, starts, strict=True)]
+        all_begun = executor.starmap(work.begin_wide, tasks)
+        able = [fits for fits in all_begun if fits[0].chi2 < WIDE_VALLEYS.falls_by * most]
         begun = sorted(able, key=lambda fits: fits[0].chi2)
-        wide = each(work.follow_wide, [f for fits in _with_a_say(begun) for f in fits])
-        brief = sorted(each(work.follow_briefly, [f for f in wide if f.chi2 < most]), key=by_chi2)
-        rough = sorted(each(work.follow_roughly, brief[: WIDE_VALLEYS.read]), key=by_chi2)
+        wide = executor.map(work.follow_wide, [f for fits in _with_a_say(begun) for f in fits])
+        brief = sorted(executor.map(work.follow_briefly, [f for f in wide if f.chi2 < most]), key=by_chi2)
+        rough = sorted(executor.map(work.follow_roughly, brief[: WIDE_VALLEYS.read]), key=by_chi2)
         best = min([*leaders, *pairs], key=by_cost)
         left = _longest_first(rough[: PAIRS.fitted_a_leader])
-        ended = each(work.follow_to_end, [ToEnd(f, self._goal(best, f.effects)) for f in left])
+        ended = executor.starmap(work.follow_to_end, [(f, self._goal(best, f.effects)) for f in left])
         return [search.judged(f) for f in ended]
 
     def _improved(self, pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
@@ -237,7 +237,7 @@ class Pairs:
     def _exchanged(self, pair: ScoredFit, kept: Effect) -> list[ScoredFit]:
         """Another effect, another place of the same, or another law beside the one of a pair that is kept."""
         work = self._search.work
-        before = work.evaluate_alone(OneOfPair(pair.fitted, kept))
+        before = work.evaluate_alone(pair.fitted, kept)
         gone = {*pair.names} - {kept.name}
         forms = [f for f in self._others([kept.name]) if f[0] not in gone or work.has_places(f[0])]
         seen = self._looks(work.look, [Beside(before, forms)])
@@ -245,10 +245,10 @@ class Pairs:
         promising = sorted(looks, key=lambda one: -one[1][0][0])[: PAIRS.exchanged]
         promising.sort(key=lambda one: not work.has_places(one[0][0]))
         goal = work.goal(pair.fitted)
-        laws = [LawBeside(before, e.name, goal) for e in self._search.effects if e.replaces_law]
+        laws = [e.name for e in self._search.effects if e.replaces_law]
         # The longest first, so that all worker processes end together.
-        calls: list[Call] = [(work.fit_other_laws_beside, one) for one in laws]
-        calls += [(work.fit_second, Second(before, form, starts, goal)) for form, starts in promising]
+        calls: list[Call] = [(work.fit_other_laws_beside, (before, name, goal)) for name in laws]
+        calls += [(work.fit_second, (before, form, starts, goal)) for form, starts in promising]
         found = list(self._search.executor.together(calls))
         fits = [f for f in found[len(laws) :] if f is not None]
         return [self._search.judged(f) for f in [*fits, *(f for bent in found[: len(laws)] for f in bent)]]

@@ -5,11 +5,11 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from fitting.diagnosis.inference.refitted import Refitted, by_chi2
-from fitting.diagnosis.search.asked import BesideBest, Form, FormFit, FormStart, OfEffect, OfForm, ToFollow
 from fitting.diagnosis.search.candidate_fits import FirstLook
 from fitting.diagnosis.search.candidates import CandidateState, is_over_decades
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search, by_cost
 from fitting.diagnosis.search.looks import has_place
+from fitting.diagnosis.search.tasks import Form, FormFit, FormStart, State, ToFollow
 from fitting.diagnosis.thresholds import SEARCH, STARTS, STOPPING, VERDICT
 from fitting.numerics.chances import chi2_above
 from fitting.progress import Report, unheard
@@ -20,7 +20,7 @@ class Singles:
 
     def __init__(self, search: Search, report: Report) -> None:
         self._search, self._work, self._report = search, search.work, report
-        self._each = search.executor.each
+        self._map, self._starmap = search.executor.map, search.executor.starmap
         self._found: dict[str, ScoredFit] = {}
         self._effects = {e.name: e for e in search.beside_the_law}
         self._laws = [e.name for e in search.effects if e.name not in self._effects]
@@ -44,7 +44,7 @@ class Singles:
         work = self._work
         first = self._leading()
         if first:
-            begun = self._each(work.begin, self._of_effects(first), self._part(0.1, 0.1))
+            begun = self._starmap(work.begin, self._of_effects(first), self._part(0.1, 0.1))
             self._begin(begun)
             self._finish([f for t in self._order()[:1] for f in self._near(t)])
             again = [n for t in self._order()[:1] if self._leans(t) for n in t.names]
@@ -52,7 +52,7 @@ class Singles:
             self._to_the_end([ToFollow(*one, np.inf) for n in again for one in work.from_stated(n)])
         if not self._settle(self._part(0.2, 0.2)):
             left = [n for n in (*self._laws, *self._effects) if n not in first]
-            self._begin(self._each(work.begin, self._of_effects(left), self._part(0.2, 0.2)))
+            self._begin(self._starmap(work.begin, self._of_effects(left), self._part(0.2, 0.2)))
 
     def _second_pass(self) -> None:
         """Further starts of what leads, and of more where the law is no place to begin."""
@@ -72,8 +72,8 @@ class Singles:
         asked = [one for name in names for one in work.unfollowed(name)]
         for (form, *_), fitted in zip(asked, self._followed(asked), strict=True):
             found.setdefault(form, []).append(fitted)
-        for (name, number), fits in found.items():
-            work.candidates[name][number].learn(CandidateState(elsewhere=sorted(fits, key=by_chi2)))
+        for form, fits in found.items():
+            work.candidate(form).learn(CandidateState(elsewhere=sorted(fits, key=by_chi2)))
         if astray:
             self._look_far(names)
 
@@ -91,20 +91,20 @@ class Singles:
     def _look_far(self, names: Sequence[str]) -> None:
         """Rough fits of some effects in wide valleys."""
         work = self._work
-        each = [OfForm((name, k), known) for name in names for k, known in enumerate(work.state(name))]
-        forms = [one for one in each if one.known.far is None]
-        for ((name, number), _), known in zip(forms, self._each(work.fit_far, forms), strict=True):
-            work.candidates[name][number].learn(known)
+        each = [((name, k), known) for name in names for k, known in enumerate(work.state(name))]
+        asked = [(form, known) for form, known in each if known.far is None]
+        for (form, _), known in zip(asked, self._starmap(work.fit_far, asked), strict=True):
+            work.candidate(form).learn(known)
 
     def _followed(self, asked: Sequence[FormStart]) -> list[Refitted]:
         """Rough fits from some starts, in order. Of many of an effect those that have come furthest go on."""
         work, order = self._work, dict[str, list[int]]()
-        begun = list(self._each(work.set_out, asked))
+        begun = list(self._starmap(work.set_out, [(one.form, one.start) for one in asked]))
         for k in sorted(range(len(asked)), key=lambda k: begun[k].chi2):
             order.setdefault(asked[k].form[0], []).append(k)
         going = [k for places in order.values() for k in places[: STARTS.further_continued]]
         tasks = [ToFollow(asked[k].form, begun[k], asked[k].rival) for k in going]
-        for k, fitted in zip(going, self._each(work.go_on, tasks), strict=True):
+        for k, fitted in zip(going, self._starmap(work.go_on, tasks), strict=True):
             begun[k] = fitted
         return begun
 
@@ -115,8 +115,8 @@ class Singles:
             return False
         self._settled = True
         others = [n for n in (*self._laws, *self._effects) if n not in best.names]
-        tasks = [BesideBest(n, work.state(n), best.fitted) for n in others]
-        self._begin(self._each(work.begin_beside_the_best, tasks, report))
+        tasks = [(n, work.state(n), best.fitted) for n in others]
+        self._begin(self._starmap(work.begin_beside_the_best, tasks, report))
         self._try_its_other_form(best)
         return True
 
@@ -125,7 +125,7 @@ class Singles:
         work, alike = self._work, [form for form, _ in self._near(best)]
         if len(alike) < STARTS.forms:
             return
-        each = self._each(work.fit_another_form, [FormFit(form, best.fitted) for form in alike])
+        each = self._starmap(work.fit_another_form, [(form, best.fitted) for form in alike])
         found = [(form, rough) for form, fits in zip(alike, each, strict=True) for rough in fits[:1]]
         self._to_the_end([ToFollow(form, rough, work.goal(best.fitted)) for form, rough in found])
 
@@ -174,7 +174,7 @@ class Singles:
         """Rough fits, each with its goal as `refit` takes it; none again that has gone as far."""
         tasks = [one for one in asked if one.goal > self._finished.get(one.fitted, -np.inf)]
         self._finished |= {f: goal for _, f, goal in tasks}
-        self._keep(self._each(self._work.finish, tasks, report))
+        self._keep(self._starmap(self._work.finish, tasks, report))
 
     def _goal(self, rough: Refitted) -> float:
         """Chi-square that a rough fit must come down to, to matter.
@@ -203,8 +203,8 @@ class Singles:
     def _near(self, scored: ScoredFit) -> list[FormFit]:
         return self._work.best_near(scored.names[0])
 
-    def _of_effects(self, names: Sequence[str]) -> list[OfEffect]:
-        return [OfEffect(name, self._work.state(name)) for name in names]
+    def _of_effects(self, names: Sequence[str]) -> list[tuple[str, State]]:
+        return [(name, self._work.state(name)) for name in names]
 
     def _part(self, start: float, size: float) -> Report:
         return lambda fraction: self._report(start + size * fraction)
@@ -219,7 +219,7 @@ class Singles:
     def _leading(self) -> list[str]:
         """Where something is left to be explained, the effects that promise most of it."""
         work, names = self._work, list(self._effects)
-        for name, state in zip(names, self._each(work.look_first, names, self._part(0.0, 0.1)), strict=True):
+        for name, state in zip(names, self._map(work.look_first, names, self._part(0.0, 0.1)), strict=True):
             work.learn(name, state)
         order = sorted(names, key=work.promise, reverse=True)[: SEARCH.first]
         clean = self._search.none.fitted.chi2_per_dof < STOPPING.explained_chi2_per_dof

@@ -19,9 +19,9 @@ from fitting.diagnosis.inference.wide_valley import (
     with_stated,
 )
 from fitting.diagnosis.problem.base import DiagnosisProblem
-from fitting.diagnosis.search.asked import Beside, Form, SecondWide
 from fitting.diagnosis.search.candidates import CandidateFit
 from fitting.diagnosis.search.looks import Start, has_place, look
+from fitting.diagnosis.search.tasks import Form
 from fitting.diagnosis.several.responses import response_of
 from fitting.effects.base import Effect
 
@@ -46,38 +46,41 @@ class WideFits:
 
     def form(self, form: Form) -> Effect:
         """The effect that a form stands for."""
+        return self.candidate(form).effect
+
+    def candidate(self, form: Form) -> CandidateFit:
+        """What is known of a form, and what can be done for it."""
         name, number = form
-        return self.candidates[name][number].effect
+        return self.candidates[name][number]
 
-    def look_by(self, beside: Beside, evidence: Evidence) -> list[list[Start]]:
+    def look_by(self, before: Refitted, forms: Sequence[Form], evidence: Evidence) -> list[list[Start]]:
         """Starts of second effects beside a fit by some evidence, a list for each."""
-        plain = response_of(self.problem, beside.before.effects, self.problem.coarse)
-        effects = [self.form(form) for form in beside.forms]
-        return [look(self.problem, evidence, beside.before, e, again=True, plain=plain) for e in effects]
+        plain = response_of(self.problem, before.effects, self.problem.coarse)
+        effects = [self.form(form) for form in forms]
+        return [look(self.problem, evidence, before, e, again=True, plain=plain) for e in effects]
 
-    def look_wide(self, beside: Beside) -> list[list[Array]]:
+    def look_wide(self, before: Refitted, forms: Sequence[Form]) -> list[list[Array]]:
         """Starts of second effects beside a fit in a wide valley, a list for each.
 
         By a linear step weighed as the readings are; where a place is to be found, as it is there too. Shape
         (parameters,) each.
         """
-        before, forms = evaluated_with_stated(self.problem, self.evidence, beside.before), beside.forms
-        found = [[u for _, u in starts[:1]] for starts in self.look_by(Beside(before, forms), self.evidence)]
+        there = evaluated_with_stated(self.problem, self.evidence, before)
+        found = [[u for _, u in starts[:1]] for starts in self.look_by(there, forms, self.evidence)]
         placed = [k for k, form in enumerate(forms) if has_place(self.form(form))]
-        again = Beside(before, [forms[k] for k in placed])
-        there = self.look_by(again, self.evidence.blunt()) if placed else []
-        for k, starts in zip(placed, there, strict=True):
+        again = [forms[k] for k in placed]
+        blunt = self.look_by(there, again, self.evidence.blunt()) if placed else []
+        for k, starts in zip(placed, blunt, strict=True):
             found[k] += [u for _, u in starts[:1] if not any(np.array_equal(u, one) for one in found[k])]
         return found
 
-    def begin_wide(self, second: SecondWide) -> list[Refitted]:
+    def begin_wide(self, before: Refitted, form: Form, starts: Sequence[Array]) -> list[Refitted]:
         """A second effect beside a fit in a wide valley: a few steps there from each start, best first.
 
-        Without starts from its own first one.
+        Without starts from its own first one. Shape of a start (parameters,).
         """
-        before = second.before
-        effects = [*before.effects, self.form(second.form)]
-        each = second.starts or effects[-1].starts(self.problem.plate, self.problem.points)[:1]
+        effects = [*before.effects, self.form(form)]
+        each = starts or effects[-1].starts(self.problem.plate, self.problem.points)[:1]
         known, law = of_effects(before), before.law
         begun = (np.concatenate([known, u]) for u in each)
         fits = [in_wide_valley(self.problem, effects, self.evidence, law, u, brief=True) for u in begun]

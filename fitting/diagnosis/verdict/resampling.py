@@ -112,7 +112,7 @@ def resampled_of(
     if not repeats:
         return Resampled()
     tasks = list(range(repeats))
-    gains = list(executor.each(again.gain_without_effect, tasks, lambda x: report(_OF_REPEATS * x)))
+    gains = list(executor.map(again.gain_without_effect, tasks, lambda x: report(_OF_REPEATS * x)))
     p = (1 + sum(g >= found for g in gains)) / (1 + repeats)
     nested = nested_rms_percent(again, executor, lambda x: report(_OF_REPEATS + (1 - _OF_REPEATS) * x))
     return Resampled(p, repeats, nested)
@@ -133,7 +133,7 @@ def nested_rms_percent(again: Again, executor: Executor, report: Report) -> floa
     numbers = (len(sweep) - 1) * (2 if sweep.has_phase else 1)
     if len(folds) < 2 or numbers <= len(again.case.start.names):
         return None
-    return rms(np.concatenate(list(executor.each(again.left_out, folds, report))))
+    return rms(np.concatenate(list(executor.map(again.left_out, folds, report))))
 
 
 _SEED = 20

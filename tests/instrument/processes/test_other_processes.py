@@ -29,7 +29,7 @@ def three():
 def test_answers_come_in_order_whoever_gives_them(request, several):
     numbers = list(range(200))
     executors = ALONE, request.getfixturevalue(several)
-    alone, shared = (list(executor.each(Squares().square, numbers)) for executor in executors)
+    alone, shared = (list(executor.map(Squares().square, numbers)) for executor in executors)
     assert [a for a, _ in shared] == [a for a, _ in alone] == [n**2 for n in numbers]
     assert {pid for _, pid in alone} == {os.getpid()}
 
@@ -47,7 +47,7 @@ def test_a_ctrl_c_while_another_process_loads_does_not_reach_it(capfd):
 
 def test_several_methods_of_one_object_are_asked_in_one_go(two):
     squares = Squares()
-    calls = [(squares.square, 3), (squares.niceness, 0), (squares.square, 4)]
+    calls = [(squares.square, (3,)), (squares.niceness, (0,)), (squares.square, (4,))]
     for executor in (ALONE, two):
         (nine, _), nice, (sixteen, _) = executor.together(calls)
         assert (nine, sixteen) == (9, 16)
@@ -60,7 +60,7 @@ def test_every_process_takes_its_share(request, several, count):
 
     def until_shared():
         for _ in range(200):
-            if len({pid for _, pid in executor.each(Squares().square, list(range(500)))}) == count:
+            if len({pid for _, pid in executor.map(Squares().square, list(range(500)))}) == count:
                 return True
         return False
 
@@ -71,7 +71,7 @@ def test_another_process_lets_others_go_first(two):
     own = os.nice(0)
     seen: set[int] = set()
     for _ in range(100):
-        seen |= set(two.each(Squares().niceness, list(range(500))))
+        seen |= set(two.map(Squares().niceness, list(range(500))))
         if len(seen) == 2:
             break
     assert seen == {own, min(19, own + 10)}
@@ -79,21 +79,21 @@ def test_another_process_lets_others_go_first(two):
 
 def test_progress_ends_at_one(two):
     told = []
-    list(two.each(Squares().square, list(range(20)), told.append))
+    list(two.map(Squares().square, list(range(20)), told.append))
     assert told == sorted(told)
     assert told[-1] == 1.0
 
 
 def test_a_refusal_reaches_the_caller(two):
     with pytest.raises(OutsideModel, match="not"):
-        list(two.each(Squares().refuse, list(range(20))))
+        list(two.map(Squares().refuse, list(range(20))))
 
 
 @pytest.mark.parametrize("others", [1, 2])
 def test_processes_that_are_killed_leave_their_work_to_the_first(others):
     with SeveralProcesses(others) as executor:
         for _ in range(3):
-            found = list(executor.each(Squares().end_the_other, [os.getpid()] * 50))
+            found = list(executor.map(Squares().end_the_other, [os.getpid()] * 50))
             assert found == [os.getpid()] * 50
 
 
@@ -102,7 +102,7 @@ def test_of_several_one_that_is_killed_leaves_its_work_to_the_rest():
     with SeveralProcesses(2) as executor:
         executor._others[0].pool.submit(os.kill, next(iter(executor._others[0].pool._processes)), SIGKILL)
         for _ in range(3):
-            assert [n for n, _ in executor.each(squares.square, list(range(50)))] == [n**2 for n in range(50)]
+            assert [n for n, _ in executor.map(squares.square, list(range(50)))] == [n**2 for n in range(50)]
 
 
 def test_a_process_that_is_replaced_is_told_anew(two):
@@ -110,7 +110,7 @@ def test_a_process_that_is_replaced_is_told_anew(two):
 
     def shared_by_two():
         return any(
-            len({pid for _, pid in two.each(squares.square, list(range(500)))}) == 2 for _ in range(100)
+            len({pid for _, pid in two.map(squares.square, list(range(500)))}) == 2 for _ in range(100)
         )
 
     assert shared_by_two()

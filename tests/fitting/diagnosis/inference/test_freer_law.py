@@ -12,7 +12,6 @@ from fitting.diagnosis.inference.begin import begin
 from fitting.diagnosis.inference.freer_law import freedom_of, loosened
 from fitting.diagnosis.inference.marginal import cost
 from fitting.diagnosis.problem.small_problem import SmallProblem
-from fitting.diagnosis.search.asked import FromLaw
 from fitting.diagnosis.search.catalogue_search import Search
 from fitting.diagnosis.verdict.case import DiagnosisCase
 from fitting.effects import CATALOGUE
@@ -89,8 +88,8 @@ def late(height):
     """A search of a beam read late, and the delay that explains it."""
     start, delay = begun(height, DELAY_S), CATALOGUE["channel_delay"]
     search = Search(start.problem, start.evidence, start.none, [delay], ALONE)
-    begins = FromLaw([delay], start.none.law, np.concatenate([start.none.u, [DELAY_S]]))
-    return search, search.judged(search.work.fit(begins))
+    u = np.concatenate([start.none.u, [DELAY_S]])
+    return search, search.judged(search.work.fit([delay], start.none.law, u))
 
 
 def test_beside_an_effect_a_material_far_from_the_formula_gets_its_freedom_and_pays_for_it():
@@ -129,7 +128,7 @@ def test_two_effects_and_a_rare_material_would_be_too_much_at_once():
     search, explained = late(0.5)
     fitted, other = explained.fitted, CATALOGUE["phase_offset"]
     u = np.concatenate([fitted.u, np.zeros(len(other.parameters))])
-    pair = search.judged(search.work.fit(FromLaw([*fitted.effects, other], fitted.law, u)))
+    pair = search.judged(search.work.fit([*fitted.effects, other], fitted.law, u))
     assert search.freer([pair], pair) == []
 
 

@@ -20,7 +20,7 @@ class Placed:
 def found(*effects):
     asked = []
 
-    def fitted(one):
+    def fitted(*one):
         asked.append(one)
         return len(asked)
 

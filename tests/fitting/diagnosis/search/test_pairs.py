@@ -58,29 +58,27 @@ class World:
     def alone(self, scored):
         return [self.judged(self.fit(e)) for e in scored.fitted.effects]
 
-    def evaluate_alone(self, asked):
-        self.kept.append(asked.effect.name)
-        return self.fit(asked.effect)
+    def evaluate_alone(self, pair, effect):
+        self.kept.append(effect.name)
+        return self.fit(effect)
 
-    def fit_second(self, asked):
-        return self.both(asked.before, asked.form)
+    def fit_second(self, before, form, starts, goal):
+        return self.both(before, form)
 
     fit_second_roughly = fit_second
 
     def both(self, before, form):
         return self.fit(*before.effects, *(e for e in self.effects if e.name == form[0]))
 
-    def follow_to_end(self, asked):
-        self.goals.append(asked.goal)
-        return asked.fitted
+    def follow_to_end(self, rough, goal):
+        self.goals.append(goal)
+        return rough
 
-    def fit_other_laws_beside(self, asked):
-        before, name, goal = asked
+    def fit_other_laws_beside(self, before, name, goal):
         self.laws.append((before.effects[0].name, name, goal))
         return [self.both(before, (name, 0))]
 
-    def look(self, beside):
-        before, forms = beside
+    def look(self, before, forms):
         after = [self.both(before, form) for form in forms]
         return [[(before.chi2 - f.chi2, np.zeros(0))] for f in after]
 
@@ -170,8 +168,7 @@ def test_what_an_effect_of_two_contains_is_fitted_in_its_place():
     begun = []
     other, wide = effect("other"), Wide()
 
-    def fitted(one):
-        effects, _, u = one
+    def fitted(effects, law, u):
         begun.append(([e.name for e in effects], u.tolist()))
 
     search = SimpleNamespace(
@@ -195,8 +192,7 @@ def test_two_of_a_thing_begin_where_one_was_found_and_a_look_sees_the_other(monk
     begun, one = [], Narrow()
     monkeypatch.setattr(searching, "look", lambda *_: [(9.0, np.array([4.0])), (1.0, np.array([7.0]))])
 
-    def fitted(asked):
-        effects, _, u = asked
+    def fitted(effects, law, u):
         begun.append(([e.name for e in effects], u.tolist()))
 
     search = SimpleNamespace(
@@ -300,14 +296,14 @@ class Wanting(World):
     def judged(self, fitted):
         return ScoredFit(fitted, fitted.chi2, {"size": 1e-9})
 
-    def look(self, beside):
-        return [[(0.0, np.zeros(0))] for _ in beside.forms]
+    def look(self, before, forms):
+        return [[(0.0, np.zeros(0))] for _ in forms]
 
-    def look_wide(self, beside):
-        return [[np.zeros(0)] for _ in beside.forms]
+    def look_wide(self, before, forms):
+        return [[np.zeros(0)] for _ in forms]
 
-    def begin_wide(self, asked):
-        return [self.both(asked.before, asked.form) for _ in asked.starts]
+    def begin_wide(self, before, form, starts):
+        return [self.both(before, form) for _ in starts]
 
     def follow_wide(self, begun):
         self.followed.append(tuple(e.name for e in begun.effects))

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from fitting.diagnosis.executor import ALONE
-from fitting.diagnosis.search.asked import FormStart
 from fitting.diagnosis.search.singles import Singles
+from fitting.diagnosis.search.tasks import FormStart
 from fitting.diagnosis.thresholds import STARTS
 
 MANY = 3 * STARTS.further_continued
@@ -18,12 +18,11 @@ class Work:
     def __init__(self):
         self.followed = []
 
-    def set_out(self, asked):
-        _, (_, place), _ = asked
+    def set_out(self, form, start):
+        _, place = start
         return SimpleNamespace(place=place, chi2=1.0 + place, gone_on=False)
 
-    def go_on(self, asked):
-        form, begun, rival = asked
+    def go_on(self, form, begun, rival):
         self.followed.append((form, begun.place, rival))
         return SimpleNamespace(place=begun.place, chi2=0.9 * begun.chi2, gone_on=True)
 

@@ -12,10 +12,10 @@ from fitting.diagnosis import diagnose
 from fitting.diagnosis.diagnose import seen_in_channels
 from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.problem.small_problem import SmallProblem
-from fitting.diagnosis.search.asked import Beside, OfEffect, OneOfPair, Second, ToFollow
 from fitting.diagnosis.search.candidate_fits import CandidateFits
 from fitting.diagnosis.search.candidates import CandidateState
 from fitting.diagnosis.search.singles import Singles
+from fitting.diagnosis.search.tasks import ToFollow
 from fitting.diagnosis.verdict.cautions import NO_DRIFT, NO_SECONDS
 from fitting.effects import CATALOGUE
 from fitting.effects.base import ChannelFinding, Effect
@@ -38,7 +38,7 @@ def found(high):
 def test_a_linear_step_promises_most_of_what_the_true_cause_gains(high):
     work = high.fits(GAIN, MASS)
     gained = high.begun.none.chi2 - min(
-        f.chi2 for f in work.begin(OfEffect("gain_error", work.state("gain_error"))).fits
+        f.chi2 for f in work.begin("gain_error", work.state("gain_error")).fits
     )
     assert work.promise("gain_error") == pytest.approx(gained, rel=0.1)
     assert work.promise("added_mass") < 0.01 * gained
@@ -46,7 +46,7 @@ def test_a_linear_step_promises_most_of_what_the_true_cause_gains(high):
 
 def test_what_another_process_has_found_is_not_fitted_again(high):
     work = high.fits(GAIN)
-    looked = work.begin(OfEffect("gain_error", work.state("gain_error")))
+    looked = work.begin("gain_error", work.state("gain_error"))
     elsewhere = high.fits(GAIN)
     elsewhere.learn("gain_error", looked.state)
     ((form, best),) = elsewhere.best_near("gain_error")
@@ -57,7 +57,7 @@ def test_what_another_process_has_found_is_not_fitted_again(high):
 @pytest.mark.parametrize(("worse_by", "followed"), [(5.0, [0, 1]), (50.0, [0])])
 def test_of_two_forms_that_do_alike_so_far_both_are_followed(high, worse_by, followed):
     work = high.fits(GAIN)
-    (rough,) = work.begin(OfEffect("gain_error", work.state("gain_error"))).fits
+    (rough,) = work.begin("gain_error", work.state("gain_error")).fits
     other = replace(rough, residuals=rough.residuals * np.sqrt(1 + worse_by / rough.chi2))
     work.candidates["gain_error"] = [copy(work.candidates["gain_error"][0]) for _ in range(2)]
     work.learn("gain_error", [CandidateState(near=[rough]), CandidateState(near=[other])])
@@ -82,7 +82,7 @@ def test_what_has_no_effect_is_followed_with_the_group_and_moves_where_it_owed(
 
 def test_only_a_fit_that_had_not_come_to_its_end_is_on_the_way(high):
     work = high.fits(GAIN)
-    (rough,) = work.begin(OfEffect("gain_error", work.state("gain_error"))).fits
+    (rough,) = work.begin("gain_error", work.state("gain_error")).fits
     for converged, waiting in ((True, []), (False, [rough.chi2])):
         work.learn("gain_error", [CandidateState(near=[replace(rough, converged=converged)])])
         assert [f.chi2 for _, f in work.on_the_way("gain_error")] == waiting
@@ -90,8 +90,8 @@ def test_only_a_fit_that_had_not_come_to_its_end_is_on_the_way(high):
 
 def test_a_rough_fit_is_followed_to_the_channel_s_gain(high):
     work = high.fits(GAIN)
-    (rough,) = work.begin(OfEffect("gain_error", work.state("gain_error"))).fits
-    ended = work.finish(ToFollow(("gain_error", 0), rough, np.inf))
+    (rough,) = work.begin("gain_error", work.state("gain_error")).fits
+    ended = work.finish(("gain_error", 0), rough, np.inf)
     assert ended.chi2 <= rough.chi2
     error = np.sqrt(np.diag(ended.covariance))[-1]
     assert abs(ended.of(GAIN)[0] - HIGH) < 3 * error
@@ -99,7 +99,7 @@ def test_a_rough_fit_is_followed_to_the_channel_s_gain(high):
 
 def test_without_a_known_noise_no_rival_is_given_up(high):
     work = high.fits(GAIN)
-    (best,) = work.begin(OfEffect("gain_error", work.state("gain_error"))).fits
+    (best,) = work.begin("gain_error", work.state("gain_error")).fits
     assert best.chi2 < work.goal(best) < high.begun.none.chi2
     unknown = replace(high.begun.evidence, scale_known=False)
     assert CandidateFits(high.begun.problem, unknown, high.begun.none, [GAIN]).goal(best) == np.inf
@@ -107,12 +107,12 @@ def test_without_a_known_noise_no_rival_is_given_up(high):
 
 def test_a_second_effect_is_fitted_beside_the_first_and_taken_away_again(high):
     work = high.fits(GAIN, MASS)
-    (first,) = work.begin(OfEffect("gain_error", work.state("gain_error"))).fits
+    (first,) = work.begin("gain_error", work.state("gain_error")).fits
     form = ("added_mass", 0)
-    both = work.fit_second(Second(first, form, work.look(Beside(first, [form]))[0], np.inf))
+    both = work.fit_second(first, form, work.look(first, [form])[0], np.inf)
     assert [e.name for e in both.effects] == ["gain_error", "added_mass"]
     assert both.chi2 <= first.chi2 + 1e-6
-    alone = work.evaluate_alone(OneOfPair(both, GAIN))
+    alone = work.evaluate_alone(both, GAIN)
     assert alone.law == both.law
     assert alone.of(GAIN) == pytest.approx(both.of(GAIN))
     assert alone.chi2 >= both.chi2
@@ -143,12 +143,12 @@ def test_of_single_effects_the_true_cause_comes_first(high):
 def test_a_rough_fit_that_leads_and_was_on_its_way_is_followed_to_its_end_once(high, monkeypatch):
     followed, plain = [], CandidateFits.finish
 
-    def finished(self, one):
-        followed.append(one.fitted)
-        return plain(self, one)
+    def finished(self, form, rough, goal):
+        followed.append(rough)
+        return plain(self, form, rough, goal)
 
-    def begun(self, one):
-        found = first(self, one)
+    def begun(self, name, state):
+        found = first(self, name, state)
         short = [replace(f, converged=False) for f in found.fits]
         return replace(found, fits=short, state=[CandidateState(near=short)])
 
@@ -177,14 +177,14 @@ def test_what_would_be_larger_than_is_plausible_settles_nothing_for_the_others(h
 def test_what_has_been_followed_to_a_goal_is_followed_again_only_to_an_easier_one(high, monkeypatch):
     asked, plain = [], CandidateFits.finish
 
-    def finished(self, one):
-        asked.append(one.goal)
-        return plain(self, one)
+    def finished(self, form, rough, goal):
+        asked.append(goal)
+        return plain(self, form, rough, goal)
 
     monkeypatch.setattr(CandidateFits, "finish", finished)
     search = high.search(GAIN)
     singles = Singles(search, lambda fraction: None)
-    search.work.begin(OfEffect("gain_error", search.work.state("gain_error")))
+    search.work.begin("gain_error", search.work.state("gain_error"))
     ((form, rough),) = search.work.best_near("gain_error")
     for goal in (rough.chi2, 0.9 * rough.chi2, rough.chi2, np.inf, rough.chi2):
         singles._to_the_end([ToFollow(form, rough, goal)])

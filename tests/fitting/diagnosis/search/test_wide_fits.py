@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from shear_pair_problem import GAIN, HIGH, MASS, ShearPairProblem
 
-from fitting.diagnosis.search.asked import Beside, OfEffect, SecondWide
 from fitting.diagnosis.search.wide_fits import WideFits
 
 FORM = ("added_mass", 0)
@@ -20,13 +19,13 @@ def wide():
 def first():
     """The gain by itself, in a wide valley."""
     work = ShearPairProblem(HIGH).fits(GAIN)
-    (state,) = work.fit_plain(OfEffect("gain_error", work.state("gain_error")))
+    (state,) = work.fit_plain("gain_error", work.state("gain_error"))
     return state.plain[0]
 
 
 def test_a_pair_goes_from_its_wide_valley_on_as_the_readings_are_and_finds_the_gain(wide, first):
-    ((start, *_),) = wide.look_wide(Beside(first, [FORM]))
-    begun, *_ = wide.begin_wide(SecondWide(first, FORM, [start]))
+    ((start, *_),) = wide.look_wide(first, [FORM])
+    begun, *_ = wide.begin_wide(first, FORM, [start])
     assert [e.name for e in begun.effects] == ["gain_error", "added_mass"]
     there = wide.follow_wide(begun)
     assert begun.chi2 < wide.noise_in_wide_valleys < 0.1 * wide.left_in_wide_valley(wide.none)
@@ -40,14 +39,14 @@ def test_a_pair_goes_from_its_wide_valley_on_as_the_readings_are_and_finds_the_g
 
 def test_of_some_starts_the_one_that_leads_furthest_comes_first(wide, first):
     starts = [np.array([kg]) for kg in (1e-4, 1e-2, 1e-3)]
-    fits = wide.begin_wide(SecondWide(first, FORM, starts))
+    fits = wide.begin_wide(first, FORM, starts)
     assert [f.chi2 for f in fits] == sorted(f.chi2 for f in fits)
     assert len(fits) == len(starts)
 
 
 def test_without_a_start_an_effect_begins_from_its_own_first_one(wide, first):
     own = MASS.starts(wide.problem.plate, wide.problem.points)[0]
-    (found,), (expected,) = (wide.begin_wide(SecondWide(first, FORM, some)) for some in ([], [own]))
+    (found,), (expected,) = (wide.begin_wide(first, FORM, some) for some in ([], [own]))
     assert found.chi2 == expected.chi2
 
 

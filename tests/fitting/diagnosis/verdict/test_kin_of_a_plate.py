@@ -51,7 +51,7 @@ def late(ready, gains=(1.0, 1.0, 1.0), delay=DELAY_S, seed=0):
 def explained(task, reduced):
     """The search and the fit with a delay."""
     begun = begin(task, reduced, Noise(task.sweep.std_m_s, "stated"), None, LAW)
-    search = Search(begun.problem, begun.evidence, begun.none, [], SimpleNamespace(each=None))
+    search = Search(begun.problem, begun.evidence, begun.none, [], None)
     none = begun.none
     u = np.concatenate([none.u, [DELAY_S]])
     return search, refit(response_of(begun.problem, [GAIN]), begun.evidence, none.law, u)
