@@ -181,7 +181,7 @@ class Member:
         counts.weigh(energy, G, -value)
         found = list(self.stated.of_parts.by_there(z)[:, counts.matrices] @ energy)
         omega = np.sqrt(value.real)
-        for k, (mode, by) in self.stated.by_damping(len(system.d), z).items():
+        for k, (mode, by) in self.stated.ratios.by(len(system.d), z).items():
             found[k] = found[k] + 1j * omega * by * system.d[mode] * (Y @ system.U[:, mode]) ** 2
         return found
 

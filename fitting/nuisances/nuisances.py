@@ -5,30 +5,25 @@ the row that reads the pickup, by the modal ratios and by the velocity channel. 
 derivatives of the response follow from theirs by the chain rule.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Literal, get_args
 
 import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.nuisances.bare_numbers import BareNumbers
 from fitting.nuisances.channel import StatedChannel
+from fitting.nuisances.modal_ratios import StatedRatios
 from fitting.nuisances.narrow import NarrowResonances
 from fitting.nuisances.nuisance import Nuisance, felt
-from fitting.nuisances.placed import Masses, Placed, PlacedPoints
+from fitting.nuisances.placed import Masses, PlacedPoints
+from fitting.nuisances.spots import Place, Spot, StatedSpots
 from fitting.nuisances.stated_coefficients import PlateCoefficients, StatedCoefficients
 from fitting.nuisances.sums import SideBySide, between
 from fitting.plate.parts import loaded
 from fitting.specimen import PlacedMass, PlateSpecimen
 from fitting.widened.change import Change
 from fitting.widened.enriched_plate import EnrichedReducedPlate
-
-Spot = Literal["pickup", "force"]
-SPOTS: tuple[Spot, ...] = get_args(Spot)
-Place = tuple[float, float]
-"""X and y, in m."""
 
 
 def nuisances_of(
@@ -114,13 +109,22 @@ class Nuisances:
         return StatedChannel(self.each)
 
     @cached_property
-    def _places(self) -> dict[str, int]:
-        return {n.name: k for k, n in enumerate(self.each)}
+    def ratios(self) -> StatedRatios:
+        """What they make of the modal damping."""
+        return StatedRatios(self.each)
 
     @cached_property
-    def _damped(self) -> list[tuple[int, int]]:
-        """Nuisance and mode."""
-        return [(k, int(n.name.split("_")[1]) - 1) for k, n in enumerate(self.each) if n.kind == "damping"]
+    def spots(self) -> StatedSpots:
+        """Where it is read, and where a force drives it."""
+        return StatedSpots(self._points, *self._spots_of())
+
+    def _spots_of(self) -> tuple[dict[Spot, Place], dict[Spot, Place]]:
+        """As stated, and of the reference."""
+        return _spots_of(self.specimen), _spots_of(self.reference)
+
+    @cached_property
+    def _places(self) -> dict[str, int]:
+        return {n.name: k for k, n in enumerate(self.each)}
 
     @cached_property
     def _kept_parts(self) -> SideBySide:
@@ -138,9 +142,9 @@ class Nuisances:
             K=K + moved,
             K_1=K_1.real,
             M=M.real,
-            load=self._load(plate, c) + self._force_change(plate, z),
-            observe=self._row_change(plate, z),
-            damping=self._damping(len(plate.d), z),
+            load=self._load(plate, c) + self.spots.force_change(plate, z),
+            observe=self.spots.row_change(plate, z),
+            damping=self.ratios.factor(len(plate.d), z),
         )
         return own.and_then(self._masses.change(plate, z)) if self.masses else own
 
@@ -175,62 +179,6 @@ class Nuisances:
         """Additional load. Shape (k,)."""
         return self.of_parts.load_sign * loaded(c[self.of_parts.counts.load].real, plate.load_part)
 
-    def _row_change(self, plate: EnrichedReducedPlate, z: Array) -> Array:
-        return (
-            self.row(plate, z) - plate.pickup_row if "pickup" in self._spots else np.zeros(len(plate.observe))
-        )
-
-    def row(self, plate: EnrichedReducedPlate, z: Array) -> Array:
-        """Reads w at the pickup, where it is on the plate as long and as wide as it is. Shape (k,)."""
-        (x, _), (y, _) = self._spot("pickup", z)
-        return plate.row(x, y)
-
-    def rows_by(self, plate: EnrichedReducedPlate, z: Array) -> dict[int, Array]:
-        """Derivatives of `row` to those that move it, by number. Shape (k,) each, of `z` (numbers,)."""
-        return self._rows_by("pickup", plate, z)
-
-    def _force_change(self, plate: EnrichedReducedPlate, z: Array) -> Array | float:
-        """Additional load of a force. Shape (k,)."""
-        if "force" not in self._spots:
-            return 0.0
-        (x, _), (y, _) = self._spot("force", z)
-        return plate.row(x, y) - plate.row(*self._spots_of(self.reference)["force"])
-
-    def _rows_by(self, spot: Spot, plate: EnrichedReducedPlate, z: Array) -> dict[int, Array]:
-        if spot not in self._spots:
-            return {}
-        (x, by_x), (y, by_y) = self._spot(spot, z)
-        found: dict[int, Array] = {}
-        for slopes, (dx, dy) in ((by_x, (1, 0)), (by_y, (0, 1))):
-            if slopes:
-                slope = plate.row(x, y, dx, dy)
-                found |= {k: size * slope for k, size in slopes.items()}
-        return found
-
-    @cached_property
-    def _spots(self) -> Mapping[Spot, Place]:
-        return self._spots_of(self.specimen)
-
-    def _spots_of(self, specimen: PlateSpecimen) -> Mapping[Spot, Place]:
-        """Where one like it is read, and where a force drives it."""
-        stated: dict[Spot, Place | None] = {"pickup": specimen.pickup_m, "force": specimen.force_m}
-        return {spot: place for spot, place in stated.items() if place is not None}
-
-    def _spot(self, spot: Spot, z: Array) -> Placed:
-        """X and y in m of the point on the plate of `reference`, and how they go with z."""
-        return self._points.at(self._spots[spot], spot, z)
-
-    def _damping(self, modes: int, z: Array) -> Array:
-        found = np.ones(modes)
-        for k, mode in self._damped:
-            found[mode] = np.exp(self._sigma[k] * z[k])
-        return found
-
-    def by_damping(self, modes: int, z: Array) -> dict[int, tuple[int, float]]:
-        """Of each number that is a modal ratio: its mode, and the derivative of that mode's factor."""
-        factor = self._damping(modes, z)
-        return {k: (mode, float(self._sigma[k] * factor[mode])) for k, mode in self._damped}
-
     def by_response(
         self, plate: EnrichedReducedPlate, omega: Array, G: Complex, q: Complex, adjoint: Complex, z: Array
     ) -> Complex:
@@ -242,7 +190,7 @@ class Nuisances:
         found += self._by_load(plate, adjoint, z)
         for k, moved_load in self._masses.by_load(plate, adjoint, z).items():
             found[k] += moved_load
-        for k, row in self._rows_by("force", plate, z).items():
+        for k, row in self.spots.rows_by("force", plate, z).items():
             found[k] += adjoint @ row
         return found
 
@@ -266,14 +214,14 @@ class Nuisances:
         counts.weigh(each, G, -(omega**2))
         by = self.of_parts.by(z)[:, counts.matrices]
         found = np.asarray(-(by @ each), dtype=complex)
-        for k, row in self.rows_by(plate, z).items():
+        for k, row in self.spots.rows_by("pickup", plate, z).items():
             found[k] += q @ row
         for k, moved_mass in self._masses.by_mass(plate, q, adjoint, z).items():
             found[k] += omega**2 * moved_mass
         if self.narrow:
             s, at = self._narrow_sides(plate), self._of_narrow
             found[at] -= self.narrow.by(z[at]) @ ((adjoint @ s) * (q @ s)).T
-        damped = self.by_damping(len(plate.d), z)
+        damped = self.ratios.by(len(plate.d), z)
         modes = [mode for mode, _ in damped.values()]
         strength = np.array([slope for _, slope in damped.values()]) * plate.d[modes]
         # All modes at once: each by itself is a product too small for its call.
@@ -289,3 +237,8 @@ class Nuisances:
     def by_reading(self, read: Complex, omega: Array, z: Array) -> dict[int, Complex]:
         """Derivatives of what has been read. Shape (..., points) each, of `z` (..., numbers)."""
         return self.channel.by_reading(read, omega, z)
+
+
+def _spots_of(specimen: PlateSpecimen) -> dict[Spot, Place]:
+    stated: dict[Spot, Place | None] = {"pickup": specimen.pickup_m, "force": specimen.force_m}
+    return {spot: place for spot, place in stated.items() if place is not None}

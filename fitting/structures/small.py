@@ -18,7 +18,8 @@ from fitting.arrays import Array, Complex
 from fitting.discrepancy.model_error import ModelError
 from fitting.errors import OutsideModel
 from fitting.nuisances.nuisance import Nuisance, channels_felt
-from fitting.nuisances.nuisances import SPOTS, Nuisances, Place, Spot
+from fitting.nuisances.nuisances import Nuisances
+from fitting.nuisances.spots import SPOTS, Place, Spot
 from fitting.nuisances.stated_coefficients import STEP, StatedCoefficients
 from fitting.plate.part_counts import PartCounts
 from fitting.specimen import PlacedMass, StatedSpecimen
@@ -168,13 +169,14 @@ class SmallNuisances(Nuisances):
         assert self.parts is not None
         return SmallCoefficients(self.each, self.specimen, self.parts)
 
-    def _spots_of(self, specimen: StatedSpecimen) -> Mapping[Spot, Place]:
+    def _spots_of(self) -> tuple[dict[Spot, Place], dict[Spot, Place]]:
         # No other structure lends it matrices: the reference is the specimen itself.
-        return {spot: (self.specimen.places[spot], 0.0) for spot in SPOTS if spot in self.specimen.places}
+        own = {spot: (self.specimen.places[spot], 0.0) for spot in SPOTS if spot in self.specimen.places}
+        return own, own
 
     def placed(self, plate: EnrichedReducedPlate, z: Array) -> EnrichedReducedPlate:
         """The same, read and driven where these numbers say. `z` of shape (numbers,)."""
-        observe, load = self._row_change(plate, z), self._force_change(plate, z)
+        observe, load = self.spots.row_change(plate, z), self.spots.force_change(plate, z)
         return replace(plate, observe=plate.observe + observe, load=plate.load + load)
 
 

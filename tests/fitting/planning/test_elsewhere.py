@@ -42,7 +42,7 @@ def test_a_clamp_line_moves_what_is_read_there(elsewhere):
 
 def test_the_plate_without_effects_is_read_there(ready, elsewhere):
     _, plate, reduced, moved = elsewhere
-    assert moved.row(plate, ready.problem.as_stated) == pytest.approx(plate.observe)
+    assert moved.spots.row(plate, ready.problem.as_stated) == pytest.approx(plate.observe)
     first, there = (r.displacement(OMEGA, G) for r in (ready.reduced, reduced))
     A = reduced.matrices(OMEGA, G)
     load = np.broadcast_to(reduced.load.astype(complex)[:, None], (2, len(reduced.load), 1))
