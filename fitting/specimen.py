@@ -11,8 +11,9 @@ from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
 from fitting.stated.edges import Edges, edges_of, named
 from fitting.stated.layers import Core, Face, Glue, Orthotropy
+from fitting.stated.number_names import NumberName, number_name
 from fitting.stated.patches import OF_PATCHES, Patch, shift_of
-from fitting.stated.tolerances import OF_OWN_AXES, StatedNumber, StatedValue, number_of, of_scope
+from fitting.stated.tolerances import OF_OWN_AXES, StatedNumber, StatedValue, of_scope
 
 Kind = Literal["plate", "beam", "shear-pair"]
 """Which structure a specimen is. What another one needs: CONTRIBUTING.md."""
@@ -313,29 +314,29 @@ class PlateSpecimen(Driven[tuple[float, float]]):
 
     def stated_number(self, name: str) -> StatedValue:
         """As `StatedSpecimen` has it; of glue the first layer's, as all are moved by the same factor."""
-        number = number_of(name)
-        return number.valued(self._stated_si(name, number))
+        which = number_name(name)
+        return which.number.valued(self._stated_si(which))
 
-    def _stated_si(self, name: str, number: StatedNumber) -> float:
+    def _stated_si(self, which: NumberName) -> float:
+        number = which.number
         if number.unstated is not None:
             return number.unstated
         if number.name in OF_PATCHES:
-            return shift_of(name).stated_m(self)
-        which = name.removeprefix(f"{number.name}_")
+            return shift_of(which).stated_m(self)
         match number.name:
             case "length" | "width":
                 return float(getattr(self, number.field))
             case "pickup" | "force":
-                return float(getattr(self, number.field)["xy".index(which)])
+                return float(getattr(self, number.field)[which.axis])
             case "axial":
-                return self.axial_pa["xy".index(which)] or 0.0
+                return self.axial_pa[which.axis] or 0.0
             case "damping":
-                return self.modal_ratios[int(which) - 1]
+                return self.modal_ratios[which.item]
             case "mass":
-                return self.masses[int(which) - 1].mass_kg
+                return self.masses[which.item].mass_kg
             case "place":
-                mass, axis = which.split("_")
-                return float(getattr(self.masses[int(mass) - 1], f"{axis}_m"))
+                mass = self.masses[which.item]
+                return float((mass.x_m, mass.y_m)[which.axis])
             case _:
                 return float(getattr(self._layer(number), number.field))
 

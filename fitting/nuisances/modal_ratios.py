@@ -8,6 +8,7 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.nuisances.nuisance import Nuisance
+from fitting.stated.number_names import number_name
 
 
 @dataclass(frozen=True)
@@ -23,9 +24,7 @@ class StatedRatios:
     def _known(self) -> list[tuple[int, int, float]]:
         """Place of a number, its mode and its standard deviation."""
         return [
-            (k, int(n.name.split("_")[1]) - 1, n.sigma)
-            for k, n in enumerate(self.each)
-            if n.kind == "damping"
+            (k, number_name(n.name).item, n.sigma) for k, n in enumerate(self.each) if n.kind == "damping"
         ]
 
     def factor(self, modes: int, z: Array) -> Array:

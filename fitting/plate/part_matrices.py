@@ -42,8 +42,8 @@ from fitting.plate.parts import coefficients
 from fitting.plate.plate import Plate
 from fitting.plate.plate_numbers import moved
 from fitting.specimen import PlateSpecimen
+from fitting.stated.number_names import number_name
 from fitting.stated.patches import shifts_of
-from fitting.stated.tolerances import STATED, kind_of
 
 Rows = dict[str, Array]
 _STRETCH_C = tuple(name for name in STIFFNESS if name.startswith("stretch c"))
@@ -229,7 +229,7 @@ def stated_steps(reference: PlateSpecimen, names: Sequence[str]) -> tuple[Comple
     """
     found = []
     for name in names:
-        step = STATED[kind_of(name)].typical
+        step = number_name(name).number.typical
         up, down = (coefficients(moved(reference, [name], [s * step]), reference) for s in (1, -1))
         found.append([(getattr(up, m) - getattr(down, m)) / 2 for m in ("K_0", "K_1", "M")])
     K_0, K_1, M = (

@@ -8,8 +8,9 @@ from typing import Any
 from fitting.plate.mesh import is_turned
 from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import Face, Orthotropy
+from fitting.stated.number_names import NumberName, number_name
 from fitting.stated.patches import OF_PATCHES, shift_of, shifts_of
-from fitting.stated.tolerances import OF_OWN_AXES, PLATE, STATED, StatedNumber, number_of
+from fitting.stated.tolerances import OF_OWN_AXES, PLATE, STATED, StatedNumber
 
 _LARGEST_POISSON = 0.4999
 """A moved number stays below one half, where a solid no longer gives in volume."""
@@ -55,8 +56,8 @@ def moved(specimen: PlateSpecimen, names: Sequence[str], by: Sequence[float]) ->
     moves = _Moves(specimen)
     for name, step in zip(names, by, strict=True):
         if step:
-            number = number_of(name)
-            _MOVED_BY.get(number.name, _Moves.layer)(moves, name, number, step)
+            which = number_name(name)
+            _MOVED_BY.get(which.kind, _Moves.layer)(moves, which, step)
     return moves.made()
 
 
@@ -75,29 +76,32 @@ class _Moves:
         layers = {name: replace(getattr(self.specimen, name), **own) for name, own in self.layers.items()}
         return replace(self.specimen, **layers, **self.plate) if layers or self.plate else self.specimen
 
-    def side(self, _: str, number: StatedNumber, step: float) -> None:
+    def side(self, which: NumberName, step: float) -> None:
         """The mesh is kept: its elements stretch."""
+        number = which.number
         self.plate[number.field] = getattr(self.specimen, number.field) + step
         self.plate["elements"] = self.specimen.mesh
 
-    def axial(self, name: str, number: StatedNumber, step: float) -> None:
-        x, y = self.plate.get(number.field, self.specimen.axial_pa)
-        self.plate[number.field] = (x + step, y) if name.endswith("x") else (x, y + step)
+    def axial(self, which: NumberName, step: float) -> None:
+        x, y = self.plate.get("axial_pa", self.specimen.axial_pa)
+        self.plate["axial_pa"] = (x + step, y) if which.along == "x" else (x, y + step)
 
-    def patch(self, name: str, _: StatedNumber, step: float) -> None:
+    def patch(self, which: NumberName, step: float) -> None:
         if self.specimen.patches:
-            self.plate["patches"] = shift_of(name).of(self.specimen, step, self.plate.get("patches"))
+            self.plate["patches"] = shift_of(which).of(self.specimen, step, self.plate.get("patches"))
 
-    def glue(self, _: str, number: StatedNumber, step: float) -> None:
+    def glue(self, which: NumberName, step: float) -> None:
         """All of it by the same factor."""
+        number = which.number
         if self.specimen.core is None or not self.specimen.has_glue:
             return
         core = self.layers.setdefault("core", {})
         glue = core.get("glue", self.specimen.core.glue)
         core["glue"] = tuple(replace(g, **{number.field: getattr(g, number.field) * exp(step)}) for g in glue)
 
-    def axes(self, _: str, number: StatedNumber, step: float) -> None:
+    def axes(self, which: NumberName, step: float) -> None:
         """Of a face that is not the same along both."""
+        number = which.number
         face: Face | None = getattr(self.specimen, number.layer)
         if face is None or face.rolled is None:
             return
@@ -107,7 +111,8 @@ class _Moves:
         value = value + step if number.quantity == "angle" else value * exp(step)
         own["rolled"] = replace(axes, **{number.field: value})
 
-    def layer(self, _: str, number: StatedNumber, step: float) -> None:
+    def layer(self, which: NumberName, step: float) -> None:
+        number = which.number
         layer = getattr(self.specimen, number.layer)
         if layer is None:
             return
@@ -117,7 +122,7 @@ class _Moves:
         self.layers.setdefault(number.layer, {})[number.field] = value
 
 
-_MOVED_BY: dict[str, Callable[[_Moves, str, StatedNumber, float], None]] = {
+_MOVED_BY: dict[str, Callable[[_Moves, NumberName, float], None]] = {
     "length": _Moves.side,
     "width": _Moves.side,
     "axial": _Moves.axial,

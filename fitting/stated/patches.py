@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
+from fitting.stated.number_names import NumberName
+
 Moved = Literal["patch", "cut"]
 """What of a patch is another than stated: where it lies, or how long it is cut."""
 OF_PATCHES: tuple[Moved, ...] = ("patch", "cut")
@@ -91,10 +93,9 @@ class Shift:
         return sum(moving) / len(moving)
 
 
-def shift_of(name: str) -> Shift:
-    """The one that has a name."""
-    kind, patch, axis = name.split("_")
-    return Shift(int(patch) - 1, "xy".index(axis), "cut" if kind == "cut" else "patch")
+def shift_of(name: NumberName) -> Shift:
+    """The one that has a name. Raises `LookupError` where that says no patch or axis."""
+    return Shift(name.item, name.axis, "cut" if name.kind == "cut" else "patch")
 
 
 def shifts_of(specimen: Patched) -> tuple[Shift, ...]:

@@ -5,7 +5,7 @@ logarithm, or in its SI unit. Where a specimen names none, a careful laboratory'
 in (docs/specimen.md).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi, radians
 from typing import Literal, NamedTuple
 
@@ -92,16 +92,10 @@ class StatedNumber:
     """In SI, what it is by itself: no specimen states it. None: one does."""
     scope: Scope = "alike"
     """What has one of its own."""
-
-    @property
-    def layer(self) -> str:
-        """Whose it is, of a layer's number: `substrate`, `constraining`, `core`, `glue`."""
-        return self.name.partition("_")[0]
-
-    @property
-    def quantity(self) -> str:
-        """What of that layer: `young`, `young_y`."""
-        return self.name.partition("_")[2]
+    layer: str = ""
+    """Whose it is: `substrate`, `constraining`, `core`, `glue`; empty where it is no layer's."""
+    quantity: str = ""
+    """What of that layer: `young`, `young_y`."""
 
     def valued(self, in_si: float) -> "StatedValue":
         """With what a specimen states of it."""
@@ -121,23 +115,25 @@ _OF_LAYERS: dict[str, tuple[Unit, Shown, str]] = {
 """What is the same of every layer's: unit of the tolerance, how it is shown, where it is kept."""
 
 
-def _of_layer(name: str, typical: float, why: str) -> StatedNumber:
-    unit, shown, field = _OF_LAYERS[name.partition("_")[2]]
-    return StatedNumber(name, unit, typical, why, shown, field)
+def _of_layer(layer: str, quantity: str, typical: float, why: str) -> StatedNumber:
+    unit, shown, field = _OF_LAYERS[quantity]
+    return StatedNumber(
+        f"{layer}_{quantity}", unit, typical, why, shown, field, layer=layer, quantity=quantity
+    )
 
 
 _STATED = (
-    _of_layer("substrate_young", 0.01, "rolled sheet from one data sheet to another"),
-    _of_layer("substrate_thickness", 0.005, "a micrometer at several places of a sheet"),
-    _of_layer("substrate_density", 0.005, "plate weighed, sides by caliper"),
-    _of_layer("substrate_poisson", 0.02, "data sheets of metals"),
-    _of_layer("constraining_young", 0.01, "as the substrate's"),
-    _of_layer("constraining_thickness", 0.015, "a foil: a micrometer's few micrometres"),
-    _of_layer("constraining_density", 0.005, "as the substrate's"),
-    _of_layer("constraining_poisson", 0.02, "as the substrate's"),
-    _of_layer("core_thickness", 0.03, "the difference of two thicknesses, or a data sheet"),
-    _of_layer("core_density", 0.02, "data sheets of polymers"),
-    _of_layer("core_poisson", 0.01, "rubbery: between 0.48 and 0.5"),
+    _of_layer("substrate", "young", 0.01, "rolled sheet from one data sheet to another"),
+    _of_layer("substrate", "thickness", 0.005, "a micrometer at several places of a sheet"),
+    _of_layer("substrate", "density", 0.005, "plate weighed, sides by caliper"),
+    _of_layer("substrate", "poisson", 0.02, "data sheets of metals"),
+    _of_layer("constraining", "young", 0.01, "as the substrate's"),
+    _of_layer("constraining", "thickness", 0.015, "a foil: a micrometer's few micrometres"),
+    _of_layer("constraining", "density", 0.005, "as the substrate's"),
+    _of_layer("constraining", "poisson", 0.02, "as the substrate's"),
+    _of_layer("core", "thickness", 0.03, "the difference of two thicknesses, or a data sheet"),
+    _of_layer("core", "density", 0.02, "data sheets of polymers"),
+    _of_layer("core", "poisson", 0.01, "rubbery: between 0.48 and 0.5"),
     StatedNumber("length", "m", 3e-4, "where the clamp's edge bites", MM, "length_m", scope="mounting"),
     StatedNumber("width", "m", 1e-4, "a caliper", MM, "width_m", scope="specimen"),
     StatedNumber(
@@ -207,17 +203,17 @@ _STATED = (
         "axial_pa",
         scope="temperature",
     ),
-    _of_layer("substrate_young_per_k", 2e-4, "from steel to aluminium; stated, half of it"),
-    _of_layer("constraining_young_per_k", 2e-4, "as the substrate's"),
-    _of_layer("substrate_young_y", 0.03, "a laminate's or a rolled sheet's second axis"),
-    _of_layer("substrate_shear", 0.05, "seldom measured"),
-    _of_layer("substrate_angle", radians(1.0), "a laminate cut by a square"),
-    _of_layer("constraining_young_y", 0.03, "as the substrate's"),
-    _of_layer("constraining_shear", 0.05, "as the substrate's"),
-    _of_layer("constraining_angle", radians(1.0), "as the substrate's"),
-    _of_layer("glue_thickness", 0.2, "a bond line: hardly ever measured"),
+    _of_layer("substrate", "young_per_k", 2e-4, "from steel to aluminium; stated, half of it"),
+    _of_layer("constraining", "young_per_k", 2e-4, "as the substrate's"),
+    _of_layer("substrate", "young_y", 0.03, "a laminate's or a rolled sheet's second axis"),
+    _of_layer("substrate", "shear", 0.05, "seldom measured"),
+    _of_layer("substrate", "angle", radians(1.0), "a laminate cut by a square"),
+    _of_layer("constraining", "young_y", 0.03, "as the substrate's"),
+    _of_layer("constraining", "shear", 0.05, "as the substrate's"),
+    _of_layer("constraining", "angle", radians(1.0), "as the substrate's"),
+    _of_layer("glue", "thickness", 0.2, "a bond line: hardly ever measured"),
     # As its file has it: glue is a hundredth of what a face is.
-    StatedNumber("glue_shear", "1", 0.2, "data sheets of adhesives", MPA, "shear_pa"),
+    replace(_of_layer("glue", "shear", 0.2, "data sheets of adhesives"), shown=MPA),
     StatedNumber("patch", "m", 5e-4, "laid by a rule; each patch, along x and along y", MM),
     StatedNumber("cut", "m", 5e-4, "cut by a knife along a rule; each patch, along x and along y", MM),
 )
@@ -280,19 +276,3 @@ PLATE = (
     "axial",
 )
 """Those that change a plate's matrices."""
-
-
-def kind_of(name: str) -> str:
-    """The kind that one number is of: `pickup` of `pickup_x`. Raises `ValueError`."""
-    # Of several files each may have its own: `gain [2]`.
-    name = name.split(" [")[0]
-    kind, _, number = name.partition("_")
-    known = name if name in NUMBERS else kind
-    if known not in NUMBERS or (kind == "damping" and not number.isdecimal()):
-        raise ValueError(f"no stated number is called {name!r}")
-    return known
-
-
-def number_of(name: str) -> StatedNumber:
-    """What there is to know of that kind. Raises `ValueError`."""
-    return NUMBERS[kind_of(name)]

@@ -17,13 +17,12 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.discrepancy.model_error import ModelError
+from fitting.stated.number_names import NumberName, number_name
 from fitting.stated.tolerances import (
     OF_TEMPERATURE,
     STATED,
     STATED_PER_K,
-    StatedNumber,
     StatedValue,
-    number_of,
 )
 from fitting.structures.beam_apart import APART_WITHIN, open_by_poisson
 from fitting.structures.beam_coefficients import Number, coefficients, place_of
@@ -147,7 +146,7 @@ class Beam(StatedBeam):
         if name == "metal_loss":
             return METAL_LOSS
         typical = STATED[name].typical
-        if name in OF_TEMPERATURE and getattr(self, name.partition("_")[0]).young_per_k is not None:
+        if name in OF_TEMPERATURE and getattr(self, STATED[name].layer).young_per_k is not None:
             typical *= STATED_PER_K
         return float(self.tolerances.get(name, typical))
 
@@ -165,10 +164,11 @@ class Beam(StatedBeam):
 
     def stated_number(self, name: str) -> StatedValue:
         """As `StatedSpecimen` has it."""
-        number = number_of(name)
-        return number.valued(self._stated_si(name, number))
+        which = number_name(name)
+        return which.number.valued(self._stated_si(which))
 
-    def _stated_si(self, name: str, number: StatedNumber) -> float:
+    def _stated_si(self, which: NumberName) -> float:
+        number = which.number
         if number.unstated is not None:
             return number.unstated
         if number.name in self.places:
@@ -181,7 +181,7 @@ class Beam(StatedBeam):
             case "mass":
                 return sum(m.mass_kg for m in self.masses)
             case "place":
-                return {place_of(k): m.x_m for k, m in enumerate(self.masses)}[name]
+                return self.masses[which.item].x_m
             case "held_width":
                 return self.held_width_m if self.held_width else 0.0
             case _:

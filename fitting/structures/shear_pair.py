@@ -22,7 +22,8 @@ from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import BaseDriven, Kind, Reading
 from fitting.stated.layers import Core
-from fitting.stated.tolerances import KG, STATED, StatedValue, number_of
+from fitting.stated.number_names import number_name
+from fitting.stated.tolerances import KG, STATED, StatedValue
 from fitting.structures.small import Parts, as_coefficients
 
 ORDER = 6
@@ -152,7 +153,7 @@ class ShearPair(BaseDriven):
 
     def stated_number(self, name: str) -> StatedValue:
         """As `StatedSpecimen` has it; its mass in kilograms, where what sits on a plate weighs grams."""
-        number = number_of(name)
+        number = number_name(name).number
         owner = self.core if number.layer == "core" else self
         in_si = number.unstated if number.unstated is not None else float(getattr(owner, number.field))
         return (replace(number, shown=KG) if number.name == "mass" else number).valued(in_si)

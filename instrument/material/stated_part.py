@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from fitting.stated.tolerances import kind_of, of_scope
+from fitting.stated.number_names import kind_of
+from fitting.stated.tolerances import of_scope
 from instrument.material.knowledge import known_curve_of
 
 _DIGITS = 16

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 from fitting.identification.adjusted import Adjusted
 from fitting.specimen import StatedSpecimen
-from fitting.stated.tolerances import OF_THEORY, kind_of
+from fitting.stated.number_names import kind_of
+from fitting.stated.tolerances import OF_THEORY
 from instrument.results.numbers import to_error
 
 COLUMNS = ("stated number", "stated", "tolerance", "found", "standard error", "pull", "tolerance is")

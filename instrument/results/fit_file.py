@@ -17,7 +17,8 @@ from fitting.laws.bent_law import BentLaw
 from fitting.nuisances.nuisance import Nuisance
 from fitting.nuisances.nuisances import Nuisances
 from fitting.specimen import PlateSpecimen, StatedSpecimen
-from fitting.stated.tolerances import OF_NARROW, kind_of
+from fitting.stated.number_names import kind_of, number_name
+from fitting.stated.tolerances import OF_NARROW
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult
 from instrument.files.text import read_text
@@ -177,10 +178,10 @@ class FoundLaw(BaseModel):
         """The specimen's plate as it was found. Raises `BadInput` where that cannot be."""
         ratios = list(self.hammer.modal_ratios if self.hammer is not None else specimen.modal_ratios)
         for one in self.of_specimen:
-            if one.name.startswith("damping_"):
-                mode = int(one.name.removeprefix("damping_"))
-                ratios += [0.0] * (mode - len(ratios))
-                ratios[mode - 1] = one.stated / 100
+            if kind_of(one.name) == "damping":
+                mode = number_name(one.name).item
+                ratios += [0.0] * (mode + 1 - len(ratios))
+                ratios[mode] = one.stated / 100
         specimen = replace(specimen, modal_ratios=tuple(ratios))
         both = [one.moved(specimen) for one in self.of_specimen]
         return FittedPlate(
