@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fitting.digits import two_digits
 from fitting.mode_tables.misread import Misread
 from fitting.mode_tables.table import ModalTable
-from instrument.finding.modal import remark_on_misread
+from instrument.remarks.modal_remarks import remark_on_misread
 
 
 @dataclass(frozen=True)

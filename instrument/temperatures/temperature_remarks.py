@@ -5,9 +5,9 @@ from fitting.specimen import PlateSpecimen
 from fitting.stated.layers import METAL_PER_K, Face
 from fitting.structures import Beam
 from fitting.temperature.shifts import ZERO_K
-from instrument.finding.modal import remarks_on_errors
 from instrument.remarks.clamp_remarks import remarks_on_clamps
 from instrument.remarks.file_remarks import remarks_on_edges
+from instrument.remarks.modal_remarks import remarks_on_errors
 from instrument.temperatures.members import Members
 
 _WORTH_SAYING_K = 10.0

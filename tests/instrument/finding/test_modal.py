@@ -2,7 +2,6 @@
 
 import json
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,9 +10,8 @@ from mode_cases import TRUTH, read_off, solid_modes, stated
 from plate_files import plate_text
 
 from fitting.identification.doubt import doubts_among
-from fitting.mode_tables.table import ModalTable
 from instrument.cli.main import run
-from instrument.finding.modal import identify_tables, remark_on_fit, remark_on_misread
+from instrument.finding.modal import identify_tables
 
 
 @pytest.mark.long
@@ -87,29 +85,6 @@ def test_a_table_beside_a_sweep_is_refused(table, capsys):
     assert "--specimen" in capsys.readouterr().err
 
 
-def test_a_fit_that_leaves_the_modes_says_so():
-    assumed = ModalTable(np.array([1, 2]), np.array([100.0, 200.0]), np.array([0.2, 0.2]))
-    stated = replace(assumed, frequency_std_hz=np.full(2, 0.1), loss_factor_std=np.full(2, 0.01))
-    tables = [stated]
-
-    def fit(second_hz, loss, chi2):
-        return SimpleNamespace(
-            predicted_hz=(np.array([100.0, second_hz]),),
-            predicted_loss=(np.array([0.2, loss]),),
-            uncertainty=SimpleNamespace(chi2_per_dof=chi2),
-        )
-
-    assert remark_on_fit(fit(210.0, 0.2, 2.0), tables) == ()
-    (said,) = remark_on_fit(fit(240.0, 0.2, 90.0), tables)
-    assert said.startswith("the fit does not follow the modes (rms 14.1 % in frequency)")
-    (said,) = remark_on_fit(fit(202.0, 0.1, 5.6), tables)
-    assert said.startswith("the modes are off by 5.6 times what their errors explain")
-    assert "1 % in frequency and 50 % in loss factor" in said
-    assert "no damping ratios" in said
-    (said,) = remark_on_fit(fit(202.0, 0.1, 5.6), [assumed])
-    assert said.startswith("the modes are off by 5.6 times what the assumed errors explain")
-
-
 def test_stated_numbers_that_had_to_be_moved_too_far_are_named():
     tips = replace(BEAM, substrate=replace(FACE, thickness_m=0.8 * FACE.thickness_m))
     found = identify_tables([read(tips)], [replace(BEAM, exact=False)])
@@ -118,21 +93,3 @@ def test_stated_numbers_that_had_to_be_moved_too_far_are_named():
     assert doubts_among([said])
     right = identify_tables([read(BEAM)], [replace(BEAM, exact=False)])
     assert not any("had to be moved" in one for one in right.remarks)
-
-
-def test_the_row_that_does_not_go_with_the_others_is_named_with_its_file_and_where_they_have_it():
-    def table(*f):
-        return SimpleNamespace(
-            mode=np.arange(2.0, 2 + len(f)), frequency_hz=np.array(f), loss_factor=0.1 * np.array(f)
-        )
-
-    odd = SimpleNamespace(place=3, frequency_hz=4.25, loss_factor=0.5)
-    said = remark_on_misread(odd, [table(1.0, 2.0, 3.0), table(4.0, 5.0)])
-    assert said.startswith("mode 2 of file 2 does not go with the others")
-    assert "at 4.25 Hz with a loss factor of 0.5, the table at 4 Hz with 0.4" in said
-    assert remark_on_misread(odd, [table(1.0, 2.0, 3.0, 4.0)]).startswith("mode 5 does not go")
-    # A beam's motion along itself is among the model's modes, and seldom in a table.
-    along = SimpleNamespace(place=3, frequency_hz=4.25, loss_factor=1e-12)
-    said = remark_on_misread(along, [table(1.0, 2.0, 3.0, 4.0)])
-    assert "at 4.25 Hz where layers stretch along the beam, nothing bends" in said
-    assert "numbered past that one: is this mode 6?" in said
