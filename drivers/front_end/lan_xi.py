@@ -11,28 +11,23 @@ simulator's extension; a real module is never sent anything.
 import socket
 import struct
 import time
-from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any, NoReturn
 
-import httpx
 import numpy as np
 
-from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
+from drivers.errors import DriverError, Refused, TimedOut, Unreachable
 from drivers.front_end import lan_xi_documents as documents
 from drivers.front_end.interface import Block, InputChannel, Transducer
 from drivers.front_end.lan_xi_address import host_of
 from drivers.front_end.lan_xi_documents import ChannelSetup
 from drivers.front_end.lan_xi_frames import Decoder
+from drivers.front_end.lan_xi_http import ModuleHttp
 from drivers.front_end.lan_xi_stream import StreamReader
 
 _DETECTION_S = 60.0
 """Sensors with a chip are read one by one; longer than this the module hangs."""
 _POLL_S = 0.05
-_LONGEST_BODY = 1 << 22
-"""Bytes: a set-up of twelve channels is a hundredth of it."""
-_BODIES = 2.0
-"""A whole answer may take so many times the time-out: one until it begins, one to arrive."""
 _PIECE_BYTES = 1 << 20
 _CREDIT = struct.Struct("<I")
 
@@ -72,14 +67,7 @@ class LanXiFrontEnd:
             self._host = host_of(self._url)
         except ValueError as error:
             raise Refused(f"LAN-XI: {error}") from None
-        # Instruments sit on the local network: a proxy from the environment leads away from them. They
-        # know no HTTPS, so there are no certificates to read.
-        self._http = httpx.Client(
-            base_url=f"{self._url}/rest/rec",
-            timeout=timeout_s,
-            transport=httpx.HTTPTransport(verify=False, retries=retries),
-            trust_env=False,
-        )
+        self._http = ModuleHttp(self._url, self._me, timeout_s, retries)
         self._socket: socket.socket | None = None
         self._reader: StreamReader | None = None
         self._decoder = Decoder()
@@ -87,7 +75,7 @@ class LanXiFrontEnd:
         self.transducers: tuple[Transducer | None, ...] = ()
         """Of the sensors that say who they are, by input."""
         try:
-            self._info = documents.read_module_info(self._json("/module/info"))
+            self._info = documents.read_module_info(self._http.json("/module/info"))
             if take_over:
                 self._take_over()
                 self.transducers = self._detect()
@@ -121,11 +109,11 @@ class LanXiFrontEnd:
             raise Refused(f"{self._me}: it is sampling: stop it first")
         rate_hz = documents.choose_rate(self._info, sample_rate_hz)
         setups = self._setups(channels)
-        self._request("PUT", "/create")
+        self._http.request("PUT", "/create")
         try:
-            default = self._json("/channels/input/default")
-            self._request("PUT", "/channels/input", documents.fill_setup(default, setups, rate_hz))
-            self._connect(documents.read_port(self._json("/destination/socket")))
+            default = self._http.json("/channels/input/default")
+            self._http.request("PUT", "/channels/input", documents.fill_setup(default, setups, rate_hz))
+            self._connect(documents.read_port(self._http.json("/destination/socket")))
             self._decoder = Decoder()
             # The device counts its signals in the order of its inputs, whatever the order asked for.
             order = sorted(range(len(setups)), key=lambda k: setups[k].number)
@@ -133,7 +121,7 @@ class LanXiFrontEnd:
             full_scale_v = np.array([setups[k].range_v for k in order])
             self._reader = StreamReader(full_scale_v, rate_hz)
             self._sample_rate_hz = rate_hz
-            self._request("POST", "/measurements")
+            self._http.request("POST", "/measurements")
         except BaseException:
             with suppress(DriverError):
                 self._stop()
@@ -172,7 +160,7 @@ class LanXiFrontEnd:
             with suppress(DriverError):
                 self.stop()
             with suppress(DriverError):
-                self._request("PUT", "/close")
+                self._http.request("PUT", "/close")
         self._disconnect()
         self._http.close()
 
@@ -196,7 +184,7 @@ class LanXiFrontEnd:
 
     def _take_over(self) -> None:
         """Bring the module, whatever state a program left it in, to an open recorder."""
-        state, _, _ = documents.read_status(self._json("/onchange"))
+        state, _, _ = documents.read_status(self._http.json("/onchange"))
         undo = {
             documents.RECORDING: ("/measurements/stop", "/finish", "/close"),
             documents.STREAMING: ("/finish", "/close"),
@@ -206,17 +194,17 @@ class LanXiFrontEnd:
         for path in undo.get(state, ()):
             # States this driver does not know of lie between: what matters is that it opens in the end.
             with suppress(Refused):
-                self._request("PUT", path)
-        self._request("PUT", "/open", documents.OPEN_PARAMETERS)
+                self._http.request("PUT", path)
+        self._http.request("PUT", "/open", documents.OPEN_PARAMETERS)
 
     def _detect(self) -> tuple[Transducer | None, ...]:
-        self._request("POST", "/channels/input/all/transducers/detect")
+        self._http.request("POST", "/channels/input/all/transducers/detect")
         deadline = time.monotonic() + _DETECTION_S
         tag, active = 0, True
         while True:
-            _, tag, active = documents.read_status(self._json("/onchange", last=tag))
+            _, tag, active = documents.read_status(self._http.json("/onchange", last=tag))
             if not active:
-                return documents.read_transducers(self._json("/channels/input/all/transducers"))
+                return documents.read_transducers(self._http.json("/channels/input/all/transducers"))
             if time.monotonic() > deadline:
                 raise TimedOut(
                     f"{self._me}: detecting sensors took over {_DETECTION_S:g} s: restart the module"
@@ -228,7 +216,7 @@ class LanXiFrontEnd:
         problem: DriverError | None = None
         for path in ("/measurements/stop", "/finish"):
             try:
-                self._request("PUT", path)
+                self._http.request("PUT", path)
             except Refused:
                 # Nothing to stop or to finish: a start that failed half way.
                 continue
@@ -282,42 +270,6 @@ class LanXiFrontEnd:
 
     def _lost(self, why: object) -> NoReturn:
         raise Unreachable(f"{self._me}: the stream broke off: {why}: samples are lost")
-
-    def _json(self, path: str, **query: int) -> Any:
-        response = self._request("GET", path, query=query)
-        try:
-            return response.json()
-        except ValueError as error:
-            raise Garbled(f"{self._me}: GET {path}: {response.text[:60]!r} is no JSON") from error
-
-    def _request(
-        self, method: str, path: str, body: Any = None, query: Mapping[str, int] | None = None
-    ) -> httpx.Response:
-        what = f"{self._me}: {method} {path}"
-        try:
-            response = self._whole(what, method, path, body, query)
-        except httpx.TimeoutException as error:
-            raise TimedOut(f"{what}: no answer in {self._timeout_s:g} s") from error
-        except httpx.RequestError as error:
-            raise Unreachable(f"{what}: {error}: is the module switched on and in this network?") from error
-        # A redirection is no yes: what was asked has not been done here.
-        if not response.is_success:
-            raise Refused(f"{what}: status {response.status_code}: {response.text.strip()[:100]}")
-        return response
-
-    def _whole(
-        self, what: str, method: str, path: str, body: Any, query: Mapping[str, int] | None
-    ) -> httpx.Response:
-        """The answer with its body, which may neither trickle in for ever nor fill the memory."""
-        deadline, content = time.monotonic() + _BODIES * self._timeout_s, bytearray()
-        with self._http.stream(method, path, json=body, params=query) as response:
-            for piece in response.iter_bytes():
-                content += piece
-                if len(content) > _LONGEST_BODY:
-                    raise Garbled(f"{what}: over {_LONGEST_BODY} bytes came: is it a LAN-XI module?")
-                if time.monotonic() > deadline:
-                    raise TimedOut(f"{what}: no whole answer in {_BODIES * self._timeout_s:g} s")
-        return httpx.Response(response.status_code, content=bytes(content))
 
 
 def _in_order(block: Block, order: Any) -> Block:

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import pytest
 
 from drivers.errors import Garbled, Refused, TimedOut
-from drivers.front_end.lan_xi import LanXiFrontEnd
+from drivers.front_end.lan_xi_http import ModuleHttp
 
 TIMEOUT_S = 0.3
 
@@ -35,7 +35,7 @@ def server(answer):
 
 
 def ask(url):
-    return LanXiFrontEnd(url, timeout_s=TIMEOUT_S, retries=0, take_over=False)
+    return ModuleHttp(url, "front-end", TIMEOUT_S, 0).json("/module/info")
 
 
 def test_a_redirection_is_no_yes():
