@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal, NamedTuple
+from typing import ClassVar, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -319,30 +319,3 @@ class Effect:
     def story(self, u: Mapping[str, float]) -> str:
         """What the plate or the rig does, in half a sentence with numbers."""
         raise NotImplementedError
-
-
-ITS_OWN = (
-    "name",
-    "enters",
-    "source",
-    "discriminating_test",
-    "caution",
-    "unexplained_share",
-    "chance",
-    "causes",
-    "sharp",
-    "needs_time",
-    "of_a_segment",
-    "beside_others",
-)
-"""What a form of an effect says of itself as that one does, be it of other files or of another structure.
-
-Not its unknowns, motions and needs, which are the form's; not `between_files`, `replaces_law`, `anew`,
-`from_afar` and `structures`, which decide beforehand what forms there are; not `extends` and `twice`, which
-speak of unknowns one after the other.
-"""
-
-
-def as_its_own(effect: Effect) -> dict[str, Any]:
-    """What a form takes over from an effect, by name."""
-    return {name: getattr(effect, name) for name in ITS_OWN}

@@ -10,7 +10,8 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.effects.base import Effect, as_its_own
+from fitting.effects.base import Effect
+from fitting.effects.form import taken_over
 from fitting.widened.change import Change
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from fitting.widened.span import Span
@@ -43,7 +44,7 @@ class NumberOffEffect(Effect):
         """`needs` as `Effect.needs`."""
         self.inner, self.number = inner, number
         vars(self).update(
-            as_its_own(inner),
+            taken_over(inner),
             parameters=inner.parameters,
             needs=needs,
             spans=() if number.startswith("core") or number.endswith("density") else (FacesApart(),),

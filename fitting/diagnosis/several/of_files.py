@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import CLAMP, Effect, EffectParameter, Tie, as_its_own
+from fitting.effects.base import CLAMP, Effect, EffectParameter, Tie
+from fitting.effects.form import taken_over
 from fitting.effects.given import BarePlateModes, Points
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 
@@ -72,7 +73,7 @@ class OfFiles(Effect):
             where.append(EffectParameter(PICKUP, "1", _ALL, last, float(spot), neutral=None, fixed=True))
         self._where = np.array([q.typical for q in where])
         vars(self).update(
-            as_its_own(inner),
+            taken_over(inner),
             chance=inner.chance * (_ALONE if alone else 1.0),
             parameters=(*inner.parameters, *further, *where),
             spans=inner.spans,
