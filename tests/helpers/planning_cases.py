@@ -7,6 +7,8 @@ from fitting.planning.aims import Aims
 from fitting.planning.sensitivity import Sensitivity
 
 LAW = ConstantModulus(1e6, 0.5)
+EVEN = np.array([0.5, 0.5])
+"""Two rivals are as likely as each other."""
 
 
 def sensitivity(sizes, others=0, seed=1):
@@ -26,3 +28,14 @@ def sensitivity(sizes, others=0, seed=1):
 
 def aims():
     return Aims.over(LAW, 10.0, 100.0, 3)
+
+
+def one(template, kind):
+    return next(m for m in template.measurable(5e-3) if m.kind == kind)
+
+
+def read(expecting, template, measurable):
+    """What each expects of its own steps."""
+    further = measurable.further
+    rows = expecting.rows(measurable.part, len(further.at))
+    return [f.of(rows) for f in expecting.forecasts(further, template.noise)]

@@ -29,3 +29,26 @@ def fed(page, state, events):
     for event in events:
         state.take(event)
         page.show_state(state)
+
+
+def sweep_page(window):
+    """The page of a window, its resonances in one plot."""
+    window.resize(1366, 768)
+    window.show_page("sweep")
+    page = window.pages[1]
+    page.response.apart.setChecked(False)
+    return page
+
+
+def as_first_shown(window):
+    """The same in a window that others have looked at too: nothing chosen yet."""
+    page = sweep_page(window)
+    page.response.quantity.setCurrentIndex(0)
+    for box in (page.response.log_amplitude, page.response.log_frequency):
+        box.setChecked(False)
+    page.tabs.setCurrentIndex(0)
+    page.chooser.choose(None)
+    page._looked_at = None
+    page.seen = page.seen.but(chosen=None)
+    page._draw_all()
+    return page

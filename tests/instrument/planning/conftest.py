@@ -13,8 +13,11 @@ from fitting.diagnosis.inference.usual_law import polished
 from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.diagnosis.verdict.result import Rivals
 from fitting.effects import CATALOGUE
+from fitting.planning.rival_forecasts import RivalForecasts
 from instrument.files.sweep_file import read_sweep
 from instrument.models.set_up import set_up
+from instrument.planning.measurable import Template
+from instrument.stepped_sine.settings import SweepSettings
 
 
 @pytest.fixture(scope="module")
@@ -48,3 +51,15 @@ def clamps(rivals):
         fits.append(polished(problem, [CATALOGUE[name]], evidence, law, start))
     # Weighed lightly: neither explains a gain.
     return replace(rivals, each=tuple((f, 0.5) for f in fits), temper=1e4)
+
+
+@pytest.fixture(scope="module")
+def expecting(rivals):
+    """What each of the rivals expects of further readings."""
+    return RivalForecasts(rivals, 6)
+
+
+@pytest.fixture(scope="module")
+def template(expecting):
+    """The steps that could be measured."""
+    return Template.of(expecting, SweepSettings())
