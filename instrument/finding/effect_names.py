@@ -17,13 +17,6 @@ def refuse_unknown_effects(names: Iterable[str]) -> None:
         raise BadInput(f"effect {name!r}, expected {expected}")
 
 
-def effects_on(
-    specimen: StatedSpecimen, without: Collection[str] = (), accept: Sequence[str] | None = None
-) -> list[Effect]:
-    """The forms that effects have on a specimen. Raises `BadInput` for a name that is none of them."""
-    return [effect for effect, _ in effects_among([specimen], without, accept)]
-
-
 def effects_among(
     specimens: Sequence[StatedSpecimen], without: Collection[str] = (), accept: Sequence[str] | None = None
 ) -> list[tuple[Effect, tuple[bool, ...]]]:

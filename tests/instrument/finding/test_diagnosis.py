@@ -22,7 +22,7 @@ from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.finding.diagnosis import diagnose
-from instrument.finding.effect_names import effects_among, effects_on
+from instrument.finding.effect_names import effects_among
 from instrument.models.files import File
 from instrument.paper_case import case_file
 from instrument.processes.other_processes import VARIABLE
@@ -48,6 +48,10 @@ def every(nth, sweep):
     return sweep.take(np.arange(0, len(sweep), nth))
 
 
+def on(*specimens):
+    return [effect for effect, _ in effects_among(specimens)]
+
+
 def test_a_sweep_of_a_patch_is_asked_about_each_of_its_edges():
     plate = plate_of_the_rig()
     patched, unlike = (replace(plate, patches=(Patch(0.0, x, 0.05, 0.12),)) for x in (0.25, 0.2))
@@ -56,9 +60,8 @@ def test_a_sweep_of_a_patch_is_asked_about_each_of_its_edges():
         (debond,) = (e for e in effects if e.name == "partial_debond")
         return [(e.along, e.edge_m) for e in debond.variants() if e.at_edge]
 
-    assert edges(effects_on(patched)) == [("x", 0.0), ("x", 0.25), ("y", 0.05), ("y", 0.12)]
-    both = [effect for effect, _ in effects_among([patched, unlike])]
-    assert edges(both) == [("x", None), ("y", None)]
+    assert edges(on(patched)) == [("x", 0.0), ("x", 0.25), ("y", 0.05), ("y", 0.12)]
+    assert edges(on(patched, unlike)) == [("x", None), ("y", None)]
 
 
 def test_a_treatment_that_ends_short_does_so_at_every_clamp_of_its_beam():
@@ -69,10 +72,10 @@ def test_a_treatment_that_ends_short_does_so_at_every_clamp_of_its_beam():
         (free,) = (e for e in effects if e.name == "treatment_not_gripped")
         return [e.clamps for e in free.variants() if isinstance(e, TreatmentEndsShortEffect)]
 
-    assert clamps(effects_on(one)) == [1]
-    assert clamps(effects_on(two)) == [2]
-    assert clamps([e for e, _ in effects_among([two, two])]) == [2]
-    assert clamps([e for e, _ in effects_among([one, two])]) == []
+    assert clamps(on(one)) == [1]
+    assert clamps(on(two)) == [2]
+    assert clamps(on(two, two)) == [2]
+    assert clamps(on(one, two)) == []
 
 
 RIVALS = "spot_offset", "gain_error", "added_mass", "base_rocking", "channel_delay"
