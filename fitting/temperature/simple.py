@@ -98,62 +98,60 @@ def _judged(
     names: Sequence[str],
     odd_ones: Sequence[OddOne],
 ) -> Verdict:
-    able = serving(causes)
-    best = able[0].fit if able else fit
-    off, at = _wicket(best)
-
-    def told(simple: bool | None, words: str, p: float = best.p_value) -> Verdict:
-        return Verdict(simple, p, off, words)
-
     if not in_doubt(fit):
-        return told(True, f"thermorheologically simple as far as these data tell: {_gain(fit)}")
+        words = f"thermorheologically simple as far as these data tell: {_gain(fit)}"
+        return Verdict(True, fit.p_value, _wicket(fit)[0], words)
+    able = serving(causes)
     if able:
-        said = " or ".join(story(c) for c in able)
-        cure = able[0].effect.discriminating_test
-        if explains(fit):
-            return told(
-                None,
-                f"not simple, or not the specimen as stated: one shifted law serves where {said} at all "
-                f"temperatures, which is counted in ({_gain(best)}); without it no one law does "
-                f"({_gain(fit)}). What decides: {cure}",
-            )
-        return told(
-            True,
-            f"the readings fit no law as they are; where {said} at all temperatures, which is counted in, "
-            f"the material is thermorheologically simple as far as these data tell: {_gain(best)}. "
-            f"To be rid of it: {cure}",
-        )
-    other = next((c for c in causes if explains(c.fit)), None)
+        return _beside_a_cause(fit, able)
     if apart is not None and not in_doubt(apart):
         wrong = misread(fit.shift, apart)
         words = _temperatures_refused(fit, apart, wrong, names)
-        return Verdict(False, best.p_value, _wicket(apart)[0], words, wrong)
+        return Verdict(False, fit.p_value, _wicket(apart)[0], words, wrong)
     nearly = next((c for c in causes if c.may_serve), None)
     if nearly is not None:
         # A fit that is still on its way refuses no material.
-        maybe = told(
-            None,
+        words = (
             f"whether one shifted law serves cannot be told: it does where {story(nearly)} at all "
             f"temperatures ({_gain(nearly.fit)}), but that fit has not come to its end; this law is not to "
-            f"be used. What decides: {nearly.effect.discriminating_test}",
+            f"be used. What decides: {nearly.effect.discriminating_test}"
         )
-        return replace(maybe, law_stands=False)
-    if apart is not None and explains(fit):
-        off, at = _wicket(apart)
+        return Verdict(None, fit.p_value, _wicket(fit)[0], words, law_stands=False)
     if explains(fit):
+        off, at = _wicket(fit if apart is None else apart)
         whose = _whose(fit, odd_ones, names) if odd_ones else None
-        return told(False, _refusal(fit, f"differs by up to {two_digits(off)} % at {at:g} degC", whose))
+        words = _refusal(fit, f"differs by up to {two_digits(off)} % at {at:g} degC", whose)
+        return Verdict(False, fit.p_value, off, words)
+    other = next((c for c in causes if explains(c.fit)), None)
     if other is not None:
-        beside = _refusal(other.fit, f"differs even where {story(other)} at all temperatures")
-        return told(False, beside, other.fit.p_value)
-    unknown = told(
-        None,
+        words = _refusal(other.fit, f"differs even where {story(other)} at all temperatures")
+        return Verdict(False, other.fit.p_value, _wicket(fit)[0], words)
+    words = (
         "whether one shifted law serves cannot be told: not even a law for each temperature explains the "
         f"readings (chi-square per degree of freedom {fit.own_chi2_per_dof:.3g}), nor one effect at "
         "all of them; this law is not to be used: first 'viscorig diagnose' the data of each temperature by "
-        "itself",
+        "itself"
     )
-    return replace(unknown, law_stands=False)
+    return Verdict(None, fit.p_value, _wicket(fit)[0], words, law_stands=False)
+
+
+def _beside_a_cause(fit: ShiftedFit, able: Sequence[Cause]) -> Verdict:
+    """One law serves beside a cause, or each of several."""
+    said = " or ".join(story(c) for c in able)
+    best, cure = able[0].fit, able[0].effect.discriminating_test
+    if explains(fit):
+        words = (
+            f"not simple, or not the specimen as stated: one shifted law serves where {said} at all "
+            f"temperatures, which is counted in ({_gain(best)}); without it no one law does "
+            f"({_gain(fit)}). What decides: {cure}"
+        )
+    else:
+        words = (
+            f"the readings fit no law as they are; where {said} at all temperatures, which is counted in, "
+            f"the material is thermorheologically simple as far as these data tell: {_gain(best)}. "
+            f"To be rid of it: {cure}"
+        )
+    return Verdict(None if explains(fit) else True, best.p_value, _wicket(best)[0], words)
 
 
 def story(cause: Cause) -> str:

@@ -17,10 +17,11 @@ from fitting.identification.uncertainty import Uncertainty
 from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
 from fitting.temperature.causes import Cause, explains, without_any
+from fitting.temperature.joint import TemperatureProblem
 from fitting.temperature.members import Alone
 from fitting.temperature.shifted_fit import ShiftedFit
 from fitting.temperature.shifts import Kind, Shift
-from fitting.temperature.simple import Verdict, in_doubt, judge, serving, story
+from fitting.temperature.simple import OddOne, Verdict, in_doubt, judge, serving, story
 from fitting.temperature.spots import spots_apart_m
 from fitting.temperature.thermometers import rising
 from instrument.errors import BadInput
@@ -152,28 +153,16 @@ def identify_shifted(
     members = Members(every, stated, hammer)
     asked = TemperatureFits(members, shift, vertical, progress)
     with threadpool_limits(1, "blas"):
-        alone, problem, fit = asked.fitted(with_effects=False)
-        if in_doubt(fit) and explains(fit):
-            fit = asked.freer(problem, fit)
-        aimed_anew = asked.with_own_spots(alone) if in_doubt(fit) else None
-        if aimed_anew is not None:
-            problem, fit = aimed_anew
-        # A column that is meant otherwise is no row's fault, a row that is wrong is no temperature's, nor a
-        # cause that all have.
-        otherwise = asked.read_otherwise(alone) if in_doubt(fit) else ""
-        odd = [otherwise] if otherwise else members.odd_rows(alone) if in_doubt(fit) else []
-        apart = asked.each_apart(alone) if in_doubt(fit) and not odd else None
-        told = bool(odd) or (apart is not None and not in_doubt(apart))
-        causes = asked.common_causes(alone, problem, fit) if in_doubt(fit) and not told else []
-        fit, causes = _off_the_causes(fit, causes)
-        refused = in_doubt(fit) and not told and not serving(causes) and explains(fit)
-        odd_ones = asked.odd_ones(alone) if refused else []
-    verdict = judge(fit, causes, apart, [one.name for one in every], members.scale_known, odd, odd_ones)
-    cause = next(iter(serving(causes)), None)
-    fit = cause.fit if cause is not None else fit
-    remarks = asked.remarks(problem, fit)
-    if aimed_anew is not None:
-        apart_mm = 1e3 * spots_apart_m(problem.joined, fit.one.z)
+        tried = _tried(asked)
+    names = [one.name for one in every]
+    verdict = judge(
+        tried.fit, tried.causes, tried.apart, names, members.scale_known, tried.odd, tried.odd_ones
+    )
+    cause = next(iter(serving(tried.causes)), None)
+    fit = cause.fit if cause is not None else tried.fit
+    remarks = asked.remarks(tried.problem, fit)
+    if tried.aimed_anew:
+        apart_mm = 1e3 * spots_apart_m(tried.problem.joined, fit.one.z)
         remarks += (
             "the laser's spot was elsewhere from temperature to temperature (up to "
             f"{two_digits(apart_mm)} mm): each has its own",
@@ -186,19 +175,59 @@ def identify_shifted(
             f"one factor a temperature says nothing between them: the law is at {reference:g} degC, the "
             f"nearest to {reference_c:g}",
         )
-    joined = problem.joined
+    joined = tried.problem.joined
     return Shifted(
         fit,
         verdict,
         band,
-        tuple(alone),
+        tuple(tried.alone),
         cause,
         perf_counter() - began,
         remarks,
         joined.adjusted(fit.one.z, fit.stated_errors),
         joined.modes(fit.one.velocity_m_s),
-        otherwise,
+        tried.otherwise,
     )
+
+
+@dataclass(frozen=True)
+class _Tried:
+    """One law for all, and what was looked at where it does not serve."""
+
+    alone: Sequence[Alone]
+    problem: TemperatureProblem
+    fit: ShiftedFit
+    aimed_anew: bool
+    """Whether each temperature has a spot of its own."""
+    otherwise: str
+    """What to ask of tables that fit far better in another unit."""
+    odd: Sequence[str]
+    """Readings that are to be looked at first."""
+    apart: ShiftedFit | None
+    """One law with a factor for every temperature."""
+    causes: list[Cause]
+    odd_ones: Sequence[OddOne]
+
+
+def _tried(asked: TemperatureFits) -> _Tried:
+    """Every fit in its turn, as far as the ones before leave doubt."""
+    alone, problem, fit = asked.fitted(with_effects=False)
+    if in_doubt(fit) and explains(fit):
+        fit = asked.freer(problem, fit)
+    aimed_anew = asked.with_own_spots(alone) if in_doubt(fit) else None
+    if aimed_anew is not None:
+        problem, fit = aimed_anew
+    # A column that is meant otherwise is no row's fault, a row that is wrong is no temperature's, nor a
+    # cause that all have.
+    otherwise = asked.read_otherwise(alone) if in_doubt(fit) else ""
+    odd = [otherwise] if otherwise else asked.members.odd_rows(alone) if in_doubt(fit) else []
+    apart = asked.each_apart(alone) if in_doubt(fit) and not odd else None
+    told = bool(odd) or (apart is not None and not in_doubt(apart))
+    causes = asked.common_causes(alone, problem, fit) if in_doubt(fit) and not told else []
+    fit, causes = _off_the_causes(fit, causes)
+    refused = in_doubt(fit) and not told and not serving(causes) and explains(fit)
+    odd_ones = asked.odd_ones(alone) if refused else []
+    return _Tried(alone, problem, fit, aimed_anew is not None, otherwise, odd, apart, causes, odd_ones)
 
 
 def _off_the_causes(fit: ShiftedFit, causes: list[Cause]) -> tuple[ShiftedFit, list[Cause]]:
