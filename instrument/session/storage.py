@@ -95,25 +95,26 @@ def _by_the_system(error: OSError | RuntimeError, path: Path) -> OSError:
 
 
 def _put_together(temporary: Path, configuration: Configuration, parts: list[Path]) -> None:
-    points: list[PointMeasured] = []
-    calibrations: list[CalibrationFound] = []
     with h5py.File(temporary, "w") as file:
         file.attrs["format"], file.attrs["layout_version"] = FORMAT, LAYOUT_VERSION
         file["configuration"] = configuration.model_dump_json()
+        kept: list[PointMeasured | CalibrationFound] = []
         for number, part in enumerate(parts, start=1):
-            with h5py.File(part, "r") as source:
-                group = file.create_group(f"parts/{number:06d}")
-                for name in source:
-                    source.copy(name, group)
-                for event in _events(group, with_samples=False):
-                    if isinstance(event, PointMeasured):
-                        points.append(event)
-                    elif isinstance(event, CalibrationFound):
-                        calibrations.append(event)
-        _write_points(file, points)
-        for found in calibrations:
-            group = file.require_group(f"calibration/{found.range_name.replace('/', ' per ')}")
-            group.attrs.update({k: v for k, v in found.facts().items() if k != "range_name"})
+            group = file.create_group(f"parts/{number:06d}")
+            _copy(part, group)
+            events = _events(group, with_samples=False)
+            kept += [event for event in events if isinstance(event, PointMeasured | CalibrationFound)]
+        _write_points(file, [event for event in kept if isinstance(event, PointMeasured)])
+        for found in kept:
+            if isinstance(found, CalibrationFound):
+                group = file.require_group(f"calibration/{found.range_name.replace('/', ' per ')}")
+                group.attrs.update({k: v for k, v in found.facts().items() if k != "range_name"})
+
+
+def _copy(part: Path, group: h5py.Group) -> None:
+    with h5py.File(part, "r") as source:
+        for name in source:
+            source.copy(name, group)
 
 
 _CUT = re.compile(r"truncated file: eof = (\d+),.* stored_eof = (\d+)")
