@@ -209,38 +209,48 @@ class Runner:
 
     def _measure(self, began: StepBegan) -> Result:
         """One step, again from its beginning after a hold."""
-        told = self._told
         self._control.declined()
         while True:
-            with self._watching.beats.asking("chamber"):
-                read = read_temperature(self._rig)
-            if read is not None:
-                self._emit(read)
-            with self._watching.beats.asking("vibrometer"):
-                level = self._rig.vibrometer.signal_level()
-            self._emit(SignalLevelRead(level))
-            if told.range is not None and began.frequency_hz > told.range.highest_hz:
-                raise RigStopped(
-                    f"at {began.frequency_hz:g} Hz: the vibrometer's range {told.range.name} reads up to "
-                    f"{told.range.highest_hz:g} Hz: choose another in [[sweep.segments]], or its filter"
-                )
-            if lowers_first(told.frequency_hz, told.drive_v, began.frequency_hz, began.drive_v):
-                self._lower(began.drive_v)
-            self._emit(began)
-            self._command(began.frequency_hz, began.drive_v)
+            self._begin_step(began)
             while not self._control.held:
                 if self._declined(began):
                     declined = StepDeclined(began.step, began.segment, began.sweep, began.frequency_hz)
                     self._emit(declined)
                     return declined
-                for event in self.read(self._analysis.wanted):
-                    if isinstance(event, DriveRequested):
-                        self._command(began.frequency_hz, event.drive_v)
-                    elif isinstance(event, RangeRequested):
-                        self.set_range(event.name)
-                    elif isinstance(event, PointMeasured | LoopChecked):
-                        return event
+                result = self._read_on(began)
+                if result is not None:
+                    return result
             self._hold()
+
+    def _begin_step(self, began: StepBegan) -> None:
+        told = self._told
+        with self._watching.beats.asking("chamber"):
+            read = read_temperature(self._rig)
+        if read is not None:
+            self._emit(read)
+        with self._watching.beats.asking("vibrometer"):
+            level = self._rig.vibrometer.signal_level()
+        self._emit(SignalLevelRead(level))
+        if told.range is not None and began.frequency_hz > told.range.highest_hz:
+            raise RigStopped(
+                f"at {began.frequency_hz:g} Hz: the vibrometer's range {told.range.name} reads up to "
+                f"{told.range.highest_hz:g} Hz: choose another in [[sweep.segments]], or its filter"
+            )
+        if lowers_first(told.frequency_hz, told.drive_v, began.frequency_hz, began.drive_v):
+            self._lower(began.drive_v)
+        self._emit(began)
+        self._command(began.frequency_hz, began.drive_v)
+
+    def _read_on(self, began: StepBegan) -> PointMeasured | LoopChecked | None:
+        """What the next block ends the step with; None: it goes on, with the drive or range asked for."""
+        for event in self.read(self._analysis.wanted):
+            if isinstance(event, DriveRequested):
+                self._command(began.frequency_hz, event.drive_v)
+            elif isinstance(event, RangeRequested):
+                self.set_range(event.name)
+            elif isinstance(event, PointMeasured | LoopChecked):
+                return event
+        return None
 
     def _declined(self, began: StepBegan) -> bool:
         """Whether a person would not have this step, the loop check before it included."""
