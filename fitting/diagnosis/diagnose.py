@@ -28,7 +28,6 @@ from fitting.diagnosis.verdict.kin import UNLISTED, Unlisted, kin_of
 from fitting.diagnosis.verdict.resampling import Again, Resampled, gain, repeats_of, resampled_of
 from fitting.diagnosis.verdict.result import Candidate, Diagnosis, FoundEffect, ParameterEstimate, Rivals
 from fitting.diagnosis.verdict.stage import few_of_law, found_effects, mixed_band, stage_of
-from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.progress import Report, unheard
@@ -121,8 +120,7 @@ def diagnose_problem(
         options.executor,
         to_its_end=by_hand is not None,
     )
-    bases = [CATALOGUE[e.extends] for e in effects if e.extends and e.extends not in catalogue]
-    search = Search(begun.problem, begun.evidence, begun.none, effects, options.executor, bases)
+    search = Search(begun.problem, begun.evidence, begun.none, effects, options.executor)
     decided = _decided(search, case, options) if by_hand is None else _taken_on_trust(search, trusted)
     if channels is None:
         channels = ChannelsSeen((), reasons(np.zeros(len(problem.sweep), bool), ""))
@@ -257,7 +255,6 @@ def _judged(search: Search, scored_fits: Sequence[ScoredFit]) -> Judgement:
     t = search.temper_of(scored_fits)
     judgement = judge(
         *search.tempered(scored_fits),
-        hidden=frozenset(e.name for e in search.unnamed),
         held_out=search.off_unseen,
         kin=lambda scored: kin_of(search, scored.fitted, t),
     )

@@ -72,7 +72,6 @@ def diagnose_modes(
     judgement = judge(
         none,
         found,
-        hidden=frozenset(),
         held_out=work.held_out,
         kin=lambda scored: kin_of_modes(begun, scored.fitted, t),
     )

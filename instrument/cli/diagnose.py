@@ -27,7 +27,7 @@ from instrument.results.session_result import Conditions, result_of
     "--without",
     multiple=True,
     metavar="NAME",
-    help="Leave this effect out of consideration; may be given several times.",
+    help="Leave this effect, and what contains it, out of consideration; may be given several times.",
 )
 @click.option(
     "--accept",

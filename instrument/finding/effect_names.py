@@ -24,7 +24,8 @@ def effects_among(
 
     A base that moves, or a clamp, is of those that have one; all must offer what else an effect needs. What
     goes with the level of a base is of those that one drives, where others are struck. Raises `BadInput` for
-    a name that is none of them.
+    a name that is none of them. What is in `without` takes along what contains it: a clamp that does not
+    yield does not yield unevenly.
     """
     refuse_unknown_effects([*without, *(accept or ())])
     first = specimens[0]
@@ -44,4 +45,9 @@ def effects_among(
                 f"effect {name!r} has no meaning on this {first.kind} driven by a {drives}, "
                 f"expected one of {', '.join(sorted(standing))}"
             )
-    return [found for name, found in standing.items() if name not in without]
+    return [found for found in standing.values() if not is_left_out(found[0], without)]
+
+
+def is_left_out(effect: Effect, without: Collection[str]) -> bool:
+    """Whether an effect, or the one that it contains, is among names that are not considered."""
+    return not {effect.name, effect.extends}.isdisjoint(without)

@@ -31,7 +31,7 @@ from fitting.structures.beam import Beam
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from fitting.widened.enriching import enriched, reach_over
 from fitting.widened.full_plate import FullPlate
-from instrument.finding.effect_names import refuse_unknown_effects
+from instrument.finding.effect_names import is_left_out, refuse_unknown_effects
 from instrument.models.cache import cached
 from instrument.progress import Progress, quiet
 from instrument.remarks.free_layers import remark_on_free_layers
@@ -130,7 +130,7 @@ def diagnose_tables(
                 for t, s in zip(tables, specimens, strict=True)
             ]
         ready = perf_counter()
-        effects = tuple(e for e in standing(specimens) if e.name not in without)
+        effects = tuple(e for e in standing(specimens) if not is_left_out(e, without))
         with progress("tracing what is left") as report:
             found = diagnose_modes(ModalProblem.of(members), effects, start, report)
     accepted = found.judgement.accepted

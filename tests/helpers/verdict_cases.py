@@ -14,11 +14,10 @@ def scored(*names, cost, fails=False, stands_in="", too_large="", tolerances=0.5
     return ScoredFit(fitted, cost, checks, stands_in, too_large, unsized)
 
 
-def judged(none, *scored_fits, hidden=(), off=None):
+def judged(none, *scored_fits, off=None):
     return judge(
         none,
         scored_fits,
-        hidden=frozenset(hidden),
         held_out=lambda one: (off or {}).get(one.names, 1.0),
     )
 

@@ -95,24 +95,19 @@ class Search:
         none: Refitted,
         effects: Sequence[Effect],
         executor: Executor,
-        unnamed: Sequence[Effect] = (),
     ) -> None:
-        """`unnamed` are fitted alone, for comparison, and never named."""
         self.problem, self.evidence, self.executor = problem, evidence, executor
         self.stated = stated = none.law
         self._validations: dict[Refitted, Validation] = {}
-        self.effects, self.unnamed = (
-            [e for e in some if e.objection(problem.points, problem.plate) is None]
-            for some in (effects, unnamed)
-        )
+        self.effects = [e for e in effects if e.objection(problem.points, problem.plate) is None]
         self.objected = tuple(e for e in effects if e not in self.effects)
         """Effects that were asked for, and that these data cannot carry."""
         self.passing_for_a_law = tuple(e.name for e in effects if e.passes_for_a_law(problem.points))
         """Effects that these data would show as another law."""
-        fitted = [e for e in (*self.effects, *self.unnamed) if not e.laws(stated, problem.points)]
+        fitted = [e for e in self.effects if not e.laws(stated, problem.points)]
         # The longest first, so that all worker processes end together.
         self.beside_the_law = sorted(fitted, key=has_place, reverse=True)
-        self.work = CandidateFits(problem, evidence, none, [*self.effects, *self.unnamed])
+        self.work = CandidateFits(problem, evidence, none, self.effects)
         self._none = none
         self._ends: dict[Refitted, Refitted] = {}
         """Fits followed to their very end."""
@@ -124,7 +119,7 @@ class Search:
         """The same search with other evidence: of the same readings with another noise."""
         none = self.none.fitted
         again = refit(response_of(self.problem, ()), evidence, none.law, none.u)
-        search = Search(self.problem, evidence, again, self.effects, self.executor, self.unnamed)
+        search = Search(self.problem, evidence, again, self.effects, self.executor)
         search.objected = self.objected
         return search
 

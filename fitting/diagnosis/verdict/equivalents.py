@@ -7,14 +7,12 @@ from fitting.diagnosis.search.catalogue_search import ScoredFit
 from fitting.diagnosis.verdict.names import NONE
 
 
-def equivalents_of(
-    best: ScoredFit, group: Sequence[tuple[ScoredFit, float]], hidden: frozenset[str]
-) -> dict[str, tuple[str, ...]]:
+def equivalents_of(best: ScoredFit, group: Sequence[tuple[ScoredFit, float]]) -> dict[str, tuple[str, ...]]:
     """For each effect of the best what stands in its place in others of the group.
 
     What comes beside another of the group stands in no place of its own: that other one does.
     """
-    every = [set(t.names) for t, _ in group if t.names and not hidden & set(t.names)]
+    every = [set(t.names) for t, _ in group if t.names]
     shown = [one for one in every if not one <= set(best.names)]
     others = [t.names for t, _ in group if not any(one < set(t.names) for one in shown)]
     alone = {name: _instead_of(name, best.names, others) for name in best.names}
@@ -26,7 +24,7 @@ def equivalents_of(
             if not other:
                 names.append(NONE)
             elif name not in other:
-                there = [n for n in other if n in _for(name, other, alone) and n not in hidden]
+                there = [n for n in other if n in _for(name, other, alone)]
                 names += [n for n in there if n not in beside] or there
         found[name] = tuple(dict.fromkeys(names))
     return found

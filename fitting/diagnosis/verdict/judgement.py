@@ -125,28 +125,26 @@ def judge(
     none: ScoredFit,
     scored_fits: Sequence[ScoredFit],
     *,
-    hidden: frozenset[str],
     held_out: HeldOut,
     kin: Callable[[ScoredFit], Kin | None] = lambda scored: None,
 ) -> Judgement:
     """Weigh explanations.
 
-    `hidden`: effects that may not be named, fitted for comparison. `held_out`: error of an explanation over
-    noise on data it has not seen, NaN where there are none. `kin`: of one, what is in no catalogue.
+    `held_out`: error of an explanation over noise on data it has not seen, NaN where there are none. `kin`:
+    of one, what is in no catalogue.
     """
     every = best_of_each([none, *scored_fits])
     p = shares_of(every)
     order = np.argsort(-p, kind="stable")
     ranked = [(every[k], float(p[k])) for k in order]
-    visible = [t for t, _ in group_of(ranked) if not hidden & set(t.names)]
-    named = [t for t in visible if t.names]
+    named = [t for t, _ in group_of(ranked) if t.names]
     if not named or _may_be_none(ranked, named[0]):
-        weighed = _Weighed(ranked, hidden)
-        if none.fails or not visible:
+        weighed = _Weighed(ranked)
+        if none.fails:
             return _unknown(weighed, none)
         return weighed.judgement("none", None)
     standing = [t for t in named if not against(none, t, held_out)]
-    weighed = _beside_kin(ranked, hidden, {t: kin(t) for t in standing or named})
+    weighed = _beside_kin(ranked, {t: kin(t) for t in standing or named})
     if not standing:
         return _unknown(weighed, named[0], against(none, named[0], held_out))
     best = standing[0]
@@ -179,7 +177,6 @@ class _Weighed:
     """Every explanation with its probability, the likeliest first."""
 
     ranked: Sequence[tuple[ScoredFit, float]]
-    hidden: frozenset[str]
     unlisted: Unlisted | None = None
     share_of_kin: float = 0.0
 
@@ -201,7 +198,7 @@ class _Weighed:
         refused: tuple[str, ...] = (),
         why: str = "",
     ) -> Judgement:
-        equivalent = equivalents_of(accepted, self.group, self.hidden) if accepted is not None else {}
+        equivalent = equivalents_of(accepted, self.group) if accepted is not None else {}
         if _is_doubted(self.share_of_kin):
             equivalent = {name: (*group, UNLISTED) for name, group in equivalent.items()}
         return Judgement(
@@ -219,7 +216,6 @@ class _Weighed:
 
 def _beside_kin(
     ranked: Sequence[tuple[ScoredFit, float]],
-    hidden: frozenset[str],
     kin: Mapping[ScoredFit, Kin | None],
 ) -> _Weighed:
     """Explanations with the kin of some of them as one more.
@@ -234,13 +230,11 @@ def _beside_kin(
     akin.sort(key=lambda one: -one[2])
     beside = sum(share for *_, share, _ in akin)
     if not beside > 0:
-        return _Weighed(ranked, hidden)
+        return _Weighed(ranked)
     first, _, _, share_of_first = akin[0]
     of = tuple((t, own, share / beside) for t, own, share, _ in akin)
     cost = first.cost - 2 * float(np.log(beside) - np.log(share_of_first))
-    return _Weighed(
-        ranked, hidden, Unlisted(first.fitted, cost, of=of), min(beside / (1 + beside), _MOST_OF_KIN)
-    )
+    return _Weighed(ranked, Unlisted(first.fitted, cost, of=of), min(beside / (1 + beside), _MOST_OF_KIN))
 
 
 def _unknown(weighed: _Weighed, nearest: ScoredFit, why: str = "") -> Judgement:

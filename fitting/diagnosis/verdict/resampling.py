@@ -78,7 +78,6 @@ class Again:
         search, scored_fits = self.searched(self.remade(problem.sweep.take(~held)))
         judged = judge(
             *search.tempered(scored_fits),
-            hidden=frozenset(),
             held_out=lambda scored: float("nan"),
         )
         best = (judged.accepted or search.none).fitted

@@ -50,9 +50,7 @@ def judged(none, *others, off=None, kin=None):
         return None if kin is None else Kin(kin, np.zeros(1), np.zeros((1, 1)), np.zeros(1))
 
     held_out = (off or {}).get
-    return judge(
-        none, others, hidden=frozenset(), held_out=lambda one: held_out(one.names, 1.0), kin=akin
-    ).verdict
+    return judge(none, others, held_out=lambda one: held_out(one.names, 1.0), kin=akin).verdict
 
 
 @pytest.mark.parametrize(("of_none", "verdict"), [(0.19, "ambiguous"), (0.21, "none")])
@@ -85,7 +83,7 @@ def test_kin_leaves_an_effect_certain_up_to_a_twentieth_and_named_up_to_twice_as
 
 def test_what_may_stand_in_keeps_three_fifths_beside_what_passes_all_checks():
     sure, other = explanation("gain_error", stands_in="not seen"), explanation("tether", probability=1e-9)
-    said = judge(REFUSED_NONE, [sure, other], hidden=frozenset(), held_out=lambda one: 1.0)
+    said = judge(REFUSED_NONE, [sure, other], held_out=lambda one: 1.0)
     assert said.of_effect("gain_error") == pytest.approx(0.6)
     assert said.of_effect("tether") == pytest.approx(0.4)
 

@@ -1,9 +1,10 @@
 """Effects by the names that people write."""
 
 import pytest
+from rig_plate import plate_of_the_rig
 
 from instrument.errors import BadInput
-from instrument.finding.effect_names import refuse_unknown_effects
+from instrument.finding.effect_names import effects_on, refuse_unknown_effects
 
 
 def test_names_of_the_catalogue_pass():
@@ -18,3 +19,10 @@ def test_a_name_with_a_slip_is_refused_with_the_one_that_was_meant():
 def test_a_name_like_no_other_is_refused_with_all_of_them():
     with pytest.raises(BadInput, match=r"^effect 'gremlins', expected one of absolute_velocity, "):
         refuse_unknown_effects(["gremlins"])
+
+
+def test_what_contains_an_effect_is_left_out_with_it():
+    plate = plate_of_the_rig()
+    every, left = ({e.name for e in effects_on(plate, without)} for without in ((), ("clamp_compliance",)))
+    assert every - left == {"clamp_compliance", "clamp_friction", "uneven_clamp"}
+    assert every - {e.name for e in effects_on(plate, ("uneven_clamp",))} == {"uneven_clamp"}

@@ -7,9 +7,9 @@ from fitting.diagnosis.verdict.equivalents import equivalents_of
 BEST = scored("channel_delay", "spot_offset", cost=0.0)
 
 
-def of_group(*others, hidden=()):
+def of_group(*others):
     group = [BEST, *(scored(*names, cost=1.0) for names in others)]
-    return equivalents_of(BEST, [(one, 1 / len(group)) for one in group], frozenset(hidden))
+    return equivalents_of(BEST, [(one, 1 / len(group)) for one in group])
 
 
 def test_what_is_beside_the_rest_of_the_best_stands_for_the_one_it_lacks():
@@ -23,6 +23,5 @@ def test_where_both_are_exchanged_each_stands_for_what_it_stands_for_alone():
     assert found["spot_offset"] == ("spot_offset", "base_roll")
 
 
-def test_none_stands_for_every_effect_and_what_is_hidden_for_none():
+def test_none_stands_for_every_effect():
     assert of_group(()) == {n: (n, "none") for n in BEST.names}
-    assert of_group(("core_thickness",), hidden=("core_thickness",)) == {n: (n,) for n in BEST.names}

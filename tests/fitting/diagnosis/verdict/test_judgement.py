@@ -182,17 +182,6 @@ def test_what_is_unlikely_without_any_effect_but_no_effect_explains_is_unknown()
     assert judged(scored(cost=0.0), scored("gain_error", cost=5.0)).verdict == "none"
 
 
-def test_hidden_effects_are_weighed_and_not_named():
-    hidden = scored("base_rocking", cost=0.0)
-    said = judged(POOR_NONE, hidden, scored("fixture_resonance", cost=1.0), hidden=("base_rocking",))
-    assert said.verdict == "ambiguous"
-    assert said.accepted.names == ("fixture_resonance",)
-    assert said.equivalent == {"fixture_resonance": ("fixture_resonance",)}
-    assert said.probability[("base_rocking",)] > said.probability[("fixture_resonance",)]
-    alone = judged(POOR_NONE, hidden, scored("fixture_resonance", cost=2 * EVEN), hidden=("base_rocking",))
-    assert (alone.verdict, alone.accepted) == ("unknown", None)
-
-
 def test_a_second_effect_that_is_not_needed_leaves_the_first_alone():
     """Every explanation of the group has the delay: it is there, whatever stands beside it."""
     said = judged(

@@ -14,7 +14,7 @@ def with_kin(odds, *scored_fits, none=POOR_NONE, apart=0.0):
         found = odds.get(one.names)
         return None if found is None else Kin(found, np.zeros(1), np.zeros((1, 1)), np.zeros(1), apart)
 
-    return judge(none, scored_fits, hidden=frozenset(), held_out=lambda one: 1.0, kin=kin)
+    return judge(none, scored_fits, held_out=lambda one: 1.0, kin=kin)
 
 
 @pytest.mark.parametrize(
