@@ -189,7 +189,8 @@ def _diagnosis(decided: _Decided, case: DiagnosisCase, channels: ChannelsSeen, r
         after = stage_of(problem, evidence, accepted.fitted, search.validation(accepted), temper)
         found = found_effects(accepted.fitted, problem.plate, temper)
     if judgement.unlisted is not None or judgement.verdict != "unknown":
-        after = replace(after, band=mixed_band(problem, search, judgement.weighing(search.none)))
+        laws, wrong = judgement.weighing(search.none), judgement.weighs_wrong_laws
+        after = replace(after, band=mixed_band(problem, search, laws, all_wrong=wrong))
     absent, scored_fits = search.tempered(decided.scored_fits)
     if judgement.unlisted is not None:
         scored_fits.append(judgement.unlisted)

@@ -58,6 +58,15 @@ class KnownCurve:
             by_stated=W @ self.by_stated,
         )
 
+    def wider_by(self, variance: Array) -> "KnownCurve":
+        """Known so much worse, at each frequency for itself. Shape (2 frequencies,)."""
+        more = np.diag(variance)
+        return replace(
+            self,
+            covariance=self.covariance + more,
+            of_another_measurement=self.of_another_measurement + more,
+        )
+
     def passed_on(self, names: Sequence[str]) -> Array:
         """By these of its stated numbers. Shape (2 frequencies, names)."""
         return self.by_stated[:, [self.stated.index(name) for name in names]]

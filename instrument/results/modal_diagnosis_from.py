@@ -81,7 +81,8 @@ def _band_over(
         (modal_band(modal_fit_of(found.begun, scored.fitted, found.temper, kin), tables), share)
         for scored, kin, share in each_of(weighing)
     ]
-    return mixture_of([band for band, _ in each], np.array([share for _, share in each]))
+    shares = np.array([share for _, share in each])
+    return mixture_of([band for band, _ in each], shares, all_wrong=found.judgement.weighs_wrong_laws)
 
 
 def _few_of_law(

@@ -76,6 +76,11 @@ class Judgement:
         listed = [(t, (1 - akin) * share) for t, share in self.group]
         return [*listed, *((t, akin * share) for t, share in self.unlisted.weighing(none))]
 
+    @property
+    def weighs_wrong_laws(self) -> bool:
+        """Whether the laws of `weighing` only say how far laws may be apart: nothing explains the readings."""
+        return self.verdict == "unknown"
+
     def of_effect(self, name: str) -> float:
         """Probability that an effect is there, alone or beside another."""
         return float(sum(p for names, p in self.probability.items() if name in names))

@@ -25,6 +25,9 @@ from fitting.widened.enriched_plate import EnrichedReducedPlate
 _AT_LIMIT = 1e-6
 """Of the range between an unknown's limits: nearer to one it sits on it, and its error says nothing. Of the
 range, unlike in `verdict.kin` and `search.stand_in`: it is what the error is compared with, too."""
+_NEXT_TO = float(np.log(2.0))
+"""In ln f, to either side: how far wrong laws are from one another there says how far they may be here. An
+octave: moduli change little over it. A choice."""
 FEW = 9
 """Frequencies at which a candidate's law is listed, and the reference ones."""
 
@@ -89,11 +92,16 @@ def few_of_law(problem: DiagnosisProblem, fitted: Refitted, temper: float) -> La
 
 
 def mixed_band(
-    problem: DiagnosisProblem, search: Search, group: Sequence[tuple[ScoredFit, float]], *, few: bool = False
+    problem: DiagnosisProblem,
+    search: Search,
+    group: Sequence[tuple[ScoredFit, float]],
+    *,
+    few: bool = False,
+    all_wrong: bool = False,
 ) -> LawBand:
     """The law over all explanations of a group: mean and standard deviation of their mixture.
 
-    At a `few` frequencies only, where a candidate's law is listed.
+    At a `few` frequencies only, where a candidate's law is listed; `all_wrong` as `mixture_of` takes it.
 
     Each brings its own posterior; where they disagree, so does the band.
     """
@@ -112,7 +120,7 @@ def mixed_band(
         band = law_band(problem.sweep, law, _of_law(at, C), **points)
         bands.append(replace(band, known=_known(problem, at, C)))
         shares.append(share)
-    return mixture_of(bands, np.array(shares))
+    return mixture_of(bands, np.array(shares), all_wrong=all_wrong)
 
 
 def each_of(group: Sequence[tuple[ScoredFit, float]]) -> Iterator[tuple[ScoredFit, Kin | None, float]]:
@@ -124,22 +132,41 @@ def each_of(group: Sequence[tuple[ScoredFit, float]]) -> Iterator[tuple[ScoredFi
             yield scored, None, share
 
 
-def mixture_of(bands: Sequence[LawBand], shares: Array) -> LawBand:
-    """Mean and standard deviation of laws over the same frequencies; `shares` of shape (laws,)."""
+def mixture_of(bands: Sequence[LawBand], shares: Array, *, all_wrong: bool = False) -> LawBand:
+    """Mean and standard deviation of laws over the same frequencies; `shares` of shape (laws,).
+
+    Laws that are `all_wrong` are known no better where they happen to cross.
+    """
+    f = bands[0].frequency_hz
 
     def mixture(value: str, error: str) -> tuple[Array, Array]:
         means = np.array([getattr(b, value) for b in bands])
         errors = np.array([getattr(b, error) for b in bands])
         mean = shares @ means
-        return mean, np.sqrt(shares @ (errors**2 + (means - mean) ** 2))
+        variance = shares @ (errors**2 + (means - mean) ** 2)
+        if all_wrong:
+            variance += _lacking(f, shares @ (means / mean - 1) ** 2) * mean**2
+        return mean, np.sqrt(variance)
 
     G, G_error = mixture("storage_modulus_pa", "storage_modulus_standard_error_pa")
     eta, eta_error = mixture("loss_factor", "loss_factor_standard_error")
     known = [b.known for b in bands if b.known is not None]
     whole = None
     if len(known) == len(bands):
-        whole = known_of_mixture([b.values_at(known[0].frequency_hz) for b in bands], known, shares)
-    return LawBand(bands[0].frequency_hz, G, eta, G_error, eta_error, whole)
+        at = known[0].frequency_hz
+        curves = np.array([b.values_at(at) for b in bands])
+        whole = known_of_mixture(curves, known, shares)
+        if all_wrong:
+            apart = shares @ (curves - shares @ curves) ** 2
+            whole = whole.wider_by(np.concatenate([_lacking(at, half) for half in np.split(apart, 2)]))
+    return LawBand(f, G, eta, G_error, eta_error, whole)
+
+
+def _lacking(frequency_hz: Array, variance: Array) -> Array:
+    """What a variance has less than on average round about. Shape (frequencies,) each."""
+    x = np.log(frequency_hz)
+    weights = np.exp(-((x[:, None] - x) ** 2) / (2 * _NEXT_TO**2))
+    return np.maximum(weights @ variance / weights.sum(axis=1) - variance, 0.0)
 
 
 def found_effects(

@@ -91,6 +91,20 @@ def test_laws_that_disagree_widen_their_mixture():
     assert mixed.loss_factor_standard_error == pytest.approx([0.01, 0.01])
 
 
+def test_laws_that_are_all_wrong_are_known_no_better_where_they_cross():
+    f = np.geomspace(10.0, 1000.0, 41)
+    slope, small = np.log10(f / 100.0), np.full(41, 1e-3)
+    bands = [LawBand(f, 1e6 * (1 + s * slope), np.full(41, 0.3), 1e3 + 0 * f, small) for s in (0.1, -0.1)]
+    shares = np.array([0.5, 0.5])
+    plain, wrong = (mixture_of(bands, shares, all_wrong=one) for one in (False, True))
+    assert plain.storage_modulus_standard_error_pa[20] == pytest.approx(1e3)
+    # As far apart as an octave away: the mean square of 0.1 log10(f / 100 Hz), one ln 2 to either side.
+    assert wrong.storage_modulus_standard_error_pa[20] == pytest.approx(1e5 * np.log10(2.0), rel=0.05)
+    assert np.all(wrong.storage_modulus_standard_error_pa >= plain.storage_modulus_standard_error_pa)
+    assert wrong.storage_modulus_pa == pytest.approx(plain.storage_modulus_pa)
+    assert wrong.loss_factor_standard_error == pytest.approx(small)
+
+
 def test_effects_are_told_with_errors_unless_they_end_at_a_limit():
     gain_error, tether = GainErrorEffect(), TetherEffect()
     plate = SimpleNamespace(length_m=0.3, width_m=0.2)
