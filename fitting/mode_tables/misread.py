@@ -55,9 +55,12 @@ def misread(begun: BegunModal) -> Misread | None:
     spare = 2 * (count - 1) - none.parameter_count
     if count < _FEWEST or spare < _SPARE or none.chi2 < _most(none, spare + _SPARE) + _PLAINER:
         return None
-    found = [(fit.chi2, k, fit) for k in range(count) if (fit := _without(begun, k)) is not None]
+    most = _most(none, spare)
+    # What ends above the goal is neither the odd one nor near to it.
+    each = ((k, _without(begun, k, goal=most + _PLAINER)) for k in range(count))
+    found = [(fit.chi2, k, fit) for k, fit in each if fit is not None]
     found.sort(key=lambda one: one[0])
-    if not found or found[0][0] > _most(none, spare):
+    if not found or found[0][0] > most:
         return None
     if len(found) > 1 and found[1][0] < found[0][0] + _PLAINER:
         return None
@@ -73,13 +76,17 @@ def _most(none: Refitted, dof: int) -> float:
     return _WITHIN * dof + float(chi2_exceeded(VERDICT.check_level, known)) if known else _WITHIN * dof
 
 
-def _without(begun: BegunModal, k: int) -> Refitted | None:
-    """The best fit of all but one mode, from the law of all and from the one that was begun with."""
+def _without(begun: BegunModal, k: int, goal: float) -> Refitted | None:
+    """The best fit of all but one mode, from the law of all and from the one that was begun with.
+
+    `goal` as `refit` takes it.
+    """
     rest = np.arange(len(begun.problem.frequency_hz)) != k
+    response, u = begun.problem.response(), 0 * begun.none.u
     found = []
     for law in (begun.none.law, begun.start):
         try:
-            found.append(refit(begun.problem.response(), begun.evidence, law, 0 * begun.none.u, points=rest))
+            found.append(refit(response, begun.evidence, law, u, points=rest, goal=goal))
         except (OutsideModel, np.linalg.LinAlgError):
             continue
     return min(found, key=by_chi2, default=None)

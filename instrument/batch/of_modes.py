@@ -5,12 +5,11 @@ from typing import Any
 
 import numpy as np
 
-from fitting.mode_tables.fit import modal_fit_of
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.modal import ModalResult
 from instrument.files.modal_table import read_modal_table
 from instrument.files.structure_file import read_structure
-from instrument.finding.modal import diagnose_tables, identify_tables
+from instrument.finding.modal import diagnose_tables, first_fit_of, identify_tables
 from instrument.interchange.questions import question_modes
 from instrument.results.modal_diagnosis_from import modal_diagnosis_from
 from instrument.results.modal_from import mean_temperature, modal_from
@@ -22,7 +21,7 @@ def identified_modes(data: Path, specimen: Path, *, insist: bool) -> tuple[Modal
     specimens = [read_structure(specimen)]
     found = identify_tables(tables, specimens)
     if not insist:
-        question_modes(tables, found.fit, [data], specimens)
+        question_modes(tables, found.fit, [data], specimens, odd=found.odd)
     result = modal_from(found, tables, [data.name])
     return result, _measured(tables[0].frequency_hz, mean_temperature(tables))
 
@@ -31,9 +30,10 @@ def diagnosed_modes(data: Path, specimen: Path, *, insist: bool) -> tuple[Diagno
     """What `diagnose` says of it, and the same. Raises `BadInput`, `FittingError`."""
     tables = [read_modal_table(data)]
     specimens = [read_structure(specimen)]
-    found = diagnose_tables(tables, specimens)
     if not insist:
-        question_modes(tables, modal_fit_of(found.found.begun), [data], specimens)
+        first, odd = first_fit_of(tables, specimens)
+        question_modes(tables, first, [data], specimens, odd=odd)
+    found = diagnose_tables(tables, specimens)
     result = modal_diagnosis_from(found, tables, [data.name])
     return result, _measured(tables[0].frequency_hz, mean_temperature(tables))
 

@@ -3,11 +3,10 @@
 from collections.abc import Collection, Sequence
 from pathlib import Path
 
-from fitting.mode_tables.fit import modal_fit_of
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.cli.reading import read_tables
-from instrument.finding.modal import diagnose_tables
+from instrument.finding.modal import diagnose_tables, first_fit_of
 from instrument.interchange.questions import question_modes, question_numbers
 from instrument.planning.unseen import with_unseen_in_tables
 from instrument.progress import bar
@@ -24,9 +23,10 @@ def diagnose_modes(
     tables, read = read_tables(data, specimens, insist=insist)
     if not insist:
         question_numbers(tables, read, data)
+        # Of tables that are misread no effect is looked for, which takes a minute.
+        first, odd = first_fit_of(tables, read, bar)
+        question_modes(tables, first, data, read, bar, odd)
     found = diagnose_tables(tables, read, without, bar)
-    if not insist:
-        question_modes(tables, modal_fit_of(found.found.begun), data, read, bar)
     result = with_unseen_in_tables(modal_diagnosis_from(found, tables, [path.name for path in data]), found)
     print_diagnosis(out, result)
     out.result(result)

@@ -39,7 +39,7 @@ def identify_modes(
         question_numbers(tables, read, data)
     found = identify_tables(tables, read, bar, read_modal_table(bare) if bare is not None else None)
     if not insist:
-        question_modes(tables, found.fit, data, read, bar)
+        question_modes(tables, found.fit, data, read, bar, found.odd)
     result = modal_from(found, tables, [path.name for path in data])
     errors = result.standard_errors
     rows = [[n, to_error(v, errors[n]), f"{errors[n]:.2g}"] for n, v in result.parameters.items()]

@@ -19,7 +19,7 @@ from fitting.mode_tables.build import member_of, own_motions
 from fitting.mode_tables.diagnose import DiagnosedModes, diagnose_modes
 from fitting.mode_tables.fit import BegunModal, ModalFit, begin_modal, modal_fit_of, problem_of, start_of
 from fitting.mode_tables.formulas import ByFormula, by_formula
-from fitting.mode_tables.misread import misread
+from fitting.mode_tables.misread import Misread, misread
 from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.standing import standing
 from fitting.mode_tables.table import ModalTable
@@ -56,6 +56,20 @@ class TablesIdentified:
     formulas: tuple[tuple[ByFormula, ...], ...] = ()
     """Moduli by formula, for each mode of every table."""
     setup_seconds: float = 0.0
+    odd: Misread | None = None
+    """The mode that does not go with the others."""
+
+
+def first_fit_of(
+    tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen], progress: Progress = quiet
+) -> tuple[ModalFit, Misread | None]:
+    """The law without any effect, and the mode that does not go with the others: to ask about, first of all.
+
+    Raises as `identify_tables`, but for the theory.
+    """
+    with threadpool_limits(1, "blas"), progress("fitting modes"):
+        begun = begin_modal(problem_of(tables, specimens), start_of(tables, specimens))
+        return modal_fit_of(begun), misread(begun)
 
 
 def identify_tables(
@@ -91,7 +105,7 @@ def identify_tables(
         *reads,
         *remarks_on_tables(tables, specimens),
     )
-    return TablesIdentified(found, begun, seconds, said, formulas, ready - began)
+    return TablesIdentified(found, begun, seconds, said, formulas, ready - began, odd)
 
 
 @dataclass(frozen=True)

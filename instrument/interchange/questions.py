@@ -10,6 +10,7 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.mode_tables.fit import ModalFit
+from fitting.mode_tables.misread import Misread
 from fitting.mode_tables.table import ModalTable
 from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen, ShearPair
@@ -77,10 +78,11 @@ def question_modes(
     paths: Sequence[Path],
     specimens: Sequence[AnySpecimen] = (),
     progress: Progress = quiet,
+    odd: Misread | None = None,
 ) -> None:
     """Ask about tables beside their fit without any effect; with `specimens` also how they may be meant.
 
-    Raises `BadInput`.
+    `odd` as `table_doubt` takes it. Raises `BadInput`.
     """
     question_tables(tables, paths)
     for table, path in zip(tables, paths, strict=False):
@@ -90,7 +92,7 @@ def question_modes(
     )
     question_modes_at(tables, np.concatenate(fit.as_stated_hz), paths)
     if specimens:
-        _ask(table_doubt(tables, specimens, fit.uncertainty.chi2_per_dof, progress), paths)
+        _ask(table_doubt(tables, specimens, fit.uncertainty.chi2_per_dof, progress, odd), paths)
 
 
 def question_tables(tables: Sequence[ModalTable], paths: Sequence[Path]) -> None:

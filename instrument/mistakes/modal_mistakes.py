@@ -10,8 +10,10 @@ from dataclasses import replace
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from fitting.arrays import Array
 from fitting.errors import FittingError
 from fitting.mode_tables.fit import begin_modal, problem_of, start_of
+from fitting.mode_tables.misread import Misread
 from fitting.mode_tables.table import ModalTable
 from fitting.structures import AnySpecimen
 from instrument.progress import Progress, quiet
@@ -35,14 +37,18 @@ def table_doubt(
     specimens: Sequence[AnySpecimen],
     chi2_per_dof: float,
     progress: Progress = quiet,
+    odd: Misread | None = None,
 ) -> str:
-    """What to ask of tables whose fit leaves so much; empty where no mistake explains it."""
+    """What to ask of tables whose fit leaves so much; empty where no mistake explains it.
+
+    `odd` is a mode without which one law explains all the others as they are.
+    """
     numbers = 2 * sum(len(t.mode) for t in tables)
     if not numbers * chi2_per_dof > BETTER:
         return ""
     gross = chi2_per_dof > GROSS
     with progress("reading the modes otherwise"), threadpool_limits(1, "blas"), np.errstate(all="ignore"):
-        for some in _readings(tables, gross=gross):
+        for some in _readings(tables, gross=gross) if odd is None else _readings_of_one(tables, odd.place):
             most = [min(part * chi2_per_dof, FITS) for *_, part in some]
             each = [
                 (_left(one[1], specimens, limit), limit, one[0])
@@ -72,9 +78,24 @@ def _readings(tables: Sequence[ModalTable], *, gross: bool) -> Iterator[list[Rea
     if not gross:
         return
     for k, table in enumerate(tables):
-        whose = f"{table.name}: " if len(tables) > 1 and table.name else ""
-        for words, other in _renumbered(table):
-            yield [(whose + words, [*tables[:k], other, *tables[k + 1 :]], _PART)]
+        for words, other in (*_with_one_missing(table, table.mode), *_with_one_too_many(table, table.mode)):
+            yield [_with(tables, k, words, other)]
+
+
+def _readings_of_one(tables: Sequence[ModalTable], place: int) -> Iterator[list[Reading]]:
+    """How the mode that does not go with the others may be meant."""
+    ends = np.cumsum([len(t.mode) for t in tables])
+    k = int(np.searchsorted(ends, place, side="right"))
+    table = tables[k]
+    mode = table.mode[[place - int(ends[k]) + len(table.mode)]]
+    for words, other in (*_with_one_missing(table, mode), *_with_one_too_many(table, mode)):
+        yield [_with(tables, k, words, other)]
+
+
+def _with(tables: Sequence[ModalTable], k: int, words: str, other: ModalTable) -> Reading:
+    """All tables, one of them read otherwise."""
+    whose = f"{tables[k].name}: " if len(tables) > 1 and tables[k].name else ""
+    return whose + words, [*tables[:k], other, *tables[k + 1 :]], _PART
 
 
 def in_other_units(tables: Sequence[ModalTable], *, gross: bool) -> list[Reading]:
@@ -114,12 +135,17 @@ def _slower(table: ModalTable) -> ModalTable:
     )
 
 
-def _renumbered(table: ModalTable) -> Iterator[tuple[str, ModalTable]]:
-    for first in table.mode:
+def _with_one_missing(table: ModalTable, before: Array) -> Iterator[tuple[str, ModalTable]]:
+    """A mode more before each of some modes. Shape (any,)."""
+    for first in before:
         later = table.mode + (table.mode >= first)
         yield f"a mode is missing before mode {first:g}", replace(table, mode=later)
-    for k, one in enumerate(table.mode):
-        rest = np.arange(len(table.mode)) != k
+
+
+def _with_one_too_many(table: ModalTable, modes: Array) -> Iterator[tuple[str, ModalTable]]:
+    """Each of some modes left out, the later ones renumbered. Shape (any,)."""
+    for one in modes:
+        rest = table.mode != one
         columns = {
             name: value[rest]
             for name, value in vars(table).items()

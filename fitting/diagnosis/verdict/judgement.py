@@ -78,7 +78,7 @@ class Judgement:
 
     @property
     def weighs_wrong_laws(self) -> bool:
-        """Whether the laws of `weighing` only say how far laws may be apart: nothing explains the readings."""
+        """Whether the laws of `weighing` say no more than how far laws may be apart."""
         return self.verdict == "unknown"
 
     def of_effect(self, name: str) -> float:

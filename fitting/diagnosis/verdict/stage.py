@@ -154,10 +154,10 @@ def mixture_of(bands: Sequence[LawBand], shares: Array, *, all_wrong: bool = Fal
     whole = None
     if len(known) == len(bands):
         at = known[0].frequency_hz
-        curves = np.array([b.values_at(at) for b in bands])
+        curves = [b.values_at(at) for b in bands]
         whole = known_of_mixture(curves, known, shares)
         if all_wrong:
-            apart = shares @ (curves - shares @ curves) ** 2
+            apart = shares @ (np.array(curves) - shares @ np.array(curves)) ** 2
             whole = whole.wider_by(np.concatenate([_lacking(at, half) for half in np.split(apart, 2)]))
     return LawBand(f, G, eta, G_error, eta_error, whole)
 

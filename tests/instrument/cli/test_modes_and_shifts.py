@@ -87,7 +87,7 @@ def identified(monkeypatch, questions):
 
     def identify(tables, specimens, progress, bare):
         asked.append(bare)
-        return SimpleNamespace(fit=fit)
+        return SimpleNamespace(fit=fit, odd=None)
 
     result = SimpleNamespace(
         law_kind="constant",

@@ -1,6 +1,7 @@
 """Tables of modes that are meant otherwise than they are read."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import beam_tables
 import numpy as np
@@ -55,6 +56,18 @@ def test_a_mode_that_is_missing_is_asked_about():
     columns = {name: v[rest] for name, v in vars(RIGHT).items() if isinstance(v, np.ndarray)}
     fewer = replace(RIGHT, **{**columns, "mode": np.arange(1.0, 6.0)})
     assert "a mode is missing before mode 3" in doubt(fewer)
+
+
+@pytest.mark.parametrize(("place", "asked"), [(5, "a mode is missing before mode 5"), (1, "")])
+def test_beside_an_odd_mode_only_its_own_number_is_asked_about(place, asked):
+    """Of six modes the fifth is left out, and the last one taken for it."""
+    rest = RIGHT.mode != 5
+    columns = {name: v[rest] for name, v in vars(RIGHT).items() if isinstance(v, np.ndarray)}
+    last = replace(RIGHT, **{**columns, "mode": np.arange(1.0, 6.0)})
+    left = beam_tables.fit_modes([last], [BEAM]).uncertainty.chi2_per_dof
+    said = table_doubt([RIGHT, last], [BEAM, BEAM], left, odd=SimpleNamespace(place=COUNT + place - 1))
+    assert asked in said
+    assert bool(said) == bool(asked)
 
 
 def test_nothing_is_fitted_anew_where_little_is_left():
