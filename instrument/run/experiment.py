@@ -85,21 +85,22 @@ def _run(request: RunRequest, out: Path, resume: Path | None, watch: Watch | Non
         raise BadInput(objections[0] + more)
     command = parts[0] if len(parts) == 1 else "run"
     journal, name = open_journal(experiment, out, resume, command)
-    entries = journal.entries()
-    earlier = [event for e in entries for event in part_events(journal.folder / e.file)]
     path = journal.folder.parent / f"{name}.h5"
-    companion.recording(journal.folder, path)
-    unfollowed = follow_up_remarks(experiment) if "sweep" in parts else []
-    for remark in (*sensor_remarks(experiment.rig, datetime.now(UTC).date()), *unfollowed):
-        log.warning("%s", remark)
-    swept = planned_regions(experiment, forecast) if "sweep" in parts else ()
-    companion.planned(planned_work(experiment, forecast, parts), swept)
-    for event in earlier:
-        if not isinstance(event, BlockAcquired):
-            companion.happened(event)
-    session = SessionRun(request, journal, forecast, earlier)
     begun = (command, str(experiment.path))
+    session: SessionRun | None = None
     try:
+        entries = journal.entries()
+        earlier = [event for e in entries for event in part_events(journal.folder / e.file)]
+        companion.recording(journal.folder, path)
+        unfollowed = follow_up_remarks(experiment) if "sweep" in parts else []
+        for remark in (*sensor_remarks(experiment.rig, datetime.now(UTC).date()), *unfollowed):
+            log.warning("%s", remark)
+        swept = planned_regions(experiment, forecast) if "sweep" in parts else ()
+        companion.planned(planned_work(experiment, forecast, parts), swept)
+        for event in earlier:
+            if not isinstance(event, BlockAcquired):
+                companion.happened(event)
+        session = SessionRun(request, journal, forecast, earlier)
         with Recorder(journal, entries, watch) as recorder:
             session.run(recorder)
         recorder.check()
@@ -107,7 +108,7 @@ def _run(request: RunRequest, out: Path, resume: Path | None, watch: Watch | Non
     except (Exception, KeyboardInterrupt) as error:
         first = request.control.ends(error)
         # The same again would want the same memory; a diagnosis alone wants less.
-        alone = session.lacks_fits_alone and isinstance(first, MemoryError)
+        alone = session is not None and session.lacks_fits_alone and isinstance(first, MemoryError)
         words = kept(journal, path, begun, diagnosable=alone)
         raise _told(first, journal.folder, words) from first
     finally:

@@ -105,7 +105,7 @@ def kept(
         return f"{done} kept in {path}; to go on: {again}"
     except KeyboardInterrupt:
         return f"what is complete is in {journal.folder}: viscorig recover {journal.folder}"
-    except (OSError, ValueError, RuntimeError) as error:
+    except (BadInput, OSError, ValueError, RuntimeError) as error:
         first = "make room, or copy that folder to another disk; then " if is_full(error) else ""
         why = system_words(error) if isinstance(error, OSError) else str(error)
         return (

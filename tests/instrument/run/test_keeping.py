@@ -18,7 +18,7 @@ from instrument.run.keeping import finish_session, kept, open_journal
 from instrument.run.part import Part
 from instrument.session.configuration import Configuration
 from instrument.session.contents import contents_of
-from instrument.session.journal import Entry
+from instrument.session.journal import JOURNAL, Entry
 from instrument.session.storage import SessionFile, write_part
 from instrument.stream.derived import HitJudged
 from instrument.stream.raw import Held
@@ -197,6 +197,14 @@ def test_where_the_session_cannot_be_written_the_folder_says_what_to_do(begin, t
     assert "No such file or directory" in said
     assert said.endswith(f"): viscorig recover {journal.folder}")
     assert journal.entries()
+
+
+def test_where_the_journal_cannot_be_read_the_folder_says_what_to_do_too(begin, tmp_path):
+    journal, _ = begin()
+    (journal.folder / JOURNAL).mkdir()
+    said = kept(journal, tmp_path / "a.h5")
+    assert said.startswith(f"what is complete is in {journal.folder}, as no session could be written of it (")
+    assert said.endswith(f"Is a directory): viscorig recover {journal.folder}")
 
 
 def test_every_part_of_a_run_is_a_table_of_its_experiment_and_an_order_is_for_all():

@@ -1,5 +1,7 @@
 """Carrying on a run that broke off: with its calibration, and with nothing but its own experiment."""
 
+import errno
+
 import pytest
 from formula_rig import formula_rig
 from quick_run import no_fit, run
@@ -138,6 +140,32 @@ def test_a_run_that_measured_nothing_leaves_nothing(tmp_path):
             run(experiment, tmp_path)
     assert list(tmp_path.glob("*.running")) == []
     assert list(tmp_path.glob("*.h5")) == []
+
+
+def fails(*_):
+    raise OSError(errno.EMFILE, "Too many open files")
+
+
+def test_a_run_that_fails_before_its_first_event_leaves_no_folder(tmp_path, monkeypatch):
+    monkeypatch.setattr("instrument.run.experiment.planned_work", fails)
+    with (
+        formula_rig(tmp_path, sweep=SWEEP) as (_, experiment),
+        pytest.raises(RigStopped, match="Too many open files; nothing was measured"),
+    ):
+        run(experiment, tmp_path)
+    assert list(tmp_path.glob("*.running")) == []
+
+
+def test_a_run_carried_on_that_fails_before_its_first_event_says_what_is_kept_of_the_one_before(
+    tmp_path, monkeypatch
+):
+    with formula_rig(tmp_path, sweep=SWEEP) as (_, experiment):
+        running = broken_off(experiment, tmp_path, 2)
+        monkeypatch.setattr("instrument.run.experiment.planned_work", fails)
+        with pytest.raises(RigStopped, match=f"steps kept in .*; to go on: .* --resume {running}"):
+            run(experiment, tmp_path, resume=running)
+        monkeypatch.undo()
+        assert len(run(experiment, tmp_path, resume=running).points) == 8
 
 
 def test_a_fit_that_goes_wrong_leaves_the_sweep_whole(tmp_path):
