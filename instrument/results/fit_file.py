@@ -64,17 +64,24 @@ class _Adjusted(BaseModel):
         """
         nuisance = Nuisance(self.name, kind_of(self.name), 1.0)
         try:
-            stated, factor, _ = stated_number(specimen, nuisance)
+            stated, factor, unit = stated_number(specimen, nuisance)
         except (LookupError, AttributeError, TypeError, ValueError):
             # A mass, layer or place that is not there: specimens have no error of their own for it.
             raise BadInput(f"adjusted: {self.name}, expected a number that the specimen states") from None
         if not is_relative(nuisance):
             sigma, by = self.tolerance / factor, self.found / factor - stated
-        elif self.found > 0 and self.stated > 0 and stated > 0:
-            sigma, by = self.tolerance / self.stated, log(self.found / factor / stated)
         else:
-            raise BadInput(f"adjusted: {self.name} is {self.found:g}, expected more than 0")
+            said = ("found =", self.found), ("stated =", self.stated), ("the specimen has", factor * stated)
+            for whose, value in said:
+                self._refuse_unless_above_zero(whose, value, unit)
+            sigma, by = self.tolerance / self.stated, log(self.found / factor / stated)
         return replace(nuisance, sigma=sigma), by / sigma
+
+    def _refuse_unless_above_zero(self, whose: str, value: float, unit: str) -> None:
+        """Raises `BadInput`: the logarithm is what is moved."""
+        if value <= 0:
+            size = f"{value:g}" + ("" if unit == "1" else f" {unit}")
+            raise BadInput(f"adjusted: {self.name}: {whose} {size}, expected more than 0")
 
 
 class _Bend(BaseModel):

@@ -83,5 +83,5 @@ def test_a_posterior_that_is_none_is_refused(identified):
     with pytest.raises(ValueError, match="no stated number is called"):
         found_law(result.but(adjusted=(result.adjusted[0].but(name="colour"),)))
     one = result.adjusted[0].but(name="core_thickness", stated=0.5, tolerance=0.015, found=-1.0)
-    with pytest.raises(BadInput, match="core_thickness is -1, expected more than 0"):
+    with pytest.raises(BadInput, match="core_thickness: found = -1 mm, expected more than 0"):
         fitted_response(identified[0], found_law(result.but(adjusted=(one,))), F)

@@ -1,8 +1,12 @@
 """What a law that is read back takes along of the plate it was found on."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from beam_temperatures import beam
 
+from fitting.specimen import PlacedMass
 from instrument.errors import BadInput
 from instrument.results.fit_file import FoundLaw, is_of_first, plain_name
 
@@ -66,3 +70,18 @@ def test_a_plate_has_the_first_file_s_damping_and_places(coarse):
 def test_a_number_that_the_plate_does_not_state_is_refused_in_a_line(coarse, name):
     with pytest.raises(BadInput, match=f"^adjusted: {name}, expected a number that the specimen states$"):
         found([name]).plate(coarse)
+
+
+@pytest.mark.parametrize(
+    ("at", "mass_g", "said"),
+    [
+        ({"found": -0.5}, 1.0, "found = -0.5 g"),
+        ({"stated": 0.0}, 1.0, "stated = 0 g"),
+        ({}, 0.0, "the specimen has 0 g"),
+    ],
+)
+def test_a_mass_of_nothing_is_refused_by_its_key_and_unit(at, mass_g, said):
+    specimen = replace(beam(), masses=(PlacedMass(1e-3 * mass_g, 0.1, 0.0),))
+    one = found(["mass"]).of_specimen[0].model_copy(update=at)
+    with pytest.raises(BadInput, match=f"^adjusted: mass: {said}, expected more than 0$"):
+        one.moved(specimen)
