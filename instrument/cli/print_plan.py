@@ -5,6 +5,7 @@ from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.cli.output import Output
 from instrument.facts.plan import EffectForecast, PlanResult, SettlingForecast, SpotCompared
 from instrument.files.acceleration import acceleration_unit
+from instrument.results.units_shown import size_shown
 
 _MOST_SPOTS = 8
 _MOST_RIVALS = 3
@@ -135,7 +136,7 @@ def _effects(out: Output, found: PlanResult) -> None:
         return
     out.table(
         "effects: from which size this plan sees them (4 sigma), and what they are mistaken for",
-        ["effect", "seen from", "", "chance", "mistaken for (told apart at so many times it)"],
+        ["effect", "seen from", "chance", "mistaken for (told apart at so many times it)"],
         [_effect(e) for e in found.effects],
     )
     for one in found.not_judged:
@@ -148,13 +149,17 @@ def _effect(e: EffectForecast) -> list[str]:
         for r in e.rivals[:_MOST_RIVALS]
     ]
     more = len(e.rivals) - _MOST_RIVALS
-    seen = "any" if e.parameter is None else "-" if e.seen_at is None else f"{e.seen_at:.4g}"
-    unit = "" if e.unit in (None, "1") else e.unit or ""
-    name = "" if e.parameter is None else f"{e.parameter} "
     return [
         e.name,
-        name + seen,
-        unit,
+        _seen_from(e),
         f"{100 * e.chance_seen:.0f} %",
         ", ".join(said) + (f" and {more} more" if more > 0 else ""),
     ]
+
+
+def _seen_from(e: EffectForecast) -> str:
+    """Parameter, size and unit."""
+    if e.parameter is None:
+        return "any"
+    size = ("-",) if e.seen_at is None else size_shown(e.seen_at, e.unit or "1")
+    return " ".join([e.parameter, *filter(None, size)])

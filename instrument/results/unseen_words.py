@@ -2,7 +2,7 @@
 
 from fitting.digits import two_digits
 from instrument.facts.diagnosis import UnseenEffect
-from instrument.results.units_shown import shown_in
+from instrument.results.units_shown import size_shown
 
 UNSEEN_TITLE = "not found, but would not be seen if it were there: how far off the law would be"
 UNSEEN_COLUMNS = ("effect", "up to", "chance/%", "G' by/%", "loss factor by/%", "in standard errors")
@@ -18,9 +18,4 @@ def unseen_row(one: UnseenEffect) -> tuple[str, ...]:
 def _size(one: UnseenEffect) -> str:
     if one.parameter is None or one.size is None:
         return "-"
-    if one.unit in (None, "1"):
-        # Of a factor near 1 what counts stands further behind.
-        near_one = round(one.size) == 1
-        return f"{one.parameter} {one.size:.{5 if near_one else 3}g}"
-    scale, shown = shown_in(one.unit or "1")
-    return f"{one.parameter} {scale * one.size:.3g} {shown}"
+    return " ".join([one.parameter, *filter(None, size_shown(one.size, one.unit or "1"))])
