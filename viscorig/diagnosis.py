@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from instrument.facts.diagnosis import DiagnosisResult, StageName
+from instrument.facts.doubts import doubts_of
 from viscorig.facts import Facts
 from viscorig.shown import Columns, columns
 
@@ -31,6 +32,11 @@ class Diagnosis(Facts[DiagnosisResult]):
             effect.name: {key: p.as_json() for key, p in effect.parameters.items()}
             for effect in self.result.effects
         }
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Those `warnings` by which the law may be wrong by more than is known of it; empty for none."""
+        return doubts_of(self.result)
 
     @property
     def before(self) -> Columns:

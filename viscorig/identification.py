@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from instrument.facts.doubts import doubts_of
 from instrument.facts.identification import IdentificationResult
 from instrument.results.fit_file import found_law
 from instrument.results.law_words import LAW_COLUMNS, a_few, aligned, law_cells
@@ -39,6 +40,11 @@ class Identification(Facts[IdentificationResult]):
         """Standard errors of the law's parameters by name; None for one at its limit."""
         errors = self.result.standard_errors
         return {key: None if isnan(error) else error for key, error in errors.items()}
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Those `warnings` by which the law may be wrong by more than is known of it; empty for none."""
+        return doubts_of(self.result)
 
     @property
     def frequency_hz(self) -> Array:

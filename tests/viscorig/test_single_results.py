@@ -1,6 +1,7 @@
 """Results made by hand, as a notebook has them: numbers, words, plots; and what may go in as numbers."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -124,6 +125,17 @@ def test_facts_are_those_of_the_command_with_what_speaks_against_them():
     assert one.as_dict()["modes"][1]["loss_factor"] is None
     assert one.warnings == ()
     assert Facts(diagnosis()).warnings == diagnosis().warnings != ()
+
+
+def test_a_result_tells_doubts_of_its_law_from_other_warnings(identified):
+    said = {"warnings": ("look", "the law is in doubt"), "doubts": ("the law is in doubt",)}
+    for one in (
+        Diagnosis(diagnosis().but(**said)),
+        replace(identified, result=identified.result.but(**said)),
+    ):
+        assert one.doubts == ("the law is in doubt",)
+        assert one.warnings == said["warnings"]
+    assert identified.doubts == ()
 
 
 # An identification
