@@ -6,6 +6,7 @@ import numpy as np
 
 from fitting.diagnosis.search.catalogue_search import ScoredFit
 from fitting.diagnosis.verdict import text
+from fitting.diagnosis.verdict.cautions import at_its_limit
 from fitting.diagnosis.verdict.kin import UNLISTED, Unlisted
 from fitting.diagnosis.verdict.result import Candidate, FoundEffect
 from fitting.diagnosis.verdict.stage import FEW, each_of, found_effects, mixture_of
@@ -41,6 +42,7 @@ def modal_diagnosis_from(
     known = found.begun.evidence.scale_known
     first = _stage(before, tables, modal_band(before, tables), known=known)
     last = _stage(after, tables, band, known=known)
+    remarks = (*diagnosed.remarks, *(at_its_limit(accepted) if accepted is not None else ()))
     return DiagnosisResult(
         verdict=judgement.verdict,
         effects=tuple(
@@ -63,8 +65,8 @@ def modal_diagnosis_from(
         next_measurements=(),
         by_hand=False,
         explanation=_explanation(diagnosed, effects, first, last),
-        warnings=diagnosed.remarks,
-        doubts=doubts_among(diagnosed.remarks),
+        warnings=remarks,
+        doubts=doubts_among(remarks),
         points=(),
         modes=_modes(before, after, tables),
         files=tuple(names),

@@ -2,7 +2,7 @@
 
 from fitting.diagnosis.checks.stretches import words_of_stretches
 from fitting.diagnosis.inference.freer_law import freedom_of
-from fitting.diagnosis.search.catalogue_search import Search
+from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
 from fitting.diagnosis.verdict.judgement import Judgement
 from fitting.diagnosis.verdict.refusing import against_by_checks
 from fitting.identification.doubt import BIASED, Doubt
@@ -15,6 +15,14 @@ NO_DRIFT = f"{_NO_TIME}: {_NOT_CONSIDERED}"
 """Of sweeps too long for an even pace to be supposed."""
 NO_SECONDS = f"{_NO_SECONDS}: {_NOT_CONSIDERED} of seconds"
 """The same where there is a column of times."""
+
+
+def at_its_limit(accepted: ScoredFit) -> tuple[Doubt, ...]:
+    """Where the size of one of its effects ends at the limit of what is plausible."""
+    if not accepted.too_large:
+        return ()
+    what = f"{accepted.too_large} ends at the limit of what is plausible"
+    return (Doubt(f"{what}: there is more of it, or it is something else, and {BIASED}"),)
 
 
 def warnings_of(search: Search, judgement: Judgement) -> tuple[str, ...]:
@@ -32,13 +40,7 @@ def warnings_of(search: Search, judgement: Judgement) -> tuple[str, ...]:
                 "formula as materials usually do, as the data ask: the core follows another law, or more is "
                 "amiss"
             )
-        if accepted.too_large:
-            said.append(
-                Doubt(
-                    f"{accepted.too_large} ends at the limit of what is plausible: there is more of it, or "
-                    f"it is something else, and {BIASED}"
-                )
-            )
+        said += at_its_limit(accepted)
         said += [e.caution for e in accepted.fitted.effects if e.caution]
     names = {n for group in judgement.equivalent.values() for n in group}
     if not problem.points.timed:

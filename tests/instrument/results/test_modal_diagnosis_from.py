@@ -25,3 +25,18 @@ def test_what_a_formula_may_get_wrong_leaves_tolerances_in_a_candidates_law_as_t
     assert np.all(blunt > sharp)
     # All of it multiplied would be ten times as much.
     assert np.all(blunt < 8 * sharp)
+
+
+def test_an_effect_at_the_end_of_what_is_plausible_is_said_and_leaves_the_law_in_doubt():
+    diagnosed = diagnose_tables([read(replace(BEAM, length_m=0.38), 4)], [BEAM])
+    found = diagnosed.found
+    accepted = found.judgement.accepted
+    assert accepted is not None
+    for name, said in ("", ()), ("tether", ("tether ends at the limit of what is plausible",)):
+        judgement = replace(found.judgement, accepted=replace(accepted, too_large=name))
+        result = modal_diagnosis_from(
+            replace(diagnosed, found=replace(found, judgement=judgement)), [TABLE], ["a.csv"]
+        )
+        warned = [w for w in result.warnings if "plausible" in w]
+        assert tuple(w.partition(":")[0] for w in warned) == said
+        assert set(warned) <= set(result.doubts)

@@ -79,3 +79,13 @@ def test_no_effect_asks_for_more_where_it_is_absent_or_usual(name):
     absent = [t if q.neutral is None else q.neutral for q, t in zip(effect.parameters, typical, strict=True)]
     assert not asks_for_more(effect, typical, PLATE)
     assert not asks_for_more(effect, np.clip(absent, lower, upper), PLATE)
+
+
+@pytest.mark.parametrize("kind", ["plate", "beam", "shear-pair"])
+@pytest.mark.parametrize("end", ["lower", "upper"])
+def test_a_tether_as_stiff_as_may_be_asks_for_more(kind, end):
+    tether = CATALOGUE["tether"].on(kind)
+    u = np.array([q.typical for q in tether.parameters])
+    assert not asks_for_more(tether, u, PLATE)
+    u[0] = getattr(tether.parameters[0], end)
+    assert asks_for_more(tether, u, PLATE)
