@@ -12,10 +12,10 @@ from fitting.plate.plate import Plate
 from fitting.specimen import PlateSpecimen
 from fitting.structures import Beam
 from fitting.structures.small_modes import small_modes
-from instrument.files.experiment_file import Hammer
+from instrument.files.experiment_file import MOST_RECORD_S, Hammer
 from instrument.files.plausible_rig import LOWEST_BAND_HZ
 from instrument.session.configuration import Experiment
-from instrument.session.setup import bare_beam_record_s, record_length_s
+from instrument.session.setup import LONGEST_RECORD_S, decay_s
 
 _COARSE = (20, 14)
 """Elements along each side: a place is on a nodal line or not, a mode in the band or not. A choice."""
@@ -108,17 +108,29 @@ def bare_test_remarks(experiment: Experiment, hammer: Hammer) -> Iterator[str]:
                 f"hammer.{what} at {x:g}, {y:g} mm is on a nodal line of {len(lost)} of {inside.sum()} modes "
                 f"of the bare plate ({_listed(lost)} Hz): they will not be found"
             )
-    if hammer.record_s != "auto":
-        auto = (
-            record_length_s(specimen) if isinstance(specimen, PlateSpecimen) else bare_beam_record_s(specimen)
-        )
-        left = _END ** (hammer.record_s / auto)
-        if left > _LEFT:
+    yield from _record_remarks(hammer, specimen)
+
+
+def _record_remarks(hammer: Hammer, specimen: PlateSpecimen | Beam) -> Iterator[str]:
+    """A record in which hardly anything decays, or one that `auto` cuts."""
+    needed = decay_s(specimen)
+    if hammer.record_s == "auto":
+        if needed > LONGEST_RECORD_S:
+            longer = f"{min(needed, MOST_RECORD_S):g}"
             yield (
-                f"hammer.record_s = {hammer.record_s:g}: at its end the slowest mode still has "
-                f"{100 * left:.0f} % of its start, too much to tell decays and neighbours apart: expected "
-                f"{auto:g} s as auto has it"
+                f'hammer.record_s = "auto" ends at {LONGEST_RECORD_S:g} s, its most, where the slowest mode '
+                f"still has {100 * _END ** (LONGEST_RECORD_S / needed):.2g} % of its start: {needed:g} s "
+                f"would leave {100 * _END:g} %: state record_s = {longer} if that mode counts"
             )
+        return
+    left = _END ** (hammer.record_s / needed)
+    if left > _LEFT:
+        as_auto = " as auto has it" if needed <= LONGEST_RECORD_S else ""
+        yield (
+            f"hammer.record_s = {hammer.record_s:g}: at its end the slowest mode still has "
+            f"{100 * left:.0f} % of its start, too much to tell decays and neighbours apart: expected "
+            f"{needed:g} s{as_auto}"
+        )
 
 
 def _held(specimen: PlateSpecimen | Beam, x_m: float) -> bool:

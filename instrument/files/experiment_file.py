@@ -18,6 +18,8 @@ from instrument.stepped_sine.settings import Dwell, LevelControl, Settle
 
 Count = Annotated[int, Field(ge=1, le=1000)]
 Frequency = Annotated[float, Field(ge=0.5, le=1e5)]
+MOST_RECORD_S = 300
+"""Of a hit: five minutes of samples, for the slowest of beams."""
 _LEAST_RATIO = 1.05
 """Of the ends of a band."""
 _RIGS = ("shaker", "vibrometer", "front_end")
@@ -45,7 +47,7 @@ class Hammer(TomlTable):
     band_hz: Annotated[list[Positive], Field(min_length=2, max_length=2)] = Field(
         default_factory=lambda: [10.0, 550.0]
     )
-    record_s: Annotated[float, Field(ge=0.1, le=300)] | Literal["auto"] = "auto"
+    record_s: Annotated[float, Field(ge=0.1, le=MOST_RECORD_S)] | Literal["auto"] = "auto"
     """auto: until the slowest mode has decayed to 1 %, the one whose frequency times its stated damping ratio
     is least; 8 s where a plate states no ratio, 60 s at most."""
     pre_trigger_s: Annotated[float, Field(gt=0, le=0.1)] = 0.05

@@ -22,7 +22,7 @@ from instrument.stepped_sine.settings import Dwell, LevelControl, Limits, Settle
 
 _DECAYED = 0.01
 """Of its start, to which the slowest mode falls within the record."""
-_LONGEST_RECORD_S = 60.0
+LONGEST_RECORD_S = 60.0
 """A hit is waited for and kept in memory: longer ones have to be asked for."""
 _RECORD_WITHOUT_RATIOS_S = 8.0
 """Where no ratio is stated: 0.3 % at 30 Hz falls to 1 % in it."""
@@ -87,31 +87,35 @@ def _record_s(document: AnyDocument) -> float:
         raise BadInput(
             "[hammer]: the hammer test is of a bare plate or beam, expected an experiment without it"
         )
-    if isinstance(document, SpecimenDocument):
-        return record_length_s(specimen_of(document))
-    return bare_beam_record_s(document.specimen())
+    return record_length_s(
+        specimen_of(document) if isinstance(document, SpecimenDocument) else document.specimen()
+    )
+
+
+def record_length_s(specimen: PlateSpecimen | Beam) -> float:
+    """`decay_s`, as far as a record goes by itself."""
+    return min(decay_s(specimen), LONGEST_RECORD_S)
 
 
 @lru_cache(maxsize=8)
-def bare_beam_record_s(beam: Beam) -> float:
-    """As `record_length_s`, at the damping of metal and its joints: a beam's file states none."""
-    bare = replace(beam, core=None, constraining=None, both_sides=False)
-    first = small_modes(bare, None, 1)[0].frequency_hz
-    return _until(2 * np.pi * first * (_OF_METAL + bare.substrate.loss_factor / 2))
+def decay_s(specimen: PlateSpecimen | Beam) -> float:
+    """Until the slowest mode of the bare specimen has decayed to 1 %, from the ratios that a plate states.
 
-
-def _until(slowest: float) -> float:
-    return min(round(-np.log(_DECAYED) / slowest + 0.5), _LONGEST_RECORD_S)
-
-
-@lru_cache(maxsize=8)
-def record_length_s(specimen: PlateSpecimen) -> float:
-    """Until the slowest mode has decayed to 1 %, from the ratios the specimen states."""
+    At the damping of metal and its joints for a beam, whose file states none.
+    """
+    if isinstance(specimen, Beam):
+        bare = replace(specimen, core=None, constraining=None, both_sides=False)
+        first = small_modes(bare, None, 1)[0].frequency_hz
+        return _until(2 * np.pi * first * (_OF_METAL + bare.substrate.loss_factor / 2))
     ratios = np.array(specimen.modal_ratios)
     if not np.any(ratios > 0):
         return _RECORD_WITHOUT_RATIOS_S
     decay = ratios * real_modes(Plate(specimen.bare), 0.0, len(ratios)).omega
     return _until(float(decay[decay > 0].min()))
+
+
+def _until(slowest: float) -> float:
+    return round(-np.log(_DECAYED) / slowest + 0.5)
 
 
 def _lower(a: float | None, b: float) -> float:

@@ -60,6 +60,28 @@ def test_a_record_in_which_nothing_decays_is_warned_of(tmp_path):
     assert list(bare_test_remarks(*whole(tmp_path, record_s=6.0))) == []
 
 
+@pytest.mark.parametrize(
+    ("percent", "said"),
+    [
+        ([0.05], ["still has 3.6 % of its start: 83 s would leave 1 %: state record_s = 83 if"]),
+        ([0.001], ["still has 94 % of its start: 4138 s would leave 1 %: state record_s = 300 if"]),
+        ([0.3], []),
+    ],
+)
+def test_a_record_that_auto_cuts_says_how_long_it_would_have_to_be(tmp_path, percent, said):
+    experiment, hammer = whole(tmp_path)
+    specimen = tmp_path / "specimen.toml"
+    ratios = f"modal_percent = {percent}"
+    text, count = re.subn(r"(?m)^modal_percent = .*$", ratios, specimen.read_text())
+    assert count
+    specimen.write_text(text)
+    found = list(bare_test_remarks(read_whole_experiment(experiment.path), hammer))
+    assert len(found) == len(said)
+    for one, expected in zip(found, said, strict=True):
+        assert one.startswith('hammer.record_s = "auto" ends at 60 s, its most, where the slowest mode')
+        assert expected in one
+
+
 def test_of_a_beam_its_clamp_and_its_frequencies_are_known(tmp_path):
     path = write_case(tmp_path)
     (tmp_path / "beam.toml").write_text(BEAM)
