@@ -49,6 +49,7 @@ from instrument.stream.raw import (
     AcquisitionBegan,
     BlockAcquired,
     DiagnosisStarted,
+    FitFailed,
     FitStarted,
     FollowUpDecided,
     FollowUpEnded,
@@ -105,6 +106,7 @@ _TOPICS: dict[type[Event], tuple[Topic, ...]] = {
     SentinelCompared: ("sentinels",),
     StruckFound: ("damping",),
     FitStarted: ("run", "fits"),
+    FitFailed: ("run", "fits"),
     FitUpdated: ("fits",),
     DiagnosisStarted: ("run", "diagnosis"),
     DiagnosisFound: ("run", "diagnosis"),
@@ -135,6 +137,8 @@ class SessionState:
         Every one, in order.
     fit_running : int or None
         Number of the fit being computed.
+    fit_failed : FitFailed or None
+        That the last one broke off, and why; until the next begins.
     limits : SweepSettings
         Tolerances and limits in force.
     """
@@ -155,6 +159,7 @@ class SessionState:
         self.signal_level: float | None = None
         self.fits: list[FitUpdated] = []
         self.fit_running: int | None = None
+        self.fit_failed: FitFailed | None = None
         self.log, self._saying = Log(), Saying()
         self.changed: Counter[Topic] = Counter()
         self._clock = SessionClock()
@@ -257,7 +262,9 @@ class SessionState:
                 scaling = self._scaling(self.acquisition)
                 self.step = Step(event, self.acquisition, scaling, self._latest)
             case FitStarted():
-                self.fit_running = event.number
+                self.fit_running, self.fit_failed = event.number, None
+            case FitFailed():
+                self.fit_running, self.fit_failed = None, event
             case FitUpdated():
                 self.fits.append(event)
                 self.fit_running = None

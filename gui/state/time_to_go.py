@@ -16,6 +16,7 @@ from instrument.stream.event import Event
 from instrument.stream.raw import (
     AcquisitionBegan,
     DiagnosisStarted,
+    FitFailed,
     FitStarted,
     FollowUpDecided,
     FollowUpEnded,
@@ -115,6 +116,8 @@ class TimeToGo:
                 self._finish(_DIDS[event.what], wall_s - self._wall_s, session_s, wall_s)
             case FitStarted():
                 self._fit_began_s = wall_s
+            case FitFailed():
+                self._fit_began_s = None
             case FitUpdated() if self._fit_began_s is not None:
                 self._fitted(wall_s - self._fit_began_s, session_s, wall_s)
             case DiagnosisStarted():

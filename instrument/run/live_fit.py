@@ -19,7 +19,7 @@ from instrument.results.identification_from import identification_from
 from instrument.session.points import sweep_of, uncalibrated
 from instrument.stream.derived import DampingFound, FitUpdated, PointMeasured
 from instrument.stream.event import Event
-from instrument.stream.raw import FitStarted
+from instrument.stream.raw import FitFailed, FitStarted
 
 log = logging.getLogger(__name__)
 
@@ -114,20 +114,28 @@ class LiveFit:
             last = max(p.step for p in points)
             if self.latest is not None and self.latest.last_step == last:
                 continue
+            self.number += 1
             try:
-                self.number += 1
-                self._emit(FitStarted(self.number, last))
-                self.latest = self._fit(self.number, last, points, damping, self._specimen)
-                self._emit(self.latest)
-                self._failure = None
+                self._fit_one(last, points, damping)
             except RigStopped as error:  # the recorder failed, of which the run hears by itself
                 self._failure = error
                 return
-            except Exception as error:  # raised on leaving: a fit must not end a measurement
-                log.debug("internal error", exc_info=True)
-                # Without its frames: they would keep the memory that the next fit may need.
-                self._failure = error.with_traceback(None)
-                log.warning("no fit of the points up to step %d: %s", last, fault_words(error))
+
+    def _fit_one(self, last: int, points: list[PointMeasured], damping: DampingFound | None) -> None:
+        """Up to a step. Raises `RigStopped` where nothing is recorded any more."""
+        try:
+            self._emit(FitStarted(self.number, last))
+            self.latest = self._fit(self.number, last, points, damping, self._specimen)
+            self._emit(self.latest)
+            self._failure = None
+        except RigStopped:
+            raise
+        except Exception as error:  # raised on leaving: a fit must not end a measurement
+            log.debug("internal error", exc_info=True)
+            # Without its frames: they would keep the memory that the next fit may need.
+            self._failure = error.with_traceback(None)
+            log.warning("no fit of the points up to step %d: %s", last, fault_words(error))
+            self._emit(FitFailed(self.number, fault_words(error)))
 
     def _next(self) -> tuple[list[PointMeasured], DampingFound | None] | None:
         with self._wake:

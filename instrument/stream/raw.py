@@ -196,6 +196,24 @@ class FitStarted(Event):
 
 
 @dataclass(frozen=True)
+class FitFailed(Event):
+    """The live identification broke off; the measurement goes on.
+
+    Where the points as they are allow no fit, `FitUpdated` says so instead.
+    """
+
+    number: int
+    """Of the fit that had started."""
+    message: str
+    """Why, in a line."""
+
+    @property
+    def words(self) -> str:
+        """Which fit, and why, in a line."""
+        return f"fit {self.number} failed: {self.message}"
+
+
+@dataclass(frozen=True)
 class ChoiceStarted(Event):
     """A sweep that chooses its own steps took up the points there were."""
 

@@ -14,6 +14,7 @@ from gui.pages.law.curve import At, LawCurve, places_hz
 from instrument.facts.diagnosis import StageFitted
 from instrument.results.numbers import format_number, with_error
 from instrument.stream.derived import FitUpdated
+from instrument.stream.raw import FitFailed
 
 _NOT_FIXED = 1.0
 """Relative standard error beyond which a parameter is not fixed."""
@@ -121,6 +122,11 @@ def correlation_rows(fit: Fitted) -> tuple[list[str], list[list[float]]]:
 
 def _short(value: float) -> str:
     return f"{value:.0f}" if value >= 100 else format_number(value, 3)
+
+
+def failure_words(failed: FitFailed, *, sweeping: bool) -> str:
+    """Of a fit that broke off: why, and what goes on."""
+    return f"{failed.words}; the sweep goes on, the next segment is fitted anew" if sweeping else failed.words
 
 
 def headline(fits: Sequence[FitUpdated], running: int | None) -> str:

@@ -13,7 +13,7 @@ from gui.page import Page
 from gui.pages.law.curve import LawCurve, joined, resonances_hz
 from gui.pages.law.plots import LawLine, LawPlots
 from gui.pages.material.comparison import LawComparison
-from gui.pages.material.numbers import headline, parameters, places
+from gui.pages.material.numbers import failure_words, headline, parameters, places
 from gui.pages.material.tables import Correlations, Parameters, Places
 from gui.pages.together.numbers import count_of
 from gui.pages.together.numbers import headline as headline_together
@@ -146,6 +146,13 @@ class MaterialPage(Page):
         self.origin.say(said, "fair", bold=True)
 
     def _headline(self, state: SessionState | None) -> str:
+        said = self._said_of_law(state)
+        if state is None or state.fit_failed is None or not self._is_of_session:
+            return said
+        failed = failure_words(state.fit_failed, sweeping=state.run.state == "sweep")
+        return f"{said}; {failed}" if self._fits or self._shown is not None else failed
+
+    def _said_of_law(self, state: SessionState | None) -> str:
         shown = self._shown
         if shown is not None:
             return _in_words(result_of(None, shown.found, _conditions(state, shown)))

@@ -235,7 +235,7 @@ class SweepPage(Page):
         limits = state.limits if state is not None else SweepSettings()
         if pane is self.response:
             self.response.show_seen(self.seen)
-            said = self._said_of_model(state) if state is not None else ""
+            said = self._said_of_fit(state) if state is not None else ""
             self.response.model.setText(said)
             self.response.model.setToolTip(f"{said}\n{_BAND}")
         elif pane is self.record:
@@ -250,6 +250,13 @@ class SweepPage(Page):
             self.drift.show_seen(self.seen, state.contents.sentinels if state is not None else ())
         elif pane is self.samples:
             self.samples.show_seen(self.seen, self.controller.session)
+
+    def _said_of_fit(self, state: SessionState) -> str:
+        failed = state.fit_failed
+        if failed is None:
+            return self._said_of_model(state)
+        before = f"{self._said_of_model(state)}; " if state.contents.fit is not None else ""
+        return before + failed.words
 
     def _said_of_model(self, state: SessionState) -> str:
         fit = state.contents.fit

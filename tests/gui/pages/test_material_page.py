@@ -7,16 +7,20 @@ from diagnosis_cases import diagnosis
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 from result_cases import identification
+from sessions import configuration
 
 from fitting.numerics.chances import Z_95
+from gui.actions.controller import AppController
 from gui.pages.material import MaterialPage, comparison
 from gui.pages.material.compared import PAPER
 from gui.pages.material.numbers import headline, parameters
 from gui.pages.material.tables import Correlations
+from gui.state import SessionState
 from instrument.results.session_result import recorded_result
 from instrument.results.typeset import typeset
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
+from instrument.stream.raw import FitFailed, FitStarted
 
 pytestmark = pytest.mark.pages("run", "material")
 
@@ -184,6 +188,44 @@ def test_a_negative_correlation_has_its_own_colour_and_one_at_a_limit_has_none(q
 def test_nothing_is_said_of_no_fit():
     assert headline([], None) == ""
     assert headline([], 1) == "fit 1 is being computed"
+
+
+@pytest.fixture
+def running(qtbot):
+    """A page of its own, and the state of a run in its sweep."""
+    controller = AppController()
+    page = MaterialPage(controller)
+    qtbot.addWidget(page)
+    page.show()
+    state = SessionState(configuration())
+    state.run.state = "sweep"
+    yield page, state
+    page.hide()
+    controller.close()
+
+
+def test_a_fit_that_failed_is_said_with_what_goes_on_until_the_next_begins(running):
+    page, state = running
+
+    def said(event):
+        state.take(event)
+        page.show_state(state)
+        return page.said.text()
+
+    assert said(FitStarted(3, 40)) == "fit 3 is being computed"
+    failed = "fit 3 failed: no memory left; the sweep goes on, the next segment is fitted anew"
+    assert said(FitFailed(3, "no memory left")) == failed
+    assert state.fit_running is None
+    assert said(FitStarted(4, 60)) == "fit 4 is being computed"
+
+
+def test_a_fit_that_failed_is_said_beside_the_law_that_stands(page):
+    state = page.controller.state
+    before = page.said.text()
+    state.take(FitStarted(3, 40))
+    state.take(FitFailed(3, "no memory left"))
+    page.show_state(state)
+    assert page.said.text() == f"{before}; fit 3 failed: no memory left"
 
 
 def test_the_papers_law_comes_and_goes(qtbot, looked_at):

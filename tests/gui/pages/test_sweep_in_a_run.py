@@ -10,7 +10,7 @@ from gui.pages.sweep.curve import Curve, CurveStretch, grid
 from gui.pages.sweep.drawing import FORESEEN
 from gui.state import SessionState
 from instrument.stream.derived import StepSettled
-from instrument.stream.raw import SegmentBegan, SessionBegan
+from instrument.stream.raw import FitFailed, FitStarted, SegmentBegan, SessionBegan
 
 BEGAN = SessionBegan("2026-04-01T08:00:05+00:00", "0", {}, ())
 
@@ -113,3 +113,11 @@ def test_what_is_foreseen_stands_in_every_pane_before_anything_is_measured(qtbot
         _, y = shown(page.response.resonances.plots[number], FORESEEN)
         np.testing.assert_allclose(y, 1.0)
     assert FORESEEN.split(",")[0] in page.response.resonances.key.text()
+
+
+def test_a_first_fit_that_failed_is_no_longer_said_to_go_on(qtbot, alone):
+    page, state = alone
+    fed(page, state, [point(1, 18.0), FitStarted(1, 1)])
+    qtbot.waitUntil(lambda: page.response.model.text() == "fitting ...")
+    fed(page, state, [FitFailed(1, "no memory left")])
+    qtbot.waitUntil(lambda: page.response.model.text() == "fit 1 failed: no memory left")

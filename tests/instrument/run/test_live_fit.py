@@ -11,7 +11,7 @@ from instrument.errors import RigStopped
 from instrument.run import live_fit
 from instrument.run.live_fit import LiveFit
 from instrument.stream.derived import FitUpdated
-from instrument.stream.raw import FitStarted
+from instrument.stream.raw import FitFailed, FitStarted
 
 
 class Fits:
@@ -49,7 +49,10 @@ def words_for(heard, error):
             live.offer([point(1), point(2)], None)
     finally:
         live_fit.log.removeHandler(handler)
-    assert [type(e) for e in emitted] == [FitStarted, FitStarted, FitUpdated]
+    assert [type(e) for e in emitted] == [FitStarted, FitFailed, FitStarted, FitUpdated]
+    (failed,) = (e for e in emitted if isinstance(e, FitFailed))
+    assert f"no fit of the points up to step 1: {failed.message}" in heard.messages
+    assert failed.number == 1
     assert live.latest.last_step == 2
     return heard.messages
 
