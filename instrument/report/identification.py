@@ -1,5 +1,7 @@
 """The identification: law, parameters, residual, and what stays unexplained."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from fitting.diagnosis.checks.structure import in_words
@@ -14,7 +16,7 @@ from instrument.report.fitted import ReportedFit
 from instrument.report.law_figures import law_figure, residual_figures
 from instrument.report.law_tables import LawAt, band_table, parameter_table
 from instrument.report.law_to_use import TITLE, found_with_effect
-from instrument.report.measured import segments_of
+from instrument.report.measured import Measured, segments_of
 from instrument.results.adjusted_words import COLUMNS, adjusted_rows
 from instrument.results.diagnosis_words import UNKNOWN, with_verdict
 from instrument.results.numbers import format_number, with_error
@@ -63,11 +65,16 @@ def identification_section(contents: Contents, fitted: ReportedFit) -> ReportSec
         *_adjusted(fit, contents),
         _live(contents, r),
     ]
-    blocks += [
-        FigureBlock(f, _titled("Residual: model less measurement, by segment", contents))
-        for f in residual_figures(segments_of(contents, fitted.points_set_aside), fitted)
-    ]
+    segments = segments_of(contents, fitted.points_set_aside)
+    drawn = _titled(f"Residual: model less measurement, by segment{_without(segments)}", contents)
+    blocks += [FigureBlock(f, drawn) for f in residual_figures(segments, fitted)]
     return ReportSection(title, tuple(blocks))
+
+
+def _without(segments: Sequence[Measured]) -> str:
+    """Which points are not drawn, as the model is not of how they were read; empty for none."""
+    left_out = dict.fromkeys(m.elsewhere for m in segments if m.elsewhere)
+    return f"; without what was measured otherwise ({'; '.join(left_out)})" if left_out else ""
 
 
 def result_in_short(contents: Contents, fitted: ReportedFit) -> str:

@@ -12,7 +12,7 @@ from instrument.facts.rows import PointSetAside
 from instrument.results.set_aside import why_aside
 from instrument.results.standing import none_is_likelier
 from instrument.session.contents import Contents
-from instrument.session.points import elsewhere
+from instrument.session.points import place_of
 from instrument.stream.derived import PointMeasured
 
 
@@ -51,7 +51,7 @@ class Measured:
     kept: Mask
     """Those that a fit takes."""
     elsewhere: str = ""
-    """Another spot or a known mass, in words; empty where the plate was read as the specimen file says."""
+    """Another spot, a known mass or another clamping, in words; empty where all is as the file says."""
 
     @property
     def margin_hz(self) -> float:
@@ -94,18 +94,20 @@ def points_set_aside(contents: Contents, by_fit: Sequence[PointSetAside]) -> tup
 
 
 def segments_of(contents: Contents, aside: Sequence[PointSetAside] = ()) -> list[Measured]:
-    """Every segment with points in it, what was read elsewhere by itself; sentinels are not among them.
+    """Every segment with points in it; sentinels are not among them.
 
-    A fit, or the recorded diagnosis, has set `aside` some.
+    What was read elsewhere or clamped anew is by itself. A fit, or the recorded diagnosis, has set `aside`
+    some.
     """
     kept = (why_aside(contents.measured, points_set_aside(contents, aside)) == "").tolist()
     every = zip(Which.of(contents.measured), contents.measured, kept, strict=True)
     steps = [(w, p, k) for w, p, k in every if p.purpose == "step"]
-    places = sorted({(p.segment, p.pickup, p.mass_kg) for _, p, _ in steps})
-    return [
-        _segment([(w, p, k) for w, p, k in steps if (p.segment, p.pickup, p.mass_kg) == place])
-        for place in places
-    ]
+    places = sorted({_place(p) for _, p, _ in steps})
+    return [_segment([(w, p, k) for w, p, k in steps if _place(p) == place]) for place in places]
+
+
+def _place(p: PointMeasured) -> tuple[int, int, float, int]:
+    return p.segment, p.pickup, p.mass_kg, p.mounting
 
 
 def _segment(steps: list[tuple[Which, PointMeasured, bool]]) -> Measured:
@@ -114,7 +116,7 @@ def _segment(steps: list[tuple[Which, PointMeasured, bool]]) -> Measured:
     noise = np.hypot(relative_noise(mine, "velocity"), relative_noise(mine, "base"))
     f = np.array([p.frequency_hz for p in mine])
     std = noise * np.abs(v / base)
-    return Measured(mine[0].segment, f, v / base, std, which, np.array(kept), elsewhere(mine[0]))
+    return Measured(mine[0].segment, f, v / base, std, which, np.array(kept), place_of(mine[0]))
 
 
 def relative_noise(points: Sequence[PointMeasured], channel: str) -> Array:

@@ -13,6 +13,7 @@ from gui.pages.sweep.points import PointsMeasured
 from gui.pages.sweep.predicted import Predicted
 from instrument.check.piece import Region
 from instrument.files.acceleration import acceleration_unit
+from instrument.session.points import elsewhere
 
 Quantity = Literal["ratio", "velocity"]
 
@@ -78,8 +79,11 @@ class PaneContents:
 
     @property
     def whose(self) -> str:
-        """Of which spot a curve is, where there are points of others; begins with a comma."""
-        return ", spot of the specimen file" if any(self.points.places) else ""
+        """Of which spot and clamping a curve is, where there are points of others; begins with a comma."""
+        timed = zip(self.points.timed, self.points.sentinel, strict=True)
+        steps = [t.point for t, is_sentinel in timed if not is_sentinel]
+        said = ", spot of the specimen file" if any(elsewhere(p) for p in steps) else ""
+        return said + (", first clamping" if any(p.mounting for p in steps) else "")
 
     def stretches(self, curve: Curve | None) -> list[CurveStretch]:
         """Of the segment chosen, without those that have points only of other spots, masses or clampings."""

@@ -158,7 +158,7 @@ def test_the_model_of_one_spot_is_not_drawn_through_the_points_of_another(made):
         predicted=Predicted(np.arange(8), np.array([7.0] * 3 + [2.0] * 5)),
         fit=3,
     )
-    own = "model, fit 3, ±2 s.e., spot of the specimen file"
+    own = "model, fit 3, ±2 s.e., spot of the specimen file, first clamping"
     other = "model at the points, fit 3, spot 150.1, 24 mm, clamped anew"
     pane = made(ResponsePane())
     pane.show_seen(seen.but(segment=1))

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from diagnosis_cases import diagnosis as diagnosed
 from diagnosis_cases import sweep
+from matplotlib.figure import Figure
 from paper_law import TABLE_4
 from result_cases import identification
 
@@ -264,6 +265,21 @@ def test_what_was_read_elsewhere_has_no_residual_of_the_plate_as_stated():
     with_mass = replace(measured, elsewhere="5 g at 280, 100 mm")
     (figure,) = residual_figures([measured, with_mass], model)
     assert len(figure.axes) == 2
+
+
+def test_a_residual_says_which_points_it_leaves_out(monkeypatch):
+    measured = Measured(1, np.array([20.0]), np.ones(1), np.ones(1), (), np.ones(1, bool))
+    anew = replace(measured, elsewhere="clamped anew")
+    where = "instrument.report.identification"
+    for segments, said in (
+        ([measured], "segment"),
+        ([measured, anew, anew], "segment; without what was measured otherwise (clamped anew)"),
+    ):
+        monkeypatch.setattr(f"{where}.segments_of", lambda contents, aside, them=segments: them)
+        monkeypatch.setattr(f"{where}.residual_figures", lambda segments, fitted: [Figure()])
+        made, _, _ = section(found())
+        (caption,) = (b.title for b in made.blocks if isinstance(b, FigureBlock) and "Residual" in b.title)
+        assert caption == f"Residual: model less measurement, by {said}"
 
 
 def test_what_is_set_aside_has_no_residual_and_is_marked_at_the_foot():

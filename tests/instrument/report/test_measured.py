@@ -95,5 +95,6 @@ def test_what_was_read_elsewhere_has_panels_of_its_own(contents):
         (1, "5 g at 280, 100 mm", 9),
         (2, "", 9),
         (2, "spot 250, 100 mm", 9),
-        (3, "", 18),
+        (3, "", 9),
+        (3, "clamped anew", 9),
     ]
