@@ -1,5 +1,6 @@
 """How well a fit knows what it found: covariance of the log parameters and what follows from it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,6 +52,14 @@ class Uncertainty:
 
     def _propagate(self, gradient: Array) -> Array:
         return np.sqrt(np.maximum(np.einsum("if,ij,jf->f", gradient, self.covariance, gradient), 0))
+
+
+def correlations_by_name(names: Sequence[str], own: Uncertainty) -> dict[str, dict[str, float]]:
+    """Of the parameters of those names alone, each with each; NaN for one at a limit."""
+    return {
+        name: dict(zip(names, row.tolist(), strict=True))
+        for name, row in zip(names, own.correlations, strict=True)
+    }
 
 
 def uncertainty_of(fit: Fit, *, noise_is_known: bool) -> Uncertainty:

@@ -63,6 +63,8 @@ class StageFitted(Result):
     law_kind: str = ""
     parameters: Mapping[str, Number] = {}
     standard_errors: Mapping[str, Number] = {}
+    correlations: Mapping[str, Mapping[str, Number]] = {}
+    """Of the logarithms of the parameters."""
     law: tuple[LawRow, ...]
     law_known: LawKnown | None = None
     structure: tuple[str, ...] = ()

@@ -7,6 +7,7 @@ import numpy as np
 from fitting.diagnosis.checks.structure import in_words
 from fitting.digits import two_digits, written_out
 from fitting.identification.result import Identification
+from fitting.identification.uncertainty import correlations_by_name
 from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen
 from instrument.facts.session_result import SessionResult
@@ -14,7 +15,7 @@ from instrument.finding.identification import Identified
 from instrument.report.blocks import Block, FactsBlock, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.report.fitted import ReportedFit
 from instrument.report.law_figures import law_figure, residual_figures
-from instrument.report.law_tables import LawAt, band_table, parameter_table
+from instrument.report.law_tables import LawAt, band_table, correlation_table, parameter_table
 from instrument.report.law_to_use import TITLE, found_with_effect
 from instrument.report.measured import Measured, segments_of
 from instrument.results.adjusted_words import COLUMNS, adjusted_rows
@@ -27,7 +28,7 @@ from instrument.results.session_result import (
     result_of,
 )
 from instrument.results.standing import none_is_likelier
-from instrument.results.typeset import note, quantity, typeset
+from instrument.results.typeset import note, typeset
 from instrument.session.contents import Contents
 
 _SAME = 1e-6
@@ -214,16 +215,8 @@ def _titled(title: str, contents: Contents) -> str:
 
 
 def _correlations(r: Identification, contents: Contents) -> TableBlock:
-    C, names = r.uncertainty.correlations, r.law.names
-    rows = tuple(
-        (quantity(name).split(" / ")[0], *(f"{c:+.3f}" if np.isfinite(c) else "-" for c in row))
-        for name, row in zip(names, C, strict=True)
-    )
-    return TableBlock(
-        _titled("Correlations of the logarithms of the parameters", contents),
-        ("", *(quantity(n).split(" / ")[0] for n in names)),
-        rows,
-    )
+    title = _titled("Correlations of the logarithms of the parameters", contents)
+    return correlation_table(title, correlations_by_name(r.law.names, r.uncertainty))
 
 
 def _adjusted(fit: Identified, contents: Contents) -> list[Block]:

@@ -1,6 +1,7 @@
 """A law in tables: at frequencies of its band, and by its parameters."""
 
 from collections.abc import Mapping, Sequence
+from math import isfinite
 from typing import NamedTuple
 
 from instrument.report.blocks import TableBlock
@@ -35,6 +36,16 @@ def band_table(title: str, law: Sequence[LawAt]) -> TableBlock:
         for at in (law[k] for k in shown)
     )
     return TableBlock(title, ("f / Hz", "G' / MPa", "loss factor"), rows)
+
+
+def correlation_table(title: str, correlations: Mapping[str, Mapping[str, float]]) -> TableBlock:
+    """Every parameter with every other; a dash beside one at a limit."""
+    names = {name: quantity(name).split(" / ")[0] for name in correlations}
+    rows = tuple(
+        (names[name], *(f"{row[n]:+.3f}" if isfinite(row[n]) else "-" for n in names))
+        for name, row in correlations.items()
+    )
+    return TableBlock(title, ("", *names.values()), rows)
 
 
 def parameter_table(

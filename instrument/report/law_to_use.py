@@ -2,7 +2,7 @@
 
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.report.blocks import Block, ReportSection, Sentence
-from instrument.report.law_tables import LawAt, band_table, parameter_table
+from instrument.report.law_tables import LawAt, band_table, correlation_table, parameter_table
 from instrument.results.diagnosis_words import with_verdict
 from instrument.results.numbers import format_number
 from instrument.results.standing import law_words, stage_before
@@ -47,4 +47,7 @@ def law_to_use_sections(contents: Contents) -> list[ReportSection]:
     if after.parameters and after.parameters.keys() <= after.standard_errors.keys():
         title = with_verdict("Parameters after the diagnosis, ± one standard error", found)
         blocks.append(parameter_table(title, after.parameters, after.standard_errors, {}))
+        if after.correlations:
+            title = "Correlations of the logarithms of the parameters after the diagnosis"
+            blocks.append(correlation_table(with_verdict(title, found), after.correlations))
     return [ReportSection(TITLE, tuple(blocks))]

@@ -100,6 +100,7 @@ def _stage(s: Stage) -> StageFitted:
         law_kind=s.law.kind,
         parameters=dict(zip(s.law.names, s.law.values.tolist(), strict=True)),
         standard_errors=dict(s.standard_errors),
+        correlations=s.correlations,
         law=law_rows_from(s.band),
         law_known=law_known_from(s.band),
         structure=s.structure,

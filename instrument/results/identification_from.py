@@ -10,6 +10,7 @@ from fitting.identification.bare_plate import BarePlateFit
 from fitting.identification.doubt import doubts_among
 from fitting.identification.fit import Fit
 from fitting.identification.result import Identification
+from fitting.identification.uncertainty import correlations_by_name
 from fitting.laws import CoreLaw
 from fitting.laws.bent_law import BentLaw
 from fitting.specimen import PlateSpecimen
@@ -43,9 +44,7 @@ def identification_from(found: Identified) -> IdentificationResult:
         law_kind=r.law.kind,
         parameters=_named(names, r.law.values),
         standard_errors=r.standard_errors,
-        correlations={
-            a: _named(names, row) for a, row in zip(names, r.uncertainty.correlations, strict=True)
-        },
+        correlations=correlations_by_name(names, r.uncertainty),
         points=_points(r, found.sweep),
         points_set_aside=points_set_aside_from(found.given, found.why_aside),
         rms_percent=r.rms_percent,

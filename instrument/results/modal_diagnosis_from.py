@@ -13,6 +13,7 @@ from fitting.diagnosis.verdict.stage import FEW, each_of, found_effects, mixture
 from fitting.digits import two_digits
 from fitting.identification.doubt import doubts_among
 from fitting.identification.result import LawBand
+from fitting.identification.uncertainty import correlations_by_name
 from fitting.mode_tables.diagnose import DiagnosedModes
 from fitting.mode_tables.fit import ModalFit, law_with, modal_fit_of
 from fitting.mode_tables.table import ModalTable
@@ -126,7 +127,8 @@ def _stage(fit: ModalFit, tables: Sequence[ModalTable], band: LawBand, *, known:
     """`known`: whether the modes' errors are."""
     off = percent_off(fit, tables)
     plain = fit.law.plain
-    errors = fit.uncertainty.of_first(len(plain.names)).standard_errors * plain.values
+    own = fit.uncertainty.of_first(len(plain.names))
+    errors = own.standard_errors * plain.values
     return StageFitted(
         rms_percent=float(np.sqrt(np.mean(off**2))),
         max_percent=float(np.abs(off).max()),
@@ -137,6 +139,7 @@ def _stage(fit: ModalFit, tables: Sequence[ModalTable], band: LawBand, *, known:
         law_kind=plain.kind,
         parameters=dict(zip(plain.names, plain.values.tolist(), strict=True)),
         standard_errors=dict(zip(plain.names, errors.tolist(), strict=True)),
+        correlations=correlations_by_name(plain.names, own),
         law=law_rows_from(band),
         law_known=law_known_from(band),
         adjusted=adjusted_from(fit.adjusted),

@@ -10,7 +10,7 @@ from fitting.identification.doubt import doubts_among
 from fitting.identification.known_curve import known_curve
 from fitting.identification.quoted import REFERENCE_FREQUENCIES_HZ
 from fitting.identification.result import LawBand
-from fitting.identification.uncertainty import Uncertainty
+from fitting.identification.uncertainty import Uncertainty, correlations_by_name
 from fitting.identification.validation import rms
 from fitting.laws import CoreLaw
 from fitting.mode_tables.fit import ModalFit
@@ -36,10 +36,7 @@ def modal_from(
         law_kind=plain.kind,
         parameters=dict(zip(plain.names, plain.values.tolist(), strict=True)),
         standard_errors=dict(zip(plain.names, errors.tolist(), strict=True)),
-        correlations={
-            name: dict(zip(plain.names, row.tolist(), strict=True))
-            for name, row in zip(plain.names, own.correlations, strict=True)
-        },
+        correlations=correlations_by_name(plain.names, own),
         rms_percent=rms(off),
         max_percent=float(np.abs(off).max()),
         chi2_per_dof=found.uncertainty.chi2_per_dof,

@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 
+from instrument.facts.diagnosis import STAGES, DiagnosisResult
 from instrument.facts.result import Result
 from instrument.stream.derived import DiagnosisFound, FitUpdated, LimitExceeded, LimitWarned
 from instrument.stream.event import Event
@@ -11,6 +12,8 @@ _SHOWN = 80
 """Letters of a value."""
 _SAID_SINCE = ("next_measurements", "unseen", "doubts")
 """Of a fit or a diagnosis: what a recording of an older version does not have is not compared."""
+_STAGES_SAID_SINCE = ("correlations",)
+"""The same of a diagnosis's fits before and after."""
 _ONCE_SAID = ("times the likely", "base acceleration under its level")
 """How a version before this one said why it stopped: the same stop in other words and numbers."""
 
@@ -30,11 +33,21 @@ def as_known_then(computed: Event, recorded: Event) -> Event:
     if computed.result is None or recorded.result is None:
         return computed
     since = _said_since(recorded.result)
-    result = computed.result.without(*since)
+    result = _stages_as_known_then(computed.result, recorded.result).without(*since)
     # What is advised follows from the ranking.
     old = "next_measurements" in since
     advised = {"next_measurement": recorded.result.next_measurement} if old else {}
     return replace(computed, result=result.but(**advised))
+
+
+def _stages_as_known_then(computed: DiagnosisResult, recorded: DiagnosisResult) -> DiagnosisResult:
+    """Both fits without what the recorded ones do not say."""
+    stages = {}
+    for name in STAGES:
+        said = recorded.stage(name).model_fields_set
+        unsaid = [key for key in _STAGES_SAID_SINCE if key not in said]
+        stages[name] = computed.stage(name).without(*unsaid)
+    return computed.but(**stages)
 
 
 def _said_since(recorded: Result) -> list[str]:

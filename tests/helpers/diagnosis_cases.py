@@ -65,6 +65,7 @@ def stage(s, off, *, one_by_one=None):
         validation=Validation(leave_one_out_rms_percent=one_by_one)
         if one_by_one is not None
         else Validation(held_out=held, held_out_rms_percent=100 * abs(off)),
+        correlations={a: {b: float(a == b) for b in TABLE_4.names} for a in TABLE_4.names},
         structure=("its signs keep together",) if abs(off) > 0.05 else (),
     )
 

@@ -83,6 +83,8 @@ class Stage:
     """Tests that find the whitened residuals not random, in words."""
     adjusted: tuple[Adjusted, ...] = ()
     """The stated numbers as the fit has them."""
+    correlations: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    """Of the logarithms of the law's parameters; NaN at a limit."""
 
     @property
     def rms_percent(self) -> float:

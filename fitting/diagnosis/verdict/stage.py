@@ -18,7 +18,7 @@ from fitting.diagnosis.verdict.result import FoundEffect, ParameterEstimate, Sta
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.known_curve import KnownCurve, known_curve, known_of_mixture
 from fitting.identification.result import LawBand, differences_percent, law_band, sweep_range
-from fitting.identification.uncertainty import Uncertainty, limits_reached
+from fitting.identification.uncertainty import Uncertainty, correlations_by_name, limits_reached
 from fitting.identification.validation import Validation
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 
@@ -41,7 +41,8 @@ def stage_of(
     uncertainty = _of_law(fitted, C)
     reached = uncertainty.at_bound
     plain = law.plain
-    errors = uncertainty.of_first(len(plain.names)).standard_errors * plain.values
+    own = uncertainty.of_first(len(plain.names))
+    errors = own.standard_errors * plain.values
     whitened = fitted.residuals[: fitted.data]
     chi2 = fitted.chi2_per_dof if evidence.scale_known else float("nan")
     return Stage(
@@ -60,6 +61,7 @@ def stage_of(
             problem.sweep, evidence, whitened, chi2, problem.specimen.kind, problem.points.struck
         ),
         adjusted=adjusted_of(problem, fitted, C),
+        correlations=correlations_by_name(plain.names, own),
     )
 
 

@@ -15,10 +15,19 @@ def test_a_law_found_with_an_effect_comes_first_with_its_errors():
     found = diagnosis()
     (section,) = law_to_use_sections(contents(found))
     assert section.title == TITLE
-    said, band, parameters = section.blocks
+    said, band, parameters, correlations = section.blocks
     assert said.text.endswith("This is the law to use.")
     assert len(band.rows) >= min(9, len(found.after.law))
     assert len(parameters.rows) == len(found.after.parameters)
+    assert correlations.title == "Correlations of the logarithms of the parameters after the diagnosis"
+    assert [row[1 + k] for k, row in enumerate(correlations.rows)] == ["+1.000"] * len(parameters.rows)
+
+
+def test_a_session_that_kept_no_correlations_shows_the_parameters_alone():
+    found = diagnosis()
+    older = found.but(after=found.after.without("correlations"))
+    (section,) = law_to_use_sections(contents(older))
+    assert len(section.blocks) == 3
 
 
 def test_without_an_effect_the_identifications_law_is_the_one_to_use():

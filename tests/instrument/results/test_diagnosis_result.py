@@ -42,10 +42,11 @@ def test_every_key_that_others_rely_on_is_there(found):
     for stage in (found["before"], found["after"]):
         assert set(stage) >= {
             *("rms_percent", "max_percent", "chi2_per_dof", "held_out", "held_out_rms_percent"),
-            *("parameters", "standard_errors", "law"),
+            *("parameters", "standard_errors", "correlations", "law"),
         }
         assert set(stage["held_out"][0]) == {"segment", "rms_percent", "noise_percent"}
         assert set(stage["parameters"]) == set(stage["standard_errors"])
+        assert set(stage["parameters"]) == set(stage["correlations"])
         frequencies = [row["frequency_hz"] for row in stage["law"]]
         assert {20.0, 100.0, 280.0} <= set(frequencies)
 

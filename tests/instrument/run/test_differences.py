@@ -3,10 +3,12 @@
 import json
 from dataclasses import dataclass, replace
 
+from diagnosis_cases import diagnosis
 from result_cases import identification
 
+from instrument.facts.diagnosis import STAGES
 from instrument.run.differences import as_known_then, first_difference
-from instrument.stream.derived import FitUpdated, LimitExceeded
+from instrument.stream.derived import DiagnosisFound, FitUpdated, LimitExceeded
 from instrument.stream.event import Derived
 
 
@@ -44,6 +46,14 @@ def test_a_stop_that_an_older_version_said_in_other_words_is_the_same():
     assert as_known_then(computed, older) == older
     assert as_known_then(computed, replace(computed, value=0.2)) == computed
     assert as_known_then(found(1.0), older) == found(1.0)
+
+
+def test_correlations_that_a_recorded_diagnosis_does_not_have_are_not_compared():
+    now = diagnosis()
+    older = now.but(**{stage: now.stage(stage).without("correlations") for stage in STAGES})
+    computed, recorded = DiagnosisFound(1, 7, now), DiagnosisFound(1, 7, older)
+    assert as_known_then(computed, recorded) == recorded
+    assert as_known_then(computed, computed) == computed
 
 
 def test_doubts_that_a_recording_does_not_tell_apart_are_not_compared():
