@@ -19,6 +19,7 @@ from instrument.finding.transfer import with_transfer
 from instrument.models.files import File, mounted, numbers_of, one_plate
 from instrument.models.set_up import Hammer
 from instrument.progress import Progress
+from instrument.remarks.common_cause import remarks_on_common_causes
 from instrument.remarks.file_remarks import remarks_on_files, remarks_on_one_specimen
 
 Standing = tuple[Effect, tuple[bool, ...]]
@@ -80,6 +81,7 @@ class FilesDiagnosis:
         return (
             *remarks_on_one_specimen(self._files, result.before.rms_percent),
             *remarks_on_files(self._files),
+            *(remarks_on_common_causes(result) if max(numbers_of(self._files)) > 1 else ()),
             *theory,
             *(one.words(self._files) for one in self.aside),
         )

@@ -45,3 +45,10 @@ def test_exchanged_specimens_are_refused_where_a_cause_is_searched_for():
     assert len(handed.seen.why_aside) == len(way.given)
     assert handed.options.accepted_by_hand == ["gain_error"]
     assert handed.options.settle is not None
+
+
+def test_a_common_cause_that_widens_the_band_is_remarked_on_where_there_are_several_files(monkeypatch):
+    monkeypatch.setattr("instrument.finding.files_diagnosis.remarks_on_common_causes", lambda _: ("wide",))
+    found = Like(before=Like(rms_percent=1.0))
+    assert "wide" in diagnosis_of(FILES).remarks(found, ())
+    assert "wide" not in diagnosis_of(FILES[:1]).remarks(found, ())
