@@ -4,7 +4,7 @@ import pytest
 from rig_plate import plate_of_the_rig
 
 from instrument.errors import BadInput
-from instrument.finding.effect_names import effects_on, refuse_unknown_effects
+from instrument.finding.effect_names import effects_among, refuse_unknown_effects
 
 
 def test_names_of_the_catalogue_pass():
@@ -23,6 +23,8 @@ def test_a_name_like_no_other_is_refused_with_all_of_them():
 
 def test_what_contains_an_effect_is_left_out_with_it():
     plate = plate_of_the_rig()
-    every, left = ({e.name for e in effects_on(plate, without)} for without in ((), ("clamp_compliance",)))
+    every, left = (
+        {e.name for e, _ in effects_among([plate], without)} for without in ((), ("clamp_compliance",))
+    )
     assert every - left == {"clamp_compliance", "clamp_friction", "uneven_clamp"}
-    assert every - {e.name for e in effects_on(plate, ("uneven_clamp",))} == {"uneven_clamp"}
+    assert every - {e.name for e, _ in effects_among([plate], ("uneven_clamp",))} == {"uneven_clamp"}
