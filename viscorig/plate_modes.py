@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from instrument.facts.modes import ModesResult
 from instrument.models.specimen_modes import edge_twist_remark, specimen_modes
 from instrument.progress import bar
+from instrument.remarks.theory import theory_remark
 from instrument.results.modes_from import modes_from
 from viscorig.facts import Facts
 from viscorig.shown import Columns, columns
@@ -57,4 +58,6 @@ def modes(specimen: Specimen, count: int = 8) -> Modes:
     """
     model = specimen.model
     law = model.core.law if model.core is not None else None
-    return Modes(modes_from(specimen_modes(model, count, bar), law, remark=edge_twist_remark(model, count)))
+    found = specimen_modes(model, count, bar)
+    theory = theory_remark(model, law, np.array([m.frequency_hz for m in found]))
+    return Modes(modes_from(found, law, remarks=[edge_twist_remark(model, count), theory]))

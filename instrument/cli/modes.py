@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import click
+import numpy as np
 
 from fitting.dynamics.complex_modes import ModalValue
 from fitting.specimen import PlateSpecimen
@@ -16,6 +17,7 @@ from instrument.files.plausible import question_specimen
 from instrument.files.structure_file import read_structure
 from instrument.models.specimen_modes import edge_twist_remark, specimen_modes
 from instrument.progress import bar
+from instrument.remarks.theory import theory_remark
 from instrument.results.modes_from import modes_from
 
 
@@ -37,16 +39,17 @@ def modes(specimen: Path, count: int, insist: bool, json_path: str | None) -> No
     law = read.core.law if read.core is not None else None
     found: Sequence[ModalValue]
     stretched: list[bool] = []
-    twist = ""
+    remarks: list[str] = []
     if isinstance(read, PlateSpecimen):
         found = specimen_modes(read, count, bar)
-        twist = edge_twist_remark(read, count)
+        f = np.array([m.frequency_hz for m in found])
+        remarks = [edge_twist_remark(read, count), theory_remark(read, law, f)]
     else:
         found = shapes = small_modes(read, law, count)
         stretched = along(read, shapes) if isinstance(read, Beam) else []
     rows = [[str(k + 1), f"{m.frequency_hz:.3f}", f"{m.loss_factor:.5f}"] for k, m in enumerate(found)]
     out.table("", ["mode", "frequency/Hz", "loss factor"], rows)
-    result = modes_from(found, law, stretched, twist)
+    result = modes_from(found, law, stretched, remarks)
     for remark in result.notes:
         out.say(f"note: {remark}")
     out.result(result)

@@ -10,12 +10,15 @@ from instrument.facts.modes import ComplexModeRow, ModesResult
 
 
 def modes_from(
-    found: Iterable[ModalValue], law: CoreLaw | None = None, along: Sequence[bool] = (), remark: str = ""
+    found: Iterable[ModalValue],
+    law: CoreLaw | None = None,
+    along: Sequence[bool] = (),
+    remarks: Sequence[str] = (),
 ) -> ModesResult:
-    """A row a mode; a note where some lie outside what the law was made for, or go along a beam; `remark`."""
+    """A row a mode; `remarks`, and a note where some lie outside the law's range or go along a beam."""
     rows = [(float(m.frequency_hz), float(m.loss_factor)) for m in found]
     said = law.outside(np.array([f for f, _ in rows])) if law is not None else ""
-    notes = [one for one in (said, remark) if one]
+    notes = [one for one in (said, *remarks) if one]
     notes += [
         f"mode {number} at {f:.4g} Hz goes along the beam, which does not bend in it: no sweep shows it"
         for number, ((f, _), goes) in enumerate(zip(rows, along, strict=False), start=1)

@@ -42,6 +42,15 @@ def test_modes_of_a_bare_plate(capsys, tmp_path):
     assert found[0]["loss_factor"] == 0
 
 
+def test_modes_say_where_plate_theory_does_not_hold(capsys, plate, tmp_path):
+    thick = tmp_path / "thick.toml"
+    thick.write_text(re.sub(r"(\[core\]\s+thickness_mm = )[\d.]+", r"\g<1>50.0", plate.read_text()))
+    assert facts(capsys, "modes", plate)["notes"] == []
+    (note,) = facts(capsys, "modes", thick, "--force")["notes"]
+    assert "above exact elasticity (limit 0.5 %)" in note
+    assert f"note: {note}" in call(capsys, "modes", thick, "--force")[1]
+
+
 def test_predict_gives_a_point_for_each_frequency_asked_for(capsys, plate):
     points = facts(capsys, "predict", plate, "--frequencies", "18.4:20.2:0.9")["points"]
     np.testing.assert_allclose([p["frequency_hz"] for p in points], [18.4, 19.3, 20.2])
