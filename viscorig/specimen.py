@@ -1,6 +1,5 @@
 """The specimen: from its file, or from the same keys given in Python."""
 
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Self
@@ -18,8 +17,7 @@ from instrument.files.specimen_file import (
     specimen_of,
 )
 from instrument.files.structure_file import read_structure
-from instrument.files.text import read_text
-from instrument.files.toml import one_line
+from instrument.files.toml import one_line, read_tables
 from instrument.stream.jsonable import to_jsonable
 from viscorig.shown import Columns, Shown
 
@@ -58,7 +56,7 @@ class Specimen(Shown):
         if not isinstance(read, Model):
             raise BadInput(f"{path}: a {read.kind}, expected a plate: here others are not taken")
         made.model = read
-        made._tables = tomllib.loads(read_text(Path(path)))
+        made._tables = read_tables(Path(path))
         made._keep_rows(read_specimen_document(Path(path)))
         return made
 

@@ -1,6 +1,5 @@
 """An experiment before it is run: everything wrong with its files at once, then a dry run on the forecast."""
 
-import tomllib
 from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
@@ -34,8 +33,7 @@ from instrument.files.devices import ranges_of
 from instrument.files.experiment_file import experiment_faults, read_experiment
 from instrument.files.rig_file import RigDocument
 from instrument.files.structure_file import read_structure
-from instrument.files.text import read_text
-from instrument.files.toml import document_faults
+from instrument.files.toml import document_faults, read_tables
 from instrument.remarks.theory import theory_remark
 from instrument.remarks.tolerance_words import tolerances_used
 from instrument.session.configuration import Experiment, read_whole_experiment
@@ -201,7 +199,7 @@ def _warnings(s: SegmentForecast, settings: SweepSettings) -> list[str]:
 def _faults_of_named(path: Path) -> list[str]:
     """Of the rig and the specimen, where the experiment is well enough to name them."""
     try:
-        named = tomllib.loads(read_text(path))
+        named = read_tables(path)
     except (BadInput, RecursionError, ValueError):
         return []
     found = []

@@ -1,6 +1,5 @@
 """`viscorig doctor`: the installation, and the instruments it can reach."""
 
-import tomllib
 from pathlib import Path
 
 import click
@@ -12,7 +11,7 @@ from instrument.errors import BadInput
 from instrument.facts.doctor import DoctorResult, Finding
 from instrument.files.plausible_rig import rig_doubts
 from instrument.files.sensor_file import read_rig
-from instrument.files.text import read_text
+from instrument.files.toml import read_tables
 from instrument.progress import bar
 from instrument.run.visit import visit
 
@@ -34,7 +33,7 @@ def doctor(rig: Path | None, json_path: str | None) -> None:
     with bar("looking"):
         findings += look_at_installation()
         if document is not None and rig is not None:
-            findings += (_doubted(doubt) for doubt in rig_doubts(tomllib.loads(read_text(rig))))
+            findings += (_doubted(doubt) for doubt in rig_doubts(read_tables(rig)))
             findings += visit(document)
     for group in dict.fromkeys(found.group for found in findings):
         out.say()

@@ -11,8 +11,14 @@ from pydantic import Field, model_validator
 
 from fitting.specimen import KINDS
 from instrument.errors import BadInput
-from instrument.files.text import read_text
-from instrument.files.toml import NotNegative, Positive, TomlTable, document_faults, read_document
+from instrument.files.toml import (
+    NotNegative,
+    Positive,
+    TomlTable,
+    document_faults,
+    read_document,
+    read_tables,
+)
 from instrument.stepped_sine.patience import LONGEST_S
 from instrument.stepped_sine.settings import Dwell, LevelControl, Settle
 
@@ -295,7 +301,7 @@ def _refuse_another(path: Path) -> None:
 def other_kind(path: Path) -> Literal["a specimen", "a rig", ""]:
     """What a TOML file is that is no experiment; empty for one, and for what cannot be read."""
     try:
-        tables = tomllib.loads(read_text(path))
+        tables = read_tables(path)
     except (BadInput, tomllib.TOMLDecodeError, RecursionError, ValueError):
         # What is wrong with it is said where it is read.
         return ""

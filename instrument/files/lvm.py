@@ -8,7 +8,7 @@ import numpy as np
 
 from fitting.arrays import Array
 from instrument.errors import BadInput
-from instrument.files.text import read_text
+from instrument.files.text import lines_of, read_text
 
 _END = "***End_of_Header***"
 _SEPARATORS = {"Tab": "\t", "Comma": ",", "Semicolon": ";"}
@@ -29,7 +29,7 @@ class SampleBlock:
 
 def read_lvm(path: Path) -> list[SampleBlock]:
     """Every segment of the file. Raises `BadInput`."""
-    lines = read_text(path, encoding="latin-1").splitlines()
+    lines = lines_of(path, read_text(path, encoding="latin-1"))
     if not lines or not lines[0].startswith("LabVIEW Measurement"):
         raise BadInput(f"{path}: line 1: expected 'LabVIEW Measurement'")
     ends = [k for k, line in enumerate(lines) if line.startswith(_END)]

@@ -5,7 +5,6 @@ nearly always a wrong unit. `--force` insists.
 """
 
 import math
-import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -16,7 +15,7 @@ from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.errors import BadInput
 from instrument.files.specimen_file import law_of
-from instrument.files.text import read_text
+from instrument.files.toml import read_tables
 
 INSIST = "--force to go on all the same"
 _LAYERS = ("substrate", "constraining", "layer", "upper", "lower")
@@ -100,7 +99,7 @@ def question_specimen(path: Path, *, insist: bool = False) -> None:
     """Ask about a specimen that reads well. Raises `BadInput` in one line."""
     if insist:
         return
-    for doubt in specimen_doubts(tomllib.loads(read_text(path))):
+    for doubt in specimen_doubts(read_tables(path)):
         raise BadInput(f"{path}: {doubt}; {INSIST}")
 
 

@@ -1,6 +1,5 @@
 """Stated numbers that no such rig or experiment has, questioned as a specimen's are. `--force` insists."""
 
-import tomllib
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -8,7 +7,7 @@ from typing import Any
 from fitting.gravity import STANDARD_GRAVITY_M_S2
 from instrument.errors import BadInput
 from instrument.files.plausible import INSIST, SPOT_MM, Usual, outside, question_specimen
-from instrument.files.text import read_text
+from instrument.files.toml import read_tables
 
 _PER_G = 1 / STANDARD_GRAVITY_M_S2
 _ACCELEROMETER = {
@@ -63,5 +62,5 @@ def experiment_doubts(tables: dict[str, Any]) -> Iterator[str]:
 
 
 def _question(path: Path, doubts: Callable[[dict[str, Any]], Iterator[str]]) -> None:
-    for doubt in doubts(tomllib.loads(read_text(path))):
+    for doubt in doubts(read_tables(path)):
         raise BadInput(f"{path}: {doubt}; {INSIST}")

@@ -23,8 +23,7 @@ from instrument.files.specimen_file import (
     specimen_of,
     tolerances_of,
 )
-from instrument.files.text import read_text
-from instrument.files.toml import NotNegative, Positive, TomlTable, read_document
+from instrument.files.toml import NotNegative, Positive, TomlTable, read_document, read_tables
 
 _RUBBER = 0.4999
 """Poisson's ratio of a pad; nothing depends on it."""
@@ -171,7 +170,7 @@ def described(document: AnyDocument) -> AnySpecimen:
 
 def _tables(path: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(read_text(path))
+        return read_tables(path)
     except (tomllib.TOMLDecodeError, RecursionError, ValueError):
         # What is wrong with it is said where it is read.
         return {}

@@ -11,7 +11,7 @@ import numpy as np
 from fitting.arrays import Array
 from instrument.errors import BadInput
 from instrument.files.rates import rate_of_step
-from instrument.files.text import read_text
+from instrument.files.text import lines_of, read_text
 
 Rows = list[tuple[int, list[str]]]
 LARGEST = 1e30
@@ -151,7 +151,7 @@ def is_error(text: str) -> bool:
 
 
 def _fields(path: Path) -> Iterator[tuple[int, list[str]]]:
-    for line, text in enumerate(read_text(path).splitlines(), start=1):
+    for line, text in enumerate(lines_of(path, read_text(path)), start=1):
         if text.strip() and not is_comment(text):
             try:
                 yield line, [field.strip() for field in next(csv.reader([text], strict=True))]

@@ -7,6 +7,8 @@ from pathlib import Path
 from instrument.errors import BadInput, system_words
 
 LARGEST_BYTES = 200_000_000
+LONGEST_LINE = 1_000_000
+"""Letters: no row of a table has as many, and to split one far longer takes minutes."""
 _LONE_RETURN = re.compile(r"\r(?!\n)")
 """The line end of some old programs: a table is read with it, TOML and patterns know only the others."""
 
@@ -17,23 +19,23 @@ def refuse_endless(path: Path) -> None:
         raise BadInput(f"{path}: a pipe or a device, expected a file")
 
 
-def read_content(path: Path) -> bytes:
+def read_content(path: Path, most_bytes: int = LARGEST_BYTES) -> bytes:
     """The bytes of a file that is not too large. Raises `BadInput`."""
     refuse_endless(path)
     try:
-        if path.stat().st_size > LARGEST_BYTES:
-            raise BadInput(f"{path}: {path.stat().st_size} bytes, expected at most {LARGEST_BYTES}")
+        if path.stat().st_size > most_bytes:
+            raise BadInput(f"{path}: {path.stat().st_size} bytes, expected at most {most_bytes}")
         return path.read_bytes()
     except OSError as error:
         raise BadInput(f"{path}: {system_words(error)}") from None
 
 
-def read_text(path: Path, encoding: str = "utf-8-sig") -> str:
+def read_text(path: Path, encoding: str = "utf-8-sig", most_bytes: int = LARGEST_BYTES) -> str:
     """The file as text: UTF-8, a byte order mark dropped, a lone carriage return made a newline.
 
     Raises `BadInput`.
     """
-    content = read_content(path)
+    content = read_content(path, most_bytes)
     try:
         if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
             raise BadInput(f'{path}: UTF-16 text, expected UTF-8: save it as such ("CSV UTF-8")')
@@ -47,3 +49,14 @@ def read_text(path: Path, encoding: str = "utf-8-sig") -> str:
     if not text.strip():
         raise BadInput(f"{path}: the file is empty")
     return _LONE_RETURN.sub("\n", text) if "\r" in text else text
+
+
+def lines_of(path: Path, text: str) -> list[str]:
+    """The lines of a file's text, none of them endless. Raises `BadInput`."""
+    lines = text.splitlines()
+    for number, line in enumerate(lines, start=1):
+        if len(line) > LONGEST_LINE:
+            raise BadInput(
+                f"{path}: line {number}: {len(line)} letters, expected at most {LONGEST_LINE}: a row a line"
+            )
+    return lines

@@ -18,6 +18,8 @@ NotNegative = Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)]
 Number = Annotated[float, Field(ge=-1e20, le=1e20, allow_inf_nan=False)]
 Percent = Annotated[float, Field(ge=0, lt=100, allow_inf_nan=False)]
 
+_LARGEST_BYTES = 1_000_000
+"""What people write has some thousands; to read as many takes a second."""
 _MOST_SHOWN = 3
 _LONGEST = 80
 _NO_TABLE = ("model_type", "model_attributes_type", "dict_type")
@@ -48,9 +50,19 @@ class TomlTable(BaseModel):
 T = TypeVar("T", bound=BaseModel)
 
 
+def toml_text(path: Path) -> str:
+    """The text of a file, whatever stands in it. Raises `BadInput`, also for one too large to be TOML."""
+    return read_text(path, most_bytes=_LARGEST_BYTES)
+
+
+def read_tables(path: Path) -> dict[str, Any]:
+    """What a file says, unchecked. Raises `BadInput`, and as `tomllib.loads` does."""
+    return tomllib.loads(toml_text(path))
+
+
 def read_document(path: Path, model: type[T]) -> T:
     """Read and check a file. Raises `BadInput` with one line."""
-    return parse_document(path, read_text(path), model)
+    return parse_document(path, toml_text(path), model)
 
 
 def parse_document(path: Path, text: str, model: type[T]) -> T:
@@ -69,7 +81,7 @@ def parse_document(path: Path, text: str, model: type[T]) -> T:
 def document_faults(path: Path, model: type[BaseModel]) -> list[str]:
     """Everything wrong with a file at once; empty for a good one."""
     try:
-        model.model_validate(tomllib.loads(read_text(path)))
+        model.model_validate(read_tables(path))
     except BadInput as error:
         return [str(error)]
     except tomllib.TOMLDecodeError as error:

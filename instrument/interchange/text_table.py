@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from instrument.errors import BadInput
 from instrument.files.table import Rows, is_comment, is_error
+from instrument.files.text import lines_of
 from instrument.files.units import unit_of
 from instrument.interchange.naming import PASSED_OVER, Naming
 from instrument.interchange.preamble import named_by_preamble, with_stated_units
@@ -51,7 +52,7 @@ def find_table(path: Path, text: str, naming: Naming | None = None) -> TextTable
 
     Raises `BadInput` where there is none, or more than one.
     """
-    lines = [(n, line) for n, line in enumerate(text.splitlines(), start=1) if line.strip()]
+    lines = [(n, line) for n, line in enumerate(lines_of(path, text), start=1) if line.strip()]
     separator = _separator(lines)
     fields = [(n, _fields(path, n, line, separator)) for n, line in lines if not is_comment(line)]
     first, count = _longest_run(fields)

@@ -9,7 +9,7 @@ from instrument.files.at_once import write_at_once
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.new_file import TEMPLATES
 from instrument.files.text import read_text
-from instrument.files.toml import parse_document
+from instrument.files.toml import parse_document, toml_text
 
 _HEADER = re.compile(r"^\s*\[\[?\s*([A-Za-z0-9_-]+)")
 
@@ -17,7 +17,7 @@ _HEADER = re.compile(r"^\s*\[\[?\s*([A-Za-z0-9_-]+)")
 def begun(path: Path, specimen: Path) -> str:
     """The text of `path`, or of a new experiment from the template. Raises `BadInput`."""
     if path.exists():
-        text = read_text(path)
+        text = toml_text(path)
         parse_document(path, text, ExperimentDocument)
         return text
     if not path.parent.is_dir():

@@ -5,8 +5,13 @@ import os
 import pytest
 
 from instrument.errors import BadInput
+from instrument.files import text
+from instrument.files.experiment_file import read_experiment
 from instrument.files.nearest import nearest
+from instrument.files.structure_file import read_structure
+from instrument.files.table import read_rows
 from instrument.files.text import read_text
+from instrument.interchange.read_csv import read_csv
 from instrument.session.storage import SessionFile
 
 
@@ -62,3 +67,20 @@ def test_a_link_to_itself_is_no_file(tmp_path):
     (tmp_path / "a.csv").symlink_to("a.csv")
     with pytest.raises(BadInput, match=r"a\.csv: "):
         read_text(tmp_path / "a.csv")
+
+
+def test_an_endless_line_is_refused_before_it_is_split(tmp_path, monkeypatch):
+    monkeypatch.setattr(text, "LONGEST_LINE", 100)
+    path = tmp_path / "a.csv"
+    path.write_text("frequency_hz,velocity_m_s\n" + "1," * 51)
+    for read in (read_rows, read_csv):
+        with pytest.raises(BadInput, match=r"a\.csv: line 2: 102 letters, expected at most 100"):
+            read(path)
+
+
+def test_what_is_too_large_for_toml_is_refused_unread(tmp_path):
+    path = tmp_path / "a.toml"
+    path.write_text("# more than anybody writes by hand\n" * 30_000)
+    for read in (read_structure, read_experiment):
+        with pytest.raises(BadInput, match=r"a\.toml: 1050000 bytes, expected at most 1000000"):
+            read(path)
