@@ -15,6 +15,8 @@ from instrument.cli.run import out_option, resume_option, run_parts
 @force_option
 @acceleration_option
 @json_option
-def hammer(experiment: Path, out: Path, resume: Path | None, insist: bool, json_path: str | None) -> None:
+def hammer(
+    experiment: Path, out: Path | None, resume: Path | None, insist: bool, json_path: str | None
+) -> None:
     """The bare plate's hammer test of EXPERIMENT.toml: natural frequencies and damping ratios."""
     run_parts(experiment, out, resume, json_path, ("hammer",), insist=insist)

@@ -19,8 +19,7 @@ from instrument.session.configuration import read_whole_experiment
 out_option = click.option(
     "--out",
     type=click.Path(path_type=Path, file_okay=False),
-    default=Path(),
-    help="Where the session goes; the current folder otherwise.",
+    help="Where a new session goes; the current folder otherwise.",
 )
 resume_option = click.option(
     "--resume",
@@ -37,28 +36,32 @@ resume_option = click.option(
 @force_option
 @acceleration_option
 @json_option
-def run(experiment: Path, out: Path, resume: Path | None, insist: bool, json_path: str | None) -> None:
+def run(experiment: Path, out: Path | None, resume: Path | None, insist: bool, json_path: str | None) -> None:
     """The whole EXPERIMENT.toml on the rig it names: hammer test, sweep, live identification, session."""
     run_parts(experiment, out, resume, json_path, ("hammer", "sweep"), insist=insist)
 
 
 def run_parts(
     path: Path,
-    out: Path,
+    out: Path | None,
     resume: Path | None,
     json_path: str | None,
     parts: tuple[Part, ...],
     *,
     insist: bool = False,
 ) -> None:
-    """Run some parts of an experiment and print what they gave."""
+    """Run some parts of an experiment and print what they gave. Raises `click.UsageError`."""
+    if out is not None and resume is not None and out.resolve() != resume.resolve().parent:
+        raise click.UsageError(
+            f"--out {out} with --resume: the session stays beside {resume}, expected no --out"
+        )
     output = Output(json_path)
     experiment = read_whole_experiment(path)
     question_experiment(path, experiment.rig_path, experiment.specimen_path, insist=insist)
     control = RunControl()
     with safe_stop(control), Watcher() as watch:
         finished = run_experiment(
-            experiment, out, parts, control=control, watch=watch, resume=resume, progress=bar
+            experiment, out or Path(), parts, control=control, watch=watch, resume=resume, progress=bar
         )
     print_finished(output, finished)
     output.result(run_result(finished))

@@ -15,6 +15,8 @@ from instrument.cli.run import out_option, resume_option, run_parts
 @force_option
 @acceleration_option
 @json_option
-def sweep(experiment: Path, out: Path, resume: Path | None, insist: bool, json_path: str | None) -> None:
+def sweep(
+    experiment: Path, out: Path | None, resume: Path | None, insist: bool, json_path: str | None
+) -> None:
     """The stepped sine of EXPERIMENT.toml, identified as it goes."""
     run_parts(experiment, out, resume, json_path, ("sweep",), insist=insist)

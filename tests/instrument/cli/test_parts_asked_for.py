@@ -57,6 +57,16 @@ def said(command, *arguments):
         (damping, ("a.csv", "--at", "20,-3"), "expected frequencies above 0 Hz"),
         (damping, ("a.csv", "--at", "20 Hz"), "expected F1,F2,... in Hz"),
         (damping, ("a.csv", "--rate", "1e9"), "--rate 1e+09, expected samples a second below 1e+08"),
+        (
+            run,
+            ("a.toml", "--out", "x", "--resume", "y/b.running"),
+            "--out x with --resume: the session stays",
+        ),
+        (
+            sweep,
+            ("a.toml", "--out", "x", "--resume", "y/b.running"),
+            "--out x with --resume: the session stays",
+        ),
         (demo, ("--seed", -1), "-1 is not in the range"),
         (export, ("a.h5", "--to", "xls"), "'xls' is not one of"),
         (export, ("none.h5", "--to", "mat"), "none.h5: no such file"),
