@@ -3,13 +3,11 @@
 What a sweep is measured with where the file is silent stands in `instrument/stepped_sine/settings.py`.
 """
 
-import tomllib
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
-from fitting.specimen import KINDS
 from instrument.errors import BadInput
 from instrument.files.toml import (
     NotNegative,
@@ -17,8 +15,8 @@ from instrument.files.toml import (
     TomlTable,
     document_faults,
     read_document,
-    read_tables,
 )
+from instrument.files.toml_kind import kind_of_toml
 from instrument.stepped_sine.patience import LONGEST_S
 from instrument.stepped_sine.settings import Dwell, LevelControl, Settle
 
@@ -28,8 +26,6 @@ MOST_RECORD_S = 300
 """Of a hit: five minutes of samples, for the slowest of beams."""
 _LEAST_RATIO = 1.05
 """Of the ends of a band."""
-_RIGS = ("shaker", "vibrometer", "front_end")
-"""Tables of a rig's file."""
 _CONTROL, _SETTLE, _DWELL = LevelControl(), Settle(), Dwell()
 
 
@@ -286,9 +282,9 @@ def experiment_faults(path: Path) -> list[str]:
 
 
 def _refuse_another(path: Path) -> None:
-    """Raise `BadInput` for a specimen's file or a rig's: it lacks all that an experiment has."""
-    found, more = other_kind(path), ""
-    if not found:
+    """Raise `BadInput` for another file of this program: it lacks all that an experiment has."""
+    found, more = kind_of_toml(path), ""
+    if found in ("", "an experiment"):
         return
     if found == "a rig":
         more = "; 'viscorig doctor' asks a rig's instruments"
@@ -296,17 +292,3 @@ def _refuse_another(path: Path) -> None:
         f"{path}: {found}, expected an experiment, which names its specimen and its rig (viscorig new "
         f"experiment){more}"
     )
-
-
-def other_kind(path: Path) -> Literal["a specimen", "a rig", ""]:
-    """What a TOML file is that is no experiment; empty for one, and for what cannot be read."""
-    try:
-        tables = read_tables(path)
-    except (BadInput, tomllib.TOMLDecodeError, RecursionError, ValueError):
-        # What is wrong with it is said where it is read.
-        return ""
-    if any(kind in tables for kind in KINDS) and "rig" not in tables:
-        return "a specimen"
-    if not isinstance(tables.get("rig"), str) and any(part in tables for part in _RIGS):
-        return "a rig"
-    return ""

@@ -7,10 +7,10 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from instrument.errors import BadInput
-from instrument.files.experiment_file import other_kind
 from instrument.files.nearest import nearest
 from instrument.files.rig_file import RigDocument, SensorSection, year_after
 from instrument.files.toml import NotNegative, TomlTable, read_document
+from instrument.files.toml_kind import kind_of_toml
 from instrument.files.units import unit_of
 
 SensorKind = Literal["accelerometer", "force", "thermometer"]
@@ -81,10 +81,13 @@ class SensorsDocument(TomlTable):
 
 def read_rig(path: Path) -> RigDocument:
     """A rig with what its sensors' file says of the sensors it names. Raises `BadInput`."""
-    if other_kind(path) == "a specimen":
+    found = kind_of_toml(path)
+    if found == "a specimen":
         raise BadInput(
             f"{path}: a specimen, expected a rig, whose [simulation] may name it (viscorig new rig)"
         )
+    if found not in ("", "a rig"):
+        raise BadInput(f"{path}: {found}, expected a rig (viscorig new rig)")
     document = read_document(path, RigDocument)
     if document.sensors is None:
         return document
