@@ -12,9 +12,8 @@ from fitting.mode_tables.as_read import READS, Read
 from fitting.mode_tables.table import ModalTable
 from instrument.errors import BadInput
 from instrument.files.nearest import nearest
-from instrument.files.sweep_file import IMPORT_READS
 from instrument.files.table import check_above_zero, check_frequency, number, read_rows
-from instrument.files.text import read_text
+from instrument.files.text import IMPORT_READS, read_text
 
 _SAID = re.compile(r"^\s*#\s*read\s*:\s*(.*?)\s*$", re.MULTILINE | re.IGNORECASE)
 _MUST = ("mode", "frequency_hz", "loss_factor")

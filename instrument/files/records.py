@@ -1,5 +1,6 @@
 """Impact records and FRFs of any kind, by the file's ending; what a file does not say, options do."""
 
+import shlex
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,6 +16,7 @@ from instrument.files.impact_csv import MOTIONS, read_impact_csv
 from instrument.files.lvm import read_lvm
 from instrument.files.mat import read_mat_variables
 from instrument.files.table import rate_of_times
+from instrument.files.text import refuse_workbook
 from instrument.files.uff58 import FRF, TIME, Function, read_uff58
 from instrument.files.units import KNOWN_MOTIONS, unit_of
 from instrument.impact.record import Hit, ResponseChannel
@@ -64,6 +66,13 @@ def _read(path: Path, named: Named) -> list[Hit] | dict[str, Frf]:
         ]
     if ending == ".mat":
         return [_mat(path, named)]
+    refuse_workbook(path)
+    if ending in (".h5", ".hdf5"):
+        export = shlex.join(["viscorig", "export", str(path), "--to", "csv"])
+        raise BadInput(
+            f"{path}: a session, expected impact records: {export} writes its hits; 'viscorig identify' "
+            "takes the session itself, with --hammer too"
+        )
     raise BadInput(f"{path}: unknown ending {ending!r}, expected .csv, .lvm, .uff, .unv or .mat")
 
 

@@ -17,10 +17,8 @@ from instrument.files.near_columns import words_of_near
 from instrument.files.nearest import nearest
 from instrument.files.point_columns import understood
 from instrument.files.table import SMALLEST, check_above_zero, check_frequency, check_whole, number, read_rows
-from instrument.files.text import read_text
+from instrument.files.text import IMPORT_READS, read_text
 
-IMPORT_READS = "'viscorig import' reads other programs' tables"
-"""For people whose columns have other names."""
 _SAME_SIZE = 0.02
 """Between an amplitude and its phasor, written with few digits."""
 _DRIVES: dict[Drive, tuple[str, str]] = {
@@ -30,6 +28,7 @@ _DRIVES: dict[Drive, tuple[str, str]] = {
 """Columns of the phasor that drives."""
 _MEANT = 0.8
 """How alike an unknown column is to one of ours that was meant."""
+_IN_OTHER_UNIT = re.compile("_(?:mm|um|nm|cm|in)_")
 _DECISIVE = (
     "level_g",
     "weight",
@@ -198,6 +197,10 @@ def _check_header(path: Path, header: list[str]) -> None:
     known = [column.name for column in understood()]
     for name in header:
         meant = nearest(name, [k for k in known if k not in header], _MEANT) if name not in known else None
+        if meant in known and _IN_OTHER_UNIT.sub("_m_", name) == meant:
+            raise BadInput(
+                f"{path}: header: column {name} is not in m, expected {meant}, in m; {IMPORT_READS}"
+            )
         if meant in _DECISIVE:
             raise BadInput(
                 f"{path}: header: column {name} is unknown, the nearest is {meant}: expected that, or a name "

@@ -11,7 +11,8 @@ import numpy as np
 from fitting.arrays import Array
 from instrument.errors import BadInput
 from instrument.files.rates import rate_of_step
-from instrument.files.text import lines_of, read_text
+from instrument.files.text import IMPORT_READS, lines_of, read_text
+from instrument.files.units import unit_of
 
 Rows = list[tuple[int, list[str]]]
 LARGEST = 1e30
@@ -30,6 +31,13 @@ _OFF_GRID = 0.2
 _ROUNDING = 1e-12
 """Relative: times that are exact but for it are exact."""
 _SPREADSHEET_ERROR = re.compile(r"\s*\"?#(N/A|DIV/0!|VALUE!|REF!|NAME\?|NUM!|NULL!)")
+_EXCEL_MARK = re.compile("sep=", re.I)
+_EXPECTED_FIRST = f"expected the names of the columns first; {IMPORT_READS}"
+_FORTRAN = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)[dD][-+]?\d+")
+_WITH_COMMA = re.compile(r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
+_NO_UNIT = ("", "-", "1")
+_AXES = ("hz", "khz", "rad/s", "s", "sec", "ms", "deg", "°", "rad", "°c", "degc", "c", "k")
+"""Units of columns, in small letters, besides those of motions and forces."""
 _DECIMAL_COMMA = re.compile(r"\d,\d")
 
 
@@ -54,6 +62,8 @@ def read_rows(
         if len(row) != len(header):
             expected = f"{len(header)} as in the header (line {top})"
             raise BadInput(f"{path}: line {line}: {len(row)} columns, expected {expected}")
+        if not rows:
+            _check_units(path, line, row)
         rows.append((line, row))
     if header is None:
         raise BadInput(f"{path}: no header, expected a line of column names")
@@ -64,6 +74,8 @@ def read_rows(
 
 def _check_separator(path: Path, header: list[str]) -> None:
     """Raise `BadInput` where a header of one column is a row of names with another mark between them."""
+    if _EXCEL_MARK.match(header[0]):
+        raise BadInput(f"{path}: header: a spreadsheet's line {header[0]!r} above it, {_EXPECTED_FIRST}")
     if len(header) > 1:
         return
     for mark, name in ((";", "semicolons"), ("\t", "tabs")):
@@ -71,7 +83,20 @@ def _check_separator(path: Path, header: list[str]) -> None:
             below = read_text(path).partition(header[0])[2]
             comma = " and decimal commas" if _DECIMAL_COMMA.search(below) else ""
             cure = "commas and decimal points" if comma else "commas"
-            raise BadInput(f"{path}: header: {name} between the columns{comma}, expected {cure}")
+            raise BadInput(
+                f"{path}: header: {name} between the columns{comma}, expected {cure}; {IMPORT_READS}"
+            )
+
+
+def _check_units(path: Path, line: int, row: list[str]) -> None:
+    """Raise `BadInput` where the first row has units, and no numbers."""
+    cells = [cell for cell in row if cell not in _NO_UNIT]
+    known = [cell.strip("[]()").lower() in _AXES or unit_of(cell) is not None for cell in cells]
+    if known and all(known):
+        said = ", ".join(cells)[:_MOST_SHOWN]
+        raise BadInput(
+            f"{path}: line {line}: units ({said}) below the header, expected numbers; {IMPORT_READS}"
+        )
 
 
 def number(path: Path, line: int, name: str, text: str) -> float:
@@ -80,7 +105,9 @@ def number(path: Path, line: int, name: str, text: str) -> float:
         # Python also takes 1_4.3, and digits of other scripts.
         value = float(text if text.isascii() and "_" not in text else "no number")
     except ValueError:
-        raise BadInput(f"{path}: line {line}: {name} = {shown(text)!r}, expected a number") from None
+        cure = f" (E before an exponent, not D); {IMPORT_READS}" if _FORTRAN.fullmatch(text) else ""
+        cure = " with a decimal point" if _WITH_COMMA.fullmatch(text) else cure
+        raise BadInput(f"{path}: line {line}: {name} = {shown(text)!r}, expected a number{cure}") from None
     if not math.isfinite(value):
         raise BadInput(f"{path}: line {line}: {name} = {shown(text)}, expected a finite number")
     if abs(value) > LARGEST:

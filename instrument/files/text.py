@@ -9,6 +9,14 @@ from instrument.errors import BadInput, system_words
 LARGEST_BYTES = 200_000_000
 LONGEST_LINE = 1_000_000
 """Letters: no row of a table has as many, and to split one far longer takes minutes."""
+IMPORT_READS = "'viscorig import' reads other programs' tables"
+"""For people whose tables are written in another way."""
+_TABLES = (".csv", ".txt", ".tsv", ".dat", ".asc", ".prn")
+_ARCHIVE = b"PK\x03\x04"
+_OLD_WORKBOOK = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
+_WORKBOOKS = (".xlsx", ".xlsm", ".xls")
+_OF_A_WORKBOOK = b"xl/workbook"
+"""The name of a file in the archive that a workbook is; names are not packed."""
 _LONE_RETURN = re.compile(r"\r(?!\n)")
 """The line end of some old programs: a table is read with it, TOML and patterns know only the others."""
 
@@ -36,9 +44,12 @@ def read_text(path: Path, encoding: str = "utf-8-sig", most_bytes: int = LARGEST
     Raises `BadInput`.
     """
     content = read_content(path, most_bytes)
+    refuse_packed(path, content)
     try:
         if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-            raise BadInput(f'{path}: UTF-16 text, expected UTF-8: save it as such ("CSV UTF-8")')
+            is_table = path.suffix.lower() in _TABLES
+            cure = f'save it as such ("CSV UTF-8"), or {IMPORT_READS}' if is_table else "save it as such"
+            raise BadInput(f"{path}: UTF-16 text, expected UTF-8: {cure}")
         text = content.decode(encoding)
     except UnicodeDecodeError as error:
         raise BadInput(
@@ -49,6 +60,21 @@ def read_text(path: Path, encoding: str = "utf-8-sig", most_bytes: int = LARGEST
     if not text.strip():
         raise BadInput(f"{path}: the file is empty")
     return _LONE_RETURN.sub("\n", text) if "\r" in text else text
+
+
+def refuse_packed(path: Path, content: bytes) -> None:
+    """Raise `BadInput` where a file's content is a workbook, or another archive, and no text."""
+    if content.startswith(_OLD_WORKBOOK) or (content.startswith(_ARCHIVE) and _OF_A_WORKBOOK in content):
+        cure = ": save it as CSV" if path.suffix.lower() != ".toml" else ""
+        raise BadInput(f"{path}: an Excel workbook, expected text{cure}")
+    if content.startswith(_ARCHIVE):
+        raise BadInput(f"{path}: a packed archive, expected text")
+
+
+def refuse_workbook(path: Path) -> None:
+    """Raise `BadInput` for a file that is a workbook by its name."""
+    if path.suffix.lower() in _WORKBOOKS:
+        raise BadInput(f"{path}: an Excel workbook, expected text: save it as CSV")
 
 
 def lines_of(path: Path, text: str) -> list[str]:

@@ -4,7 +4,7 @@ import codecs
 from pathlib import Path
 
 from instrument.errors import BadInput
-from instrument.files.text import read_content
+from instrument.files.text import read_content, refuse_packed
 
 _MARKED = {
     codecs.BOM_UTF8: "utf-8-sig",
@@ -24,6 +24,7 @@ def decoded(path: Path) -> str:
     Raises `BadInput` for an empty file and for one that is no text.
     """
     content = read_content(path)
+    refuse_packed(path, content)
     named = next((encoding for mark, encoding in _MARKED.items() if content.startswith(mark)), "")
     for encoding in (named,) if named else _UNMARKED:
         try:

@@ -11,6 +11,7 @@ from fitting.plugins import NoPlugin, Registry
 from instrument.errors import BadInput
 from instrument.files.guard import checked_frf, checked_hits, said_of
 from instrument.files.table import LARGEST
+from instrument.files.text import refuse_workbook
 from instrument.interchange.found import CARRIED, EXPECTED, Found
 from instrument.interchange.naming import OF_ARRAYS, Naming
 from instrument.interchange.provenance import one_line
@@ -55,6 +56,7 @@ def read_foreign(path: Path, naming: Naming | None = None) -> Found:
         raise BadInput(f"{path}: {'no file' if path.exists() else 'no such file'}")
     reader = READERS.get(_ending(path))
     if reader is None:
+        refuse_workbook(path)
         raise BadInput(f"{path}: unknown ending {path.suffix!r}, {READERS.expected(_ending(path))}")
     if naming is not None:
         if _ending(path) not in _NAMED:

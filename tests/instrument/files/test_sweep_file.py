@@ -4,6 +4,7 @@ from data_folder import DATA
 
 from instrument.errors import BadInput
 from instrument.files.sweep_file import read_sweep
+from instrument.interchange.read_csv import read_csv
 
 AMPLITUDES = "frequency_hz,velocity_m_s\n18.4,0.0726\n19.3,0.1112\n"
 PHASORS = "frequency_hz,velocity_re_m_s,velocity_im_m_s\n18.4,-0.01,0.07\n19.3,0.0,0.11\n"
@@ -178,3 +179,32 @@ def test_a_column_of_angular_frequencies_is_told_its_cure(tmp_path):
         BadInput, match=r"frequency_hz missing, found omega_rad_s: expected Hz, rad/s over 2 pi"
     ):
         read_sweep(write(tmp_path, text))
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("frequency_hz;velocity_m_s\n20;0,1\n", "header: semicolons between the columns and decimal commas"),
+        ("frequency_hz\tvelocity_m_s\n20\t0.1\n", "header: tabs between the columns, expected commas"),
+        ("sep=;\nfrequency_hz;velocity_m_s\n20;0,1\n", "header: a spreadsheet's line 'sep=;' above it"),
+        ("sep=,\nfrequency_hz,velocity_m_s\n20,0.1\n", "header: a spreadsheet's line 'sep=' above it"),
+        ("frequency_hz,velocity_m_s\n20,4.17D-05\n", "= '4.17D-05', expected a number .E before an exponent"),
+        ("frequency_hz,velocity_m_s\nHz,m/s\n20,0.1\n", r"line 2: units \(Hz, m/s\) below the header"),
+        (
+            "frequency_hz,velocity_re_mm_s,velocity_im_mm_s\n20,0.1,1\n",
+            "velocity_re_mm_s is not in m, expected velocity_re_m_s, in m",
+        ),
+    ],
+)
+def test_what_import_reads_is_sent_there_and_import_reads_it(tmp_path, text, said):
+    row = text.splitlines()[-1]
+    path = write(tmp_path, f"{text}{row.replace('20', '30', 1)}\n")
+    with pytest.raises(BadInput, match=rf"{said}.*; 'viscorig import' reads other programs' tables"):
+        read_sweep(path)
+    (columns,) = read_csv(path).sweeps
+    np.testing.assert_allclose(columns["frequency_hz"], [20.0, 30.0])
+
+
+def test_a_decimal_comma_in_a_cell_is_told_its_cure(tmp_path):
+    with pytest.raises(BadInput, match="velocity_m_s = '0,1', expected a number with a decimal point"):
+        read_sweep(write(tmp_path, 'frequency_hz,velocity_m_s\n20,"0,1"\n'))

@@ -8,10 +8,13 @@ from instrument.errors import BadInput
 from instrument.files import text
 from instrument.files.experiment_file import read_experiment
 from instrument.files.nearest import nearest
+from instrument.files.records import Named, read_records
 from instrument.files.structure_file import read_structure
 from instrument.files.table import read_rows
 from instrument.files.text import read_text
+from instrument.interchange.decoded import decoded
 from instrument.interchange.read_csv import read_csv
+from instrument.interchange.readers import read_foreign
 from instrument.session.storage import SessionFile
 
 
@@ -69,6 +72,45 @@ def test_a_link_to_itself_is_no_file(tmp_path):
         read_text(tmp_path / "a.csv")
 
 
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        (
+            "a.csv",
+            r'expected UTF-8: save it as such \("CSV UTF-8"\), or .viscorig import. reads',
+        ),
+        ("a.toml", "UTF-16 text, expected UTF-8: save it as such$"),
+    ],
+)
+def test_utf_16_is_told_the_cure_of_its_kind_of_file(tmp_path, name, said):
+    (tmp_path / name).write_text('title = "x"\n', encoding="utf-16")
+    with pytest.raises(BadInput, match=said):
+        read_text(tmp_path / name)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "said"),
+    [
+        ("a.csv", b"PK\x03\x04..xl/workbook.xml", "an Excel workbook, expected text: save it as CSV"),
+        ("a.csv", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1..", "an Excel workbook, expected text: save it as CSV"),
+        ("a.toml", b"PK\x03\x04..xl/workbook.xml", "an Excel workbook, expected text$"),
+        ("a.csv", b"PK\x03\x04..", "a packed archive, expected text$"),
+    ],
+)
+@pytest.mark.parametrize("read", [read_text, decoded])
+def test_a_workbook_is_called_one_whatever_its_name(tmp_path, read, name, content, said):
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(BadInput, match=said):
+        read(tmp_path / name)
+
+
+def test_a_workbook_is_known_by_its_ending_where_no_reader_takes_it(tmp_path):
+    (tmp_path / "a.xlsx").write_bytes(b"PK\x03\x04")
+    for read in (read_foreign, lambda path: read_records(path, Named())):
+        with pytest.raises(BadInput, match=r"a\.xlsx: an Excel workbook, expected text: save it as CSV"):
+            read(tmp_path / "a.xlsx")
+
+
 def test_an_endless_line_is_refused_before_it_is_split(tmp_path, monkeypatch):
     monkeypatch.setattr(text, "LONGEST_LINE", 100)
     path = tmp_path / "a.csv"
@@ -84,3 +126,11 @@ def test_what_is_too_large_for_toml_is_refused_unread(tmp_path):
     for read in (read_structure, read_experiment):
         with pytest.raises(BadInput, match=r"a\.toml: 1050000 bytes, expected at most 1000000"):
             read(path)
+
+
+def test_a_session_is_no_impact_record_and_its_hits_can_be_written(tmp_path):
+    (tmp_path / "a b.h5").write_bytes(b"x")
+    with pytest.raises(
+        BadInput, match=r"a session, .*: viscorig export '.*/a b\.h5' --to csv writes its hits"
+    ):
+        read_records(tmp_path / "a b.h5", Named())
