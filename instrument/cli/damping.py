@@ -5,6 +5,7 @@ from pathlib import Path
 import click
 
 from fitting.modal.frf import DampingEstimate, Refusal
+from instrument.cli.naming import naming_records
 from instrument.cli.options import (
     DECIMAL_COMMA,
     NumberRange,
@@ -103,13 +104,15 @@ def damping(
     if any(isinstance(r, dict) for r in read):
         if len(read) > 1 or not isinstance(read[0], dict):
             raise BadInput("FRFs are read one file at a time, and not beside records")
-        found = damping_of_frfs(read[0], band_hz=band, at_hz=at)
+        with naming_records(records):
+            found = damping_of_frfs(read[0], band_hz=band, at_hz=at)
     else:
         hits = [hit for r in read for hit in r if isinstance(hit, Hit)]
         _check_alike(hits)
         end = exponential / 100 if exponential else None
         judged = [judge(hit) for hit in hits]
-        found = damping_of_hits(judged, band_hz=band, at_hz=at, estimator=estimator, end_value=end)
+        with naming_records(records):
+            found = damping_of_hits(judged, band_hz=band, at_hz=at, estimator=estimator, end_value=end)
     _print(out, found)
     if figures is not None:
         from instrument.impact.figures import save_figures

@@ -1,14 +1,28 @@
 """Of which files a refusal is, where what refuses them knows none."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import wraps
 from pathlib import Path
 from typing import ParamSpec, TypeVar
 
 from fitting.errors import FittingError
+from instrument.errors import BadInput
 
 P = ParamSpec("P")
 R = TypeVar("R")
+
+
+@contextmanager
+def naming_records(paths: Sequence[Path]) -> Iterator[None]:
+    """While open, a refusal of what files hold together has them first. Raises `BadInput`."""
+    try:
+        yield
+    except BadInput as error:
+        if any(p.name in str(error) for p in paths):
+            raise
+        more = f" and {len(paths) - 1} more" if len(paths) > 1 else ""
+        raise BadInput(f"{paths[0]}{more}: {error}") from None
 
 
 def naming_files(command: Callable[P, R]) -> Callable[P, R]:

@@ -37,16 +37,17 @@ def said_of(path: Path) -> Iterator[None]:
 def checked_hits(path: Path, hits: list[Hit]) -> list[Hit]:
     """Hits as given, if each has real finite samples, all channels equally long. Raises `BadInput`."""
     for hit in hits:
+        where = _placed(path, hit.source)
         if not _RATES_HZ[0] <= hit.sample_rate_hz <= _RATES_HZ[1]:
             raise BadInput(
-                f"{path}: {hit.source}: {hit.sample_rate_hz:g} samples/s, expected {_RATES_HZ[0]:g} to "
+                f"{where}: {hit.sample_rate_hz:g} samples/s, expected {_RATES_HZ[0]:g} to "
                 f"{_RATES_HZ[1]:g} (Hz, not kHz)"
             )
         for name, samples in (("force", hit.force_n), *((c.name, c.samples) for c in hit.responses)):
             said = _fault(samples, len(hit.force_n))
             if said or len(samples) < _LEAST_SAMPLES:
                 why = said or f"{len(samples)} samples, expected {_LEAST_SAMPLES} or more"
-                raise BadInput(f"{path}: {hit.source}: channel {name}: {why}")
+                raise BadInput(f"{where}: channel {name}: {why}")
     return hits
 
 
@@ -59,8 +60,13 @@ def checked_frf(path: Path, name: str, frf: Frf) -> Frf:
     if not said and not np.any(frf.H):
         said = "zero everywhere, expected a response"
     if said:
-        raise BadInput(f"{path}: {name}: {said}")
+        raise BadInput(f"{_placed(path, name)}: {said}")
     return frf
+
+
+def _placed(path: Path, name: str) -> str:
+    """What a fault is of: a file, and what in it; readers often name the file in the latter."""
+    return f"{path}{name.removeprefix(path.name)}" if name.startswith(path.name) else f"{path}: {name}"
 
 
 def _fault(values: object, count: int, *, complex_too: bool = False) -> str:

@@ -90,7 +90,7 @@ def damping_of_hits(
     """Average the accepted hits and find their modes.
 
     `end_value` puts an exponential window on what the rational fit and LSCF see; half power always has one.
-    Raises `BadInput` where no hit is left.
+    Raises `BadInput` where no hit is left, and for a band that the sampling rate does not reach.
     """
     good = [j for j in hits if j.accepted]
     if not good:
@@ -106,6 +106,9 @@ def damping_of_hits(
     fine = spectra(good, estimator=estimator, end_value=end_value or HALF_POWER_END, padding=PADDING)
     seconds = good[0].hit.seconds
     band = band_hz or (3 / seconds, min(rolloff_hz(plain), _OF_RATE * rate))
+    if not at_hz and band[0] >= rate / 2:
+        said = f"band {band[0]:g} to {band[1]:g} Hz lies above half the sampling rate"
+        raise BadInput(f"{said}, expected below {rate / 2:g} Hz")
     single = [one.frfs for one in alone]
     modes = _modes(plain.frfs, fine.frfs, band, at_hz, seconds, single)
     modes, differ = told_apart(good, single, modes)

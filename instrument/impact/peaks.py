@@ -39,8 +39,8 @@ def peaks_of(plain: Frf, fine: Frf, band: tuple[float, float]) -> list[tuple[flo
     inside = fine.between(*band)
     if min(len(inside.H), len(plain.between(*band).H)) < _FEWEST_LINES:
         raise BadInput(
-            f"band {band[0]:g} to {band[1]:g} Hz holds {len(inside.H)} lines, "
-            f"expected {_FEWEST_LINES} or more"
+            f"band {band[0]:g} to {band[1]:g} Hz holds {len(inside.H)} lines, expected {_FEWEST_LINES} or "
+            f"more: they go from {fine.frequency_hz[0]:g} to {fine.frequency_hz[-1]:g} Hz"
         )
     # Loaded here: with what it brings along it takes as long as a third of the window's start.
     from scipy.signal import find_peaks

@@ -238,10 +238,13 @@ def _check_sizes(source: str, reading: Signal, drive: Signal | None) -> None:
 
 def _check_rows(source: str, reading: Signal, f: Array, found: Found) -> None:
     """Raise `BadInput` for a row of a sweep that is none."""
-    for what, bad in (("no number", ~np.isfinite(reading.values)), ("a frequency not above 0", ~(f > 0))):
+    for what, expected, bad in (
+        ("no number", "one in every row", ~np.isfinite(reading.values)),
+        ("a frequency not above 0", "frequencies above 0 Hz", ~(f > 0)),
+    ):
         if bad.any():
             place = found.place(int(np.flatnonzero(bad)[0]), len(f))
-            raise BadInput(f"{source}: {reading.name}: {what} in {place}, expected none such")
+            raise BadInput(f"{source}: {reading.name}: {what} in {place}, expected {expected}")
 
 
 def _as(source: str, signal: Signal, wanted: Quantity, f: Array) -> NDArray[Any]:

@@ -175,7 +175,8 @@ def _named(
             continue
         at = near[-1 if names.lines > 1 else 0][0]
         left = sum(n < at for n, _ in lines)
-        said = [f"names in line {at}, {left} lines above it passed over"] if left else []
+        above_it = "the line" if left == 1 else f"{left} lines"
+        said = [f"names in line {at}, {above_it} above it passed over"] if left else []
         made, stated = with_stated_units(naming.named(str(path), names.names), preamble)
         return TextTable(made, rows, separator, said + stated)
     known = named_by_preamble(preamble, rows)

@@ -1,5 +1,6 @@
 """What other programs' files may hold, and how a reader's troubles are said."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -81,3 +82,10 @@ def test_an_frf_passes_unchanged():
 def test_a_record_that_is_none_is_refused(one, said):
     with pytest.raises(BadInput, match=said):
         checked_hits(PATH, [one])
+
+
+def test_a_file_that_its_reader_names_too_is_named_once():
+    with pytest.raises(BadInput, match=r"^foreign\.uff: 2 values beside 3"):
+        checked_frf(PATH, "foreign.uff", Frf(F, GOOD[:2], "velocity"))
+    with pytest.raises(BadInput, match=r"^foreign\.uff hit 1: channel force: 2 samples"):
+        checked_hits(PATH, [replace(hit(np.ones(2)), source="foreign.uff hit 1")])

@@ -223,6 +223,15 @@ def test_an_empty_band_says_so(clean):
     assert any("no mode found" in w for w in found.warnings)
 
 
+def test_a_band_without_lines_says_where_they_are(clean):
+    with pytest.raises(BadInput, match=rf"lies above half the sampling rate, expected below {RATE / 2:g} Hz"):
+        found_in([hit_of(*clean)], band_hz=(RATE, 2 * RATE))
+    frfs = found_in([hit_of(*clean)]).plain
+    last = next(iter(frfs.values())).frequency_hz[-1]
+    with pytest.raises(BadInput, match=rf"holds 0 lines, expected .* more: they go from 0 to {last:g} Hz"):
+        damping_of_frfs(frfs, band_hz=(RATE, 2 * RATE))
+
+
 @pytest.mark.parametrize("motion", ["displacement", "velocity"])
 def test_modes_are_found_in_noise_whatever_is_measured(motion):
     clean = clean_hit(BARE_HZ[:6], TABLE_3[:6], np.ones(6), motion=motion)

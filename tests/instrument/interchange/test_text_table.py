@@ -85,6 +85,8 @@ def test_a_response_is_the_same_from_any_program(tmp_path, maker):
 def test_what_stands_above_the_names_is_said_to_be_passed_over(tmp_path):
     (tmp_path / "a.txt").write_text(TEXTS["Polytec"], encoding="cp1252")
     assert "names in line 6, 4 lines above it passed over" in read_csv(tmp_path / "a.txt").said[0]
+    (tmp_path / "b.csv").write_text("sep=;\nf [Hz];v [m/s]\n20;0,1\n30;0,2\n")
+    assert "names in line 2, the line above it passed over" in read_csv(tmp_path / "b.csv").said[0]
 
 
 TABLE = "Frequency [Hz],FRF re [s],FRF im [s]\n" + rows(",")
@@ -132,7 +134,7 @@ REFUSED = {
     ),
     "a cell that is no number": (
         "f [Hz],v re [m/s],v im [m/s]\n20,0.1,1\n30,nan,1\n",
-        r"v re \[m/s\]: no number in line 3, expected none such",
+        r"v re \[m/s\]: no number in line 3, expected one in every row",
     ),
     "a number that is too large": ("f [Hz],v [m/s]\n20,0.1\n30,2e31\n", "velocity_m_s: .*, in line 3"),
     "words": ("a,b\nx,y\n", "no rows of numbers"),
