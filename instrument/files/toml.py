@@ -38,6 +38,10 @@ _PLAIN = {
     "tuple_type": "a list",
 }
 """What a file should say where pydantic speaks of valid inputs, by the type of its fault."""
+_TWICE = ("Cannot overwrite a value", "Cannot declare")
+"""How Python says that a key or a table stands twice."""
+_AT_LINE = re.compile(r"at line (\d+)")
+_TABLE = re.compile(r"(\[+[^\]]+\]+)")
 _COMMA = re.compile(r"(?m)^\s*[\w.-]+\s*=\s*(-?\d+,\d+)\s*(?:#.*)?$")
 
 
@@ -70,7 +74,7 @@ def parse_document(path: Path, text: str, model: type[T]) -> T:
     try:
         return model.model_validate(tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:
-        raise BadInput(f"{path}: not TOML: {error}{_decimal_comma(text)}") from None
+        raise BadInput(f"{path}: {_not_toml(error, text)}{_decimal_comma(text)}") from None
     except ValidationError as error:
         raise BadInput(f"{path}: {one_line(error, model=model)}") from None
     except (RecursionError, OverflowError, ValueError) as error:
@@ -81,11 +85,13 @@ def parse_document(path: Path, text: str, model: type[T]) -> T:
 def document_faults(path: Path, model: type[BaseModel]) -> list[str]:
     """Everything wrong with a file at once; empty for a good one."""
     try:
-        model.model_validate(read_tables(path))
+        text = toml_text(path)
     except BadInput as error:
         return [str(error)]
+    try:
+        model.model_validate(tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:
-        return [f"{path}: not TOML: {error}"]
+        return [f"{path}: {_not_toml(error, text)}"]
     except ValidationError as error:
         return [f"{path}: {fault}" for fault in faults(error, model=model)]
     except (RecursionError, OverflowError, ValueError) as error:
@@ -106,6 +112,19 @@ def one_line(error: ValidationError, prefix: str = "", model: type[BaseModel] | 
     said = faults(error, prefix, model)
     more = len(said) - _MOST_SHOWN
     return "; ".join(said[:_MOST_SHOWN]) + (f"; and {more} more" if more > 0 else "")
+
+
+def _not_toml(error: tomllib.TOMLDecodeError, text: str) -> str:
+    """What is wrong with a text; of a key that stands twice which one it is."""
+    if not str(error).startswith(_TWICE):
+        return f"not TOML: {error}"
+    lines = text.rstrip().splitlines()
+    at = _AT_LINE.search(str(error))
+    number = min(int(at[1]), len(lines)) if at is not None else len(lines)
+    line = lines[number - 1].strip()
+    table = _TABLE.match(line)
+    key = table[1] if table is not None else line.partition("=")[0].strip()
+    return f"line {number}: {key} stands twice, expected it once"
 
 
 def _decimal_comma(text: str) -> str:

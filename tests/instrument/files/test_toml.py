@@ -54,3 +54,19 @@ def test_a_file_is_read_whatever_ends_its_lines(tmp_path, end):
     read = read_document(path, Small)
     assert (read.number, read.part[0].count) == (2.5, 3)
     assert document_faults(path, Small) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("count = 1\n\ncount  = 2  # again\nname = 'x'\n", "line 3: count stands twice, expected it once"),
+        ("count = 1\ncount = 2", "line 2: count stands twice"),
+        ("[part]\ncount = 1\n[part]\n", r"line 3: \[part\] stands twice"),
+        ("[[part]]\ncount = 1\ncount = 2\n\n", "line 3: count stands twice"),
+    ],
+)
+def test_a_key_that_stands_twice_is_named(tmp_path, text, said):
+    (tmp_path / "a.toml").write_text(text)
+    with pytest.raises(BadInput, match=rf"a\.toml: {said}"):
+        read_document(tmp_path / "a.toml", Small)
+    assert said.replace("\\", "") in document_faults(tmp_path / "a.toml", Small)[0]
