@@ -10,11 +10,14 @@ from rich.table import Table
 from instrument.cli.printable import printable
 from instrument.errors import BadInput
 from instrument.facts.result import Result
+from instrument.files.at_once import refuse_unwritable
 from instrument.files.result_file import result_text, write_result
 from instrument.progress import Screen
 
 _WRITTEN = ("json_path", "out", "pdf")
 """Parameters of commands that name files to be written."""
+_FIGURES = "figures"
+"""And the one that names a folder for such files."""
 
 
 def _keep_what_is_read() -> None:
@@ -29,6 +32,15 @@ def _keep_what_is_read() -> None:
             raise BadInput(f"{path}: read by this command, expected another name for what it writes")
 
 
+def _refuse_unwritable() -> None:
+    """Raise `BadInput` for what could not be written in the end."""
+    context = click.get_current_context(silent=True)
+    given = context.params if context is not None else {}
+    for name in (*_WRITTEN, _FIGURES):
+        if given.get(name) not in (None, "-", Path("-")):
+            refuse_unwritable(Path(str(given[name])))
+
+
 class Output:
     """Where a command's results go, as `--json` decides."""
 
@@ -40,6 +52,7 @@ class Output:
         if json_path is not None and Path(json_path).is_dir():
             raise BadInput(f"{json_path}: is a folder, expected a file to write to")
         _keep_what_is_read()
+        _refuse_unwritable()
         self._console = Screen(highlight=False, quiet=json_path == "-", soft_wrap=True)
 
     def say(self, text: str = "") -> None:

@@ -1,5 +1,6 @@
 """A file that is written whole or not at all."""
 
+import errno
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -32,6 +33,19 @@ def at_once(path: Path) -> Iterator[Path]:
                 draft.unlink(missing_ok=True)
     except OSError as error:
         raise BadInput(f"{path}: {system_words(error)}") from None
+
+
+def refuse_unwritable(path: Path) -> None:
+    """Raise `BadInput` where a file or a folder of that name can be written by nobody of this user's rights.
+
+    Said before the work that is to be written. Folders that are missing are passed over, a device too.
+    """
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        return
+    real = path.resolve()
+    folder = next((p for p in (real, *real.parents) if p.is_dir()), None)
+    if folder is not None and not os.access(folder, os.W_OK | os.X_OK):
+        raise BadInput(f"{path}: {os.strerror(errno.EACCES)}: nothing can be written in {folder}")
 
 
 def write_at_once(path: Path, text: str) -> None:

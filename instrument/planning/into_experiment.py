@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 from instrument.errors import BadInput
-from instrument.files.at_once import write_at_once
+from instrument.files.at_once import refuse_unwritable, write_at_once
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.new_file import TEMPLATES
 from instrument.files.text import read_text
@@ -16,6 +16,7 @@ _HEADER = re.compile(r"^\s*\[\[?\s*([A-Za-z0-9_-]+)")
 
 def begun(path: Path, specimen: Path) -> str:
     """The text of `path`, or of a new experiment from the template. Raises `BadInput`."""
+    refuse_unwritable(path)
     if path.exists():
         text = toml_text(path)
         parse_document(path, text, ExperimentDocument)

@@ -3,9 +3,14 @@
 import io
 import json
 import sys
+from pathlib import Path
+
+import pytest
+from called import call
 
 from instrument.cli.output import Output
 from instrument.facts.result import Result
+from instrument.files.new_file import TEMPLATES
 
 
 class Facts(Result):
@@ -31,3 +36,19 @@ def test_the_file_is_written_though_the_reader_of_the_tables_has_gone(tmp_path, 
 def test_numbers_stand_to_the_right_under_their_head(capsys):
     Output(None).table("law", ["f/Hz", "G'/MPa"], [["20", "0.3"], ["100", "0.45"]])
     assert capsys.readouterr().out.splitlines() == ["law", "f/Hz  G'/MPa", "  20     0.3", " 100    0.45"]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("modes", TEMPLATES["plate"], "--json", "found.json"),
+        ("diagnose", "none.csv", "--figures", "figures/new"),
+        ("plan", TEMPLATES["plate"], "--experiment", "e.toml"),
+    ],
+)
+def test_what_could_not_be_written_is_refused_before_the_work(words, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("os.access", lambda path, *_: Path(path) != tmp_path)
+    status, out, err = call(capsys, *words)
+    assert (status, out) == (2, "")
+    assert f"{words[-1]}: Permission denied: nothing can be written in {tmp_path}" in err

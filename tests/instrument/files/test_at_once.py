@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from instrument.errors import BadInput
-from instrument.files.at_once import at_once, write_at_once
+from instrument.files.at_once import at_once, refuse_unwritable, write_at_once
 
 
 def half_written(path, error):
@@ -47,3 +47,16 @@ def test_a_device_is_written_to_and_a_link_leads_to_what_is_written(tmp_path):
 def test_a_folder_that_is_not_there_is_said(tmp_path):
     with pytest.raises(BadInput, match="No such file or directory"):
         write_at_once(tmp_path / "no" / "x.txt", "text")
+
+
+def test_what_cannot_be_written_is_refused_beforehand(tmp_path, monkeypatch):
+    (tmp_path / "there.json").write_text("x")
+    closed = [tmp_path / "there.json", tmp_path / "new.json", tmp_path / "figures" / "of it", tmp_path]
+    for path in closed:
+        refuse_unwritable(path)
+    # Not by the folder's mode: who runs the tests may write everywhere.
+    monkeypatch.setattr(os, "access", lambda folder, _: Path(folder) != tmp_path)
+    for path in closed:
+        with pytest.raises(BadInput, match="Permission denied: nothing can be written in"):
+            refuse_unwritable(path)
+    refuse_unwritable(Path(os.devnull))
