@@ -91,6 +91,15 @@ class BeamDocument(TomlTable):
     def _several(cls, given: Any) -> Any:
         return with_further_pickups(given)
 
+    @model_validator(mode="before")
+    @classmethod
+    def _undamped(cls, given: Any) -> Any:
+        if isinstance(given, dict) and "damping" in given:
+            raise ValueError(
+                "[damping], expected none: a beam has its metal's in [substrate], as loss_factor"
+            )
+        return given
+
     @model_validator(mode="after")
     def _whole(self) -> "BeamDocument":
         for name, layer in (("substrate", self.substrate), ("constraining", self.constraining)):

@@ -4,6 +4,7 @@ import pytest
 
 from instrument.errors import BadInput
 from instrument.files.beam_file import BeamDocument
+from instrument.files.new_file import TEMPLATES
 from instrument.files.structure_file import read_structure, read_structure_document
 
 SANDWICH = """
@@ -121,3 +122,10 @@ def test_what_cannot_be_is_refused_in_one_line(tmp_path, tables, boundary, more,
     with pytest.raises(BadInput, match=said.replace("(", r"\(")) as refused:
         read_structure(written(tmp_path, tables, boundary, more))
     assert "\n" not in str(refused.value)
+
+
+def test_damping_by_modes_is_sent_to_the_metal_s_loss_factor(tmp_path):
+    path = tmp_path / "beam.toml"
+    path.write_text(TEMPLATES["beam"].read_text() + "\n[damping]\nmodal_percent = [0.1]\n")
+    with pytest.raises(BadInput, match=r"beam\.toml: \[damping\], .* in \[substrate\], as loss_factor$"):
+        read_structure(path)
