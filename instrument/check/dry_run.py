@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
@@ -79,10 +80,10 @@ def all_faults(path: Path) -> list[str]:
         return found + _faults_of_named(path)
     experiment = read_experiment(path)
     found = document_faults(path.parent / experiment.rig, RigDocument)
-    try:
-        read_structure(path.parent / experiment.specimen)
-    except BadInput as error:
-        found.append(str(error))
+    found = _missing(path, experiment.rig, "rig") or found
+    found += _missing(path, experiment.specimen, "specimen") or _specimen_faults(
+        path.parent / experiment.specimen
+    )
     if found:
         return found
     whole = read_whole_experiment(path)
@@ -203,11 +204,22 @@ def _faults_of_named(path: Path) -> list[str]:
     except (BadInput, RecursionError, ValueError):
         return []
     found = []
-    if isinstance(named.get("rig"), str):
-        found += document_faults(path.parent / named["rig"], RigDocument)
-    if isinstance(named.get("specimen"), str):
-        try:
-            read_structure(path.parent / named["specimen"])
-        except BadInput as error:
-            found.append(str(error))
+    if isinstance(rig := named.get("rig"), str):
+        found += _missing(path, rig, "rig") or document_faults(path.parent / rig, RigDocument)
+    if isinstance(specimen := named.get("specimen"), str):
+        found += _missing(path, specimen, "specimen") or _specimen_faults(path.parent / specimen)
     return found
+
+
+def _missing(path: Path, named: str, key: Literal["rig", "specimen"]) -> list[str]:
+    """A line where there is no file of a name that an experiment gives."""
+    where = path.parent / named
+    return [] if where.exists() else [f"{where}: no such file, named by {key} = {named!r} in {path}"]
+
+
+def _specimen_faults(path: Path) -> list[str]:
+    try:
+        read_structure(path)
+    except BadInput as error:
+        return [str(error)]
+    return []

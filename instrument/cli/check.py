@@ -10,6 +10,7 @@ from instrument.cli.options import acceleration_option, file_argument, force_opt
 from instrument.cli.output import Output
 from instrument.cli.printable import printable
 from instrument.errors import BadInput
+from instrument.facts.check import CheckResult
 from instrument.files.acceleration import acceleration_unit
 from instrument.files.plausible_rig import question_experiment
 from instrument.progress import bar
@@ -33,6 +34,7 @@ def check(experiment: Path, insist: bool, json_path: str | None) -> None:
     if faults:
         for fault in faults:
             click.echo(printable(" ".join(fault.split())), err=True)
+        out.result(CheckResult(segments=(), modes_hz=(), seconds=0.0, faults=tuple(faults)))
         raise BadInput(f"{len(faults)} fault{'s' if len(faults) > 1 else ''}, nothing can be run")
     whole = read_whole_experiment(experiment)
     question_experiment(whole.path, whole.rig_path, whole.specimen_path, insist=insist)

@@ -55,3 +55,5 @@ class CheckResult(Result):
     """Whether everything stated is taken as exact."""
     tolerances: tuple[ToleranceUsed, ...] = ()
     warnings: tuple[str, ...] = ()
+    faults: tuple[str, ...] = ()
+    """Where there is one nothing is forecast: segments and modes are empty, no time is needed."""

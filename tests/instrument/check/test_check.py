@@ -1,9 +1,13 @@
 """What is wrong with an experiment is said at once, before anything is connected."""
 
+import json
+
 import pytest
+from called import call
 
 from instrument.check.dry_run import all_faults, dry_run
 from instrument.cli.main import run
+from instrument.files.new_file import write_new
 from instrument.simulated_case import EFFECTS, write_case
 
 pytestmark = pytest.mark.usefixtures("warm")
@@ -124,3 +128,18 @@ def test_a_drive_limit_that_cannot_reach_the_level_ends_the_run_with_its_remedy(
     said = capsys.readouterr().err
     assert "of [sweep] level_g, short by" in said
     assert "raise limits.drive_v as far as the shaker allows" in said
+
+
+def test_faults_are_in_the_json_too_and_a_missing_file_says_who_names_it(tmp_path, capsys):
+    write_new("experiment-beam", tmp_path / "e.toml")
+    write_new("rig", tmp_path / "rig.toml")
+    status, _, err = call(capsys, "check", tmp_path / "e.toml", "--json", tmp_path / "out.json")
+    missing = f"{tmp_path / 'specimen.toml'}: no such file, named by specimen = 'specimen.toml' in "
+    assert status == 2
+    assert missing in err
+    found = json.loads((tmp_path / "out.json").read_text())
+    assert found["faults"] == [f"{missing}{tmp_path / 'e.toml'}"]
+    assert found["segments"] == []
+    write_new("beam", tmp_path / "specimen.toml")
+    err = call(capsys, "check", tmp_path / "e.toml")[2]
+    assert 'expected [simulation] specimen = "specimen.toml" in rig.toml' in err
