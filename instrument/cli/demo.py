@@ -1,5 +1,6 @@
 """`viscorig demo`: a whole experiment on the simulated rig, then the published case from its tables."""
 
+import shlex
 from pathlib import Path
 
 import click
@@ -58,11 +59,16 @@ def demo(folder: Path, effect: str, seed: int, paper: bool, json_path: str | Non
         raise BadInput(f"{folder}: {system_words(error)}") from None
     out = Output(json_path)
     result = _run_rig(out, folder, chosen_effect(effect, seed), seed)
-    out.say(f"to change it: edit {folder}/experiment.toml, then  viscorig run {folder}/experiment.toml")
+    out.say(_to_change_it(folder))
     if paper:
         out.say()
         show_paper_case(out, folder)
     out.result(result)
+
+
+def _to_change_it(folder: Path) -> str:
+    named = shlex.quote(str(folder / "experiment.toml"))
+    return f"to change it: edit {named}, then  viscorig run {named}"
 
 
 def _run_rig(out: Output, folder: Path, effect: str | None, seed: int) -> RunResult:

@@ -1,6 +1,7 @@
 """The engine as its client sees it. No method waits for the engine but `stop` and `close`, which say so."""
 
 import queue
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -312,7 +313,11 @@ class Engine:
         lines = self._errors.read().decode(errors="replace").split("\n")
         said = next((f": {line.strip()}" for line in reversed(lines) if line.strip()), "")
         folder = self._recorded.folder if self._recorded is not None else None
-        kept = f"; what is complete is in {folder}: viscorig recover {folder}" if folder else ""
+        kept = (
+            f"; what is complete is in {folder}: viscorig recover {shlex.quote(str(folder))}"
+            if folder
+            else ""
+        )
         ended = f"the engine {how}{said}"
         if self._run_ended:
             ended = f"{ended}; what came before: {self._run_ended}"

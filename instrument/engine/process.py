@@ -1,6 +1,7 @@
 """The engine's process: one order, one run, one end."""
 
 import logging
+import shlex
 import signal
 import threading
 from functools import partial
@@ -91,7 +92,8 @@ def _left(host: Host) -> str:
     """Of a run that was broken off before it could say."""
     if host.recorded is None or not host.recorded.folder.is_dir():
         return "nothing was measured"
-    return f"what is complete is in {host.recorded.folder}: viscorig recover {host.recorded.folder}"
+    folder = host.recorded.folder
+    return f"what is complete is in {folder}: viscorig recover {shlex.quote(str(folder))}"
 
 
 def _send(mailbox: Mailbox, replies: BinaryIO) -> None:

@@ -1,5 +1,6 @@
 """The one result line: which law is to be signed, and its words. Any other law is labelled as what it is."""
 
+import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
@@ -115,7 +116,7 @@ def _ended_early(contents: Contents) -> str:
     again = contents.configuration.resumed("sweep" if alone else "run", folder)
     return (
         f"{happened}{more} after {points} point{'' if points == 1 else 's'}; to go on: {again}; a law of "
-        f"what is there: viscorig identify {contents.path.name}"
+        f"what is there: viscorig identify {shlex.quote(contents.path.name)}"
     )
 
 

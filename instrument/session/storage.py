@@ -16,6 +16,7 @@ import errno
 import hashlib
 import os
 import re
+import shlex
 import shutil
 from collections.abc import Iterator
 from contextlib import suppress
@@ -125,9 +126,8 @@ def _why_not(path: Path, said: str) -> str:
     """The library's own words for people: why a file that is there cannot be opened."""
     if path.is_dir():
         of_a_run = path.name.endswith(".running")
-        return (
-            f"a run's folder: viscorig recover {path} puts its session together" if of_a_run else "a folder"
-        )
+        command = shlex.join(["viscorig", "recover", str(path)])
+        return f"a run's folder: {command} puts its session together" if of_a_run else "a folder"
     if cut := _CUT.search(said):
         return f"it ends after {int(cut[1]):,} of {int(cut[2]):,} bytes, expected all of it: copy it again"
     if "signature not found" in said:

@@ -1,6 +1,7 @@
 """Which parts of an experiment a command runs, what ends or holds it, what is refused beforehand."""
 
 import signal
+from pathlib import Path
 
 import click
 import pytest
@@ -29,6 +30,7 @@ from instrument.cli.stopping import safe_stop
 from instrument.cli.sweep import sweep
 from instrument.errors import BadInput, RigStopped
 from instrument.run.control import RunControl
+from instrument.session.storage import SessionFile
 
 MODES = "mode,frequency_hz,loss_factor\n1,20,0.1\n"
 
@@ -163,3 +165,13 @@ def test_ctrl_z_holds_and_goes_on_again(capsys):
     first, second = capsys.readouterr().err.splitlines()
     assert first.startswith("held")
     assert second == "going on"
+
+
+def test_commands_to_go_on_with_quote_names_with_blanks(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("instrument.cli.demo._run_rig", lambda *_: None)
+    shown = CliRunner().invoke(demo, ["--out", "demo out"]).output
+    assert "then  viscorig run 'demo out/experiment.toml'" in shown
+    (tmp_path / "a b.running").mkdir()
+    with pytest.raises(BadInput, match=r"viscorig recover 'a b\.running' puts its session together"):
+        SessionFile(Path("a b.running"))
