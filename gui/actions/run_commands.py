@@ -30,6 +30,12 @@ class RunCommands(QObject):
         """Whether a run goes on."""
         return self._running() is not None
 
+    @property
+    def at_rest(self) -> bool:
+        """Whether a run goes on that has let go of its shaker, known to be silent: it only computes."""
+        live = self._running()
+        return live is not None and live.let_go_at_rest
+
     def hold(self) -> None:
         """Silence the shaker and wait, or go on where it is held."""
         live = self._running()

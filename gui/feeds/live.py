@@ -75,7 +75,8 @@ class LiveFeed(Feed):
         self.ending: Ended | None = None
         self.recording: RecordingBegan | None = None
         self.stop_path: StopPathChanged | None = None
-        self.rig_open = False
+        self.rig_open = self.let_go_at_rest = False
+        """Whether the run has its devices; whether it let go of them, and of a shaker known to be silent."""
         self.blocks_dropped = 0
         self._pace = _WallPace()
         self._stopping: BackgroundTask[Stopped] | None = None
@@ -171,6 +172,7 @@ class LiveFeed(Feed):
                 self.recording = message
             case RigOpened() | RigClosed():
                 self.rig_open = isinstance(message, RigOpened)
+                self.let_go_at_rest = isinstance(message, RigClosed) and message.at_rest
                 self.state.readings.forget()
             case ShakerSeen():
                 if self.rig_open:

@@ -22,6 +22,7 @@ from gui.background.task import BackgroundCommand, BackgroundTask
 from gui.bars.replay_bar import ReplayBar
 from gui.bars.top_bar import TopBar
 from gui.form.form import Form
+from gui.frame.leaving import Question, leaving_question
 from gui.frame.log_pane import LogPane
 from gui.frame.menus import Menus
 from gui.frame.notice import Notice
@@ -34,6 +35,7 @@ from gui.frame.tab_order import neighbour
 from gui.page import Page
 from gui.style.theme import Appearance
 from gui.widgets.asking import ask_open_many, ask_word
+from instrument.engine.client import ENDS_S
 from instrument.files.acceleration import show_acceleration_in
 from instrument.interchange.given import SESSION_ENDINGS
 
@@ -41,7 +43,6 @@ TURN_MS = 33
 """Between two looks at what has come: 30 a second."""
 _REST, _MOST_REST_MS = 3.0, 300.0
 """Times as long as a look came late, until the next one; at most."""
-_LEAVE = "Stop the shaker, end the run and close? What is complete is kept."
 _LAYOUT = 1
 """Raised when docks change: an older arrangement is not restored then."""
 
@@ -112,6 +113,9 @@ class Window(Shell):
                 self._asked = None
             if self._closing:
                 self.close()
+        elif (box := self._asked) is not None and box.isVisible() and box.text() != self._leaving.text:
+            # What is measured after a diagnosis has the shaker again.
+            self._ask_whether_to_leave()
 
     @property
     def pages(self) -> tuple[Page, ...]:
@@ -176,7 +180,7 @@ class Window(Shell):
             # It closes by itself once the run has ended.
             event.ignore()
             if not self._closing:
-                self._asked = ask_word(self, "A run goes on", _LEAVE, "Stop and close", self._leave)
+                self._ask_whether_to_leave()
             return
         unsaved = next((page for page in self._page_set.made.values() if page.unsaved), None)
         if unsaved is not None and not self._may_lose:
@@ -344,9 +348,22 @@ class Window(Shell):
         self._may_lose = True
         self.close()
 
+    @property
+    def _leaving(self) -> Question:
+        return leaving_question(self.controller)
+
+    def _ask_whether_to_leave(self) -> None:
+        self._asked = ask_word(self, "A run goes on", *self._leaving, self._leave)
+
     def _leave(self) -> None:
         self._closing = True
-        self.controller.commands.stop()
+        commands = self.controller.commands
+        if commands.at_rest:
+            commands.abort()
+            # One that hangs is ended as one that drives is; where it has ended, nothing is left to stop.
+            QTimer.singleShot(round(1e3 * ENDS_S), self, commands.stop)
+        else:
+            commands.stop()
 
 
 def _room_for(name: str) -> QWidget:
