@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pyqtgraph as pg
+from PySide6.QtCore import QRectF
 
 _NAMED = (1, 2, 5)
 _MOST_DECADES = 3
@@ -24,6 +25,13 @@ class LogAxis(pg.AxisItem):  # type: ignore[misc]
     _said = ""
     """Beside the axis."""
     _is_narrow = False
+    beyond_px = 0.0
+    """How far a number may stand beyond either end of an axis below: further, it is not said."""
+
+    def boundingRect(self) -> QRectF:
+        """The library lets none stand beyond an axis with a grid."""
+        rect: QRectF = super().boundingRect()
+        return rect.adjusted(-self.beyond_px, 0.0, self.beyond_px, 0.0)
 
     def _updateLabel(self) -> None:
         """Laid out only where it says something else: the library asks forty times while a plot is made."""

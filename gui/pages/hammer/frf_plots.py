@@ -50,7 +50,7 @@ class FrfPlots(QWidget):
         hz = Axis("Frequency", "Hz")
         above = replace(hz, titled=False)
         self.magnitude = Plot(above, Axis("|H|", "(m/s²/N)", log=True))
-        self.phase = Plot(above, Axis("Phase", "°"), legend=False)
+        self.phase = Plot(above, Axis("Phase", "°", symbol="φ"), legend=False)
         self.coherence = Plot(hz, Axis("γ²"), legend=False)
         self.magnitude.setToolTip("Accelerance: acceleration over force, averaged over the hits used (H1)")
         self.phase.setToolTip("By how much the acceleration is ahead of the force")
@@ -210,7 +210,7 @@ class FrfPlots(QWidget):
         rows = QSplitter(Qt.Orientation.Vertical)
         for plot in (self.magnitude, self.phase, self.coherence):
             rows.addWidget(plot)
-            plot.need_lines(_LEAST_LINES + 2.4 * (plot is self.coherence))
+            plot.need_lines(_LEAST_LINES + 2.4 * (plot is self.coherence) + 3.4 * (plot is self.magnitude))
         for plot in (self.phase, self.coherence):
             plot.setXLink(self.magnitude)
         for plot in (self.magnitude, self.phase):

@@ -13,6 +13,10 @@ from instrument.impact.spectra import Spectra
 
 _SHOWN_BEYOND = 2.0
 """The spectrum is shown up to so many times the usable band."""
+_LABEL_AT = 0.58
+"""Of the mark's label: above a legend, below the spectrum."""
+_LEGEND_SHARE = 0.5
+"""Of a plot's width, at most: a wider one lies over the curves wherever it stands."""
 
 
 class HitPlots(QWidget):
@@ -20,20 +24,23 @@ class HitPlots(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.blow = Plot(Axis("Time after the peak", "ms"), Axis("Force", "N"), legend=False)
-        self.force = Plot(Axis("Time after the blow", "s"), Axis("Force", "N"), legend=False)
-        self.spectrum = Plot(Axis("Frequency", "Hz"), Axis("Spectrum", "N s", log=True))
+        self.blow = Plot(Axis("Time after the peak", "ms", symbol="t"), Axis("Force", "N"), legend=False)
+        self.force = Plot(Axis("Time after the blow", "s", symbol="t"), Axis("Force", "N"), legend=False)
+        self.spectrum = Plot(Axis("Frequency", "Hz"), Axis("Spectrum", "N s", log=True, symbol="|F|"))
         self.response = Plot(
-            Axis("Time after the blow", "s"), Axis("Response", acceleration_unit().symbol), legend=False
+            Axis("Time after the blow", "s", symbol="t"),
+            Axis("Response", acceleration_unit().symbol, symbol="a"),
+            legend=False,
         )
         self.blow.setToolTip("The blow of the selected hit, sample by sample")
         self.force.setToolTip("The force over the whole record: a second blow is seen here")
         self.spectrum.setToolTip(
-            "Spectrum of the force: the blow excites little beyond the mark, where it has fallen by 20 dB"
+            "Spectrum of the force, of the selected hit and over the hits used: "
+            "the blow excites little beyond the mark, where it has fallen by 20 dB"
         )
         self.response.setToolTip("The response over the whole record: has it rung down at the end?")
         self.response.setXLink(self.force)
-        self.spectrum.getPlotItem().legend.setOffset((-4, 2))
+        self.spectrum.getViewBox().sigResized.connect(self._place_legend)
         self._shown: tuple[int, Averaged | None, AccelerationUnit | None] = (0, None, None)
         rows = QSplitter(Qt.Orientation.Vertical)
         for pair in ((self.blow, self.spectrum), (self.force, self.response)):
@@ -53,7 +60,8 @@ class HitPlots(QWidget):
         self._shown = number, averaged, unit
         seen = averaged.seen.get(number) if averaged is not None else None
         by_laser = seen is not None and seen.judged.hit.responses[0].motion == "velocity"
-        self.response.show_axes(self.response.x, Axis("Response", "m/s" if by_laser else unit.symbol))
+        seen_as = ("m/s", "v") if by_laser else (unit.symbol, "a")
+        self.response.show_axes(self.response.x, Axis("Response", seen_as[0], symbol=seen_as[1]))
         if averaged is None or seen is None:
             for plot in (self.blow, self.force, self.response, self.spectrum):
                 plot.empty()
@@ -73,8 +81,15 @@ class HitPlots(QWidget):
         highest_hz = min(_SHOWN_BEYOND * usable_hz, seen.judged.hit.sample_rate_hz / 2)
         self._draw_spectrum("selected hit", seen.alone, highest_hz, "third")
         self._draw_spectrum("hits used", averaged.average, highest_hz, "data")
-        self.spectrum.mark([usable_hz], "good", labels=[f"{usable_hz:.0f} Hz"])
+        self.spectrum.mark([usable_hz], "good", labels=[f"{usable_hz:.0f} Hz"], label_at=_LABEL_AT)
         self.spectrum.setXRange(0.0, highest_hz, padding=0.0)
+        self._place_legend()
+
+    def _place_legend(self) -> None:
+        """Where it hides least; nowhere in a plot that it would fill, whose tip says what is drawn."""
+        self.spectrum.place_legend()
+        legend, room = self.spectrum.getPlotItem().legend, self.spectrum.getViewBox()
+        legend.setVisible(legend.width() <= _LEGEND_SHARE * room.width())
 
     def _draw_spectrum(self, name: str, spectrum: Spectra | None, highest_hz: float, role: Role) -> None:
         if spectrum is None:

@@ -12,7 +12,7 @@ from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis
 from gui.style.theme import Role
 
-FREQUENCY = Axis("Frequency", "Hz")
+FREQUENCY = Axis("Frequency", "Hz", symbol="f")
 FORESEEN = "foreseen, law to start from"
 EXPLAINED_ROLE: Role = "second"
 """Of what a diagnosis says with its effects."""

@@ -45,7 +45,7 @@ _NONE = (
     "The sweep appears here: amplitude and phase of every segment with the fitted model through the points, "
     "the step in progress, the quality of each point. Open a session, or start a run."
 )
-_LEFT_PX, _MIDDLE_PX, _RIGHT_PX = 290, 600, 476
+_LEFT_PX, _MIDDLE_PX, _RIGHT_PX = 260, 600, 476
 
 
 class SweepPage(Page):
@@ -277,7 +277,7 @@ class SweepPage(Page):
             said += f", {UNKNOWN}"
         if self.model.failure:
             return f"{said}; no curve: {self.model.failure}"
-        return f"{said} ..." if self.model.busy else said
+        return f"{said}; its curve is computed" if self.model.busy else said
 
     def _shown(self, state: SessionState) -> ShownDiagnosis | None:
         """The diagnosis shown, where it is of this session."""

@@ -3,7 +3,7 @@
 from functools import partial
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QGridLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
 from gui.pages.sweep.drawing import EXPLAINED_ROLE, FORESEEN, FREQUENCY, draw_amplitude
 from gui.pages.sweep.panes import SIGNS, Key, Pointed, beside_key
@@ -47,7 +47,7 @@ class ResonancePanes(QWidget):
         """Draw all of them."""
         self._lay_out(seen.regions)
         for number, low, high in seen.regions:
-            self._headings[number].setText(f"{number}   {low:.4g} to {high:.4g} Hz")
+            self._headings[number].setText(f"{number}  {low:.4g} to {high:.4g}")
             draw_amplitude(self.plots[number], seen.but(segment=number))
         entries: list[tuple[str, Role, str]] = [
             (g.name, g.role, SIGNS[g.symbol]) for g in seen.points.groups(seen.wanted)
@@ -74,19 +74,25 @@ class ResonancePanes(QWidget):
             row, column = 2 * (k // _A_ROW), k % _A_ROW
             self._grid.addWidget(self._heading(number), row, column)
             self._grid.addWidget(self._plot(number), row + 1, column)
+        for k in range(_A_ROW):
+            # As wide as each other, whatever their headings say.
+            self._grid.setColumnStretch(k, 1 if k < len(numbers) else 0)
         for k in range(max(self._grid.rowCount(), 1)):
             self._grid.setRowStretch(k, 1 if k % 2 and k < 2 * (-(-len(numbers) // _A_ROW)) else 0)
 
     def _heading(self, number: int) -> QPushButton:
         made = QPushButton()
         made.setFlat(True)
-        made.setToolTip("This segment alone, with its phase")
+        made.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        made.setToolTip("Numbered segment, from and to in Hz: it alone, with its phase")
         made.clicked.connect(partial(self.segment_wanted.emit, number))
         self._headings[number] = made
         return made
 
     def _plot(self, number: int) -> Pointed:
         made = Pointed(FREQUENCY, Axis("|v/a|"), legend=False)
+        # A number near the end of a narrow axis may stand beyond it by half of itself.
+        made.getAxis("bottom").beyond_px = made.fontMetrics().horizontalAdvance("000") / 2
         made.chosen.connect(self.chosen)
         self.plots[number] = made
         return made

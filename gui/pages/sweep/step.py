@@ -2,7 +2,7 @@
 
 import numpy as np
 from PySide6.QtCore import Qt, QTimer
-from PySide6.QtWidgets import QGridLayout, QLabel, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSplitter, QVBoxLayout, QWidget
 
 from fitting.digits import two_digits
 from gui.pages.sweep.following import Following, latest_cycles, words
@@ -20,7 +20,7 @@ _NONE = (
     "The step in progress appears here: its time signal and how it comes to rest. "
     "Start a run, or play a recorded session."
 )
-_TIME = Axis("Time before the latest sample", "ms")
+_TIME = Axis("Time before the latest sample", "ms", symbol="t")
 _KEY: tuple[tuple[str, Role, str], ...] = (
     ("left of the transient", "data", "\u2500"),
     ("noise alone", "faint", "- -"),
@@ -35,6 +35,8 @@ _FACTS = {
     "Light": "That comes back to the vibrometer, 0 to 1, and the least that counts as good",
     "Corrections": "Of drive and range in this step",
 }
+_ROWS = (("Drive", "Corrections"), ("Level",), ("Transient",), ("Light", "Range"))
+"""What is long has a row of its own: the pane is narrow in a small window."""
 
 
 class StepPane(QWidget):
@@ -48,7 +50,7 @@ class StepPane(QWidget):
         self.base = Plot(_TIME, Axis("Base", acceleration_unit().symbol, symbol="a"), legend=False)
         self.velocity = Plot(_TIME, Axis("Velocity", "mm/s", symbol="v"), legend=False)
         self.settling = Plot(
-            Axis("Time since the last change of drive", "s"),
+            Axis("Time since the last change of drive", "s", symbol="t"),
             Axis("Transient", "%", log=True, symbol="left"),
             legend=False,
         )
@@ -152,15 +154,16 @@ class StepPane(QWidget):
 
     def _arrange(self) -> None:
         grid = QGridLayout()
-        for k, (name, label) in enumerate(self.facts.items()):
-            row, column = k % 3, 2 * (k // 3)
-            heading = QLabel(name)
-            heading.setEnabled(False)
-            heading.setToolTip(_FACTS[name])
-            grid.addWidget(heading, row, column)
-            grid.addWidget(label, row, column + 1)
-        grid.setColumnStretch(1, 2)
-        grid.setColumnStretch(3, 1)
+        for row, (first, *second) in enumerate(_ROWS):
+            grid.addWidget(_heading(first), row, 0)
+            grid.addWidget(self.facts[first], row, 1, 1, 1 if second else 2)
+            if second:
+                pair = QHBoxLayout()
+                pair.addWidget(_heading(second[0]))
+                pair.addWidget(self.facts[second[0]], 1)
+                grid.addLayout(pair, row, 2)
+        for column in (1, 2):
+            grid.setColumnStretch(column, 1)
         stack = QSplitter(Qt.Orientation.Vertical)
         for plot in (self.base, self.velocity):
             stack.addWidget(plot)
@@ -177,6 +180,13 @@ class StepPane(QWidget):
         column_of_all.setContentsMargins(0, 4, 0, 0)
         column_of_all.addWidget(self.none)
         column_of_all.addWidget(self._whole, 1)
+
+
+def _heading(name: str) -> QLabel:
+    made = QLabel(name)
+    made.setEnabled(False)
+    made.setToolTip(_FACTS[name])
+    return made
 
 
 def _little(percent: float) -> str:

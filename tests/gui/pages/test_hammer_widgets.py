@@ -82,6 +82,18 @@ def test_without_a_hit_nothing_is_drawn(made):
     assert list(plots.force.names) == []
 
 
+def test_a_legend_that_would_fill_its_plot_is_not_shown(made, qtbot):
+    plots = made(HitPlots())
+    plots.show()
+    x = np.linspace(1.0, 2.0, 9)
+    for name in ("selected hit", "hits used"):
+        plots.spectrum.trace(name, x, x)
+    legend = plots.spectrum.getPlotItem().legend
+    for wide, seen in ((400, False), (1400, True)):
+        plots.resize(wide, 500)
+        qtbot.waitUntil(lambda seen=seen: legend.isVisible() == seen)
+
+
 def test_only_what_was_asked_for_last_is_told(qtbot, qapp):
     latest, heard = Latest(qapp), []
     latest.done.connect(heard.append)

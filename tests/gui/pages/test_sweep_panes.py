@@ -141,6 +141,20 @@ def test_each_resonance_has_a_pane_with_its_own_points(made):
     assert "good" not in panes.plots[2].names or not len(panes.plots[2].curves["good"][0])
 
 
+def test_in_a_narrow_window_panes_are_as_wide_as_each_other_and_each_axis_has_its_numbers(made):
+    panes = made(ResonancePanes())
+    panes.resize(410, 300)
+    panes.show()
+    panes.show_seen(SEEN.but(regions=((1, 15.21, 25.35), (2, 89.59, 115.2), (3, 235.0, 295.0))))
+    wide = [plot.width() for plot in panes.plots.values()]
+    assert max(wide) - min(wide) <= 1
+    assert len({plot.getAxis("bottom").labelText for plot in panes.plots.values()}) == 1
+    axis = panes.plots[3].getAxis("bottom")
+    laid_out = axis.mapRectFromParent(axis.geometry())
+    assert axis.beyond_px > 0
+    assert laid_out.width() + 2 * axis.beyond_px <= axis.boundingRect().width()
+
+
 def test_the_model_of_one_spot_is_not_drawn_through_the_points_of_another(made):
     """A curve of 1 s at the file's spot; the fit says 2 m/s of what was read elsewhere, at its points."""
     there = {"pickup": 1, "spot_mm": (150.1, 23.99), "mounting": 1, "sweep": 2}
@@ -192,6 +206,18 @@ def test_samples_are_shown_once_there_is_a_file_of_them(made):
     pane.show_seen(SEEN, None)
     assert later != pane.said.text()
     assert not pane.dwells.busy
+
+
+def test_what_is_long_of_a_step_has_a_row_of_its_own(made):
+    pane = made(StepPane())
+    pane.resize(290, 400)
+    pane._whole.show()
+    pane.facts["Transient"].say("<0.001 % of 0.1, noise 0.53")
+    pane.facts["Level"].say("+0.00 %, 9.81 of 9.81 m/s\u00b2")
+    pane.facts["Light"].say("0.80 (least 0.1)")
+    pane.facts["Range"].say("50mm/s/V")
+    pane.show()
+    assert not [label.said for label in pane.facts.values() if label.text() != label.said]
 
 
 def test_without_a_step_its_pane_says_what_will_be_there(made):
