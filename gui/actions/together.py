@@ -29,6 +29,8 @@ class Together(QObject):
 
     Signals
     -------
+    chosen
+        Files, specimens or a hammer test, before anything is said of them.
     changed
         Other files, another result, or work began or ended.
     began
@@ -41,6 +43,7 @@ class Together(QObject):
         Data and the specimen that they are of, to be remembered.
     """
 
+    chosen = Signal()
     changed = Signal()
     began = Signal()
     progressed = Signal(str, float)
@@ -105,6 +108,7 @@ class Together(QObject):
 
     def add(self, data: Sequence[Path]) -> None:
         """More of them, each once, with the specimen that is likeliest."""
+        self.chosen.emit()
         self._choose(paired(data, self.files, self.known))
         self.look_again()
 
@@ -113,8 +117,10 @@ class Together(QObject):
         before, self._stamps = self._stamps, self._stamps_now()
         anew = [path.name for path, stamp in self._stamps.items() if before.get(path, stamp) != stamp]
         if anew:
+            lost = self.identified is not None or self.running
             self._let_go_of_found()
-            self.failed.emit(f"{', '.join(anew)}: written anew, what was found before is let go of")
+            if lost:
+                self.failed.emit(f"{', '.join(anew)}: written anew, what was found before is let go of")
 
     def stamps(self, file: PairedFile) -> tuple[Stamp | None, ...]:
         """Of data and specimen, as they were looked at last."""
@@ -122,6 +128,7 @@ class Together(QObject):
 
     def pair(self, row: int | None, specimen: Path) -> None:
         """A specimen for one file, or for all."""
+        self.chosen.emit()
         files = with_specimen(self.files, row, specimen)
         for one, before in zip(files, self.files, strict=True):
             if one != before:
@@ -131,6 +138,7 @@ class Together(QObject):
 
     def remove(self, row: int) -> None:
         """Take the file at a row out of the list."""
+        self.chosen.emit()
         self._choose((*self.files[:row], *self.files[row + 1 :]))
 
     def move(self, row: int, by: int) -> None:
@@ -142,6 +150,7 @@ class Together(QObject):
 
     def strike(self, hammer: Path | None) -> None:
         """With this hammer test of the bare plate, or without one: what was found is of other data."""
+        self.chosen.emit()
         if hammer != self.hammer:
             self.cancel()
             self.hammer = hammer

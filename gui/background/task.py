@@ -212,7 +212,9 @@ class BackgroundCommand(QObject):
         from instrument.files.plausible import INSIST
 
         said = said.replace("--hammer", "a hammer test")
-        return said.replace(INSIST, f"'viscorig {self._command} --force' goes on all the same")
+        return said.replace(
+            INSIST, f"correct it (a terminal goes on all the same: viscorig {self._command} --force)"
+        )
 
     def _broken(self, error: QProcess.ProcessError) -> None:
         if error == QProcess.ProcessError.FailedToStart:

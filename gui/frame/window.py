@@ -82,6 +82,7 @@ class Window(Shell):
         for work in (self.controller, self.controller.together, self.controller.rediagnosis):
             # What was said before is not of it: that a shaker did not answer, of a run before this one.
             work.began.connect(self.notice.hide)
+        self.controller.together.chosen.connect(self.notice.hide)
         self.controller.together.remember(settings.specimens)
         self.controller.together.specimen_chosen.connect(settings.remember_specimen)
         self.replay.compare_wanted.connect(self._ask_compare)

@@ -45,11 +45,11 @@ class ChosenFiles(QWidget):
 
     Signals
     -------
-    failed
-        One line.
+    looked_at
+        A file was: `why_not` may be another one now.
     """
 
-    failed = Signal(str)
+    looked_at = Signal()
 
     def __init__(self, together: Together, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -83,6 +83,11 @@ class ChosenFiles(QWidget):
         self.table.activated.connect(self._row_activated)
         self.table.selectionModel().selectionChanged.connect(self._show_buttons)
         self._show_buttons()
+
+    @property
+    def why_not(self) -> str:
+        """Why nothing can be found of these files, in a line; empty where that is not known."""
+        return fault_of(self.together.files) or self._first_fault()
 
     def show_files(self, owned: dict[int, list[str]]) -> None:
         """Those chosen; of each file, from 1, the effects that belong to it alone."""
@@ -124,6 +129,7 @@ class ChosenFiles(QWidget):
         self._looked[work.it] = found
         work.deleteLater()
         self._show_rows()
+        self.looked_at.emit()
 
     def _show_rows(self) -> None:
         chosen = self.table.selected
@@ -131,7 +137,7 @@ class ChosenFiles(QWidget):
         self.table.show_rows([self._cells(k, file) for k, file in enumerate(files, start=1)])
         if chosen is not None and chosen < len(files):
             self.table.selectRow(chosen)
-        said = fault_of(files) or self._first_fault()
+        said = self.why_not
         self.fault.say(said, "bad" if len(files) > 1 else "faint")
         self.fault.setToolTip(said)
         self.fault.setVisible(bool(said))

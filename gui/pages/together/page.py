@@ -1,6 +1,6 @@
 """Several files of one core: chosen, fitted with one law, and what one law cannot explain."""
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QDragEnterEvent, QDropEvent, QShowEvent
 from PySide6.QtWidgets import (
     QComboBox,
@@ -17,7 +17,6 @@ from PySide6.QtWidgets import (
 
 from gui.actions.controller import AppController
 from gui.actions.taking_together import paths_of
-from gui.files.pairing import fault_of
 from gui.page import Page
 from gui.pages.diagnosis.finding import Finding
 from gui.pages.together.chosen import ChosenFiles
@@ -92,6 +91,12 @@ class TogetherPage(Page):
         super().showEvent(event)
         self.together.look_again()
         self._show()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """A file that was mended in another program is looked at again as a person comes back."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.ActivationChange and self.isVisible() and self.isActiveWindow():
+            self.together.look_again()
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Files dropped here are fitted together instead of opened."""
@@ -178,7 +183,7 @@ class TogetherPage(Page):
 
     def _show_controls(self) -> None:
         together, running = self.together, self.together.running
-        able = not fault_of(together.files) and not running
+        able = not self.chosen.why_not and not running
         self.identify.setEnabled(able)
         self.diagnose.setEnabled(able)
         self.chosen.setEnabled(not running)
@@ -208,6 +213,7 @@ class TogetherPage(Page):
     def _connect(self) -> None:
         together = self.together
         together.changed.connect(self._changed)
+        self.chosen.looked_at.connect(self._show_controls)
         together.progressed.connect(self.working.tell)
         together.failed.connect(self.controller.refused)
         self.saving.done.connect(self.controller.said)

@@ -3,7 +3,7 @@
 import pytest
 from openers import press
 from pair_files import two_masses
-from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
+from PySide6.QtCore import QEvent, QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QFileDialog
@@ -128,6 +128,28 @@ def test_a_damaged_file_is_said_before_anything_is_fitted(qtbot, chosen, tmp_pat
     assert chosen.chosen.table.texts(3)[2].startswith("✖ ")
     assert chosen.chosen.fault.said.startswith(f"File 3: {bad}: header")
     assert "\n" not in chosen.chosen.fault.said
+
+
+def test_while_a_file_has_a_fault_nothing_is_begun_and_mending_it_is_seen(qtbot, window, chosen, tmp_path):
+    bad = tmp_path / "bad.csv"
+    bad.write_text("")
+    chosen.together.add([bad])
+    qtbot.waitUntil(lambda: "the file is empty" in chosen.chosen.fault.said)
+    assert not chosen.identify.isEnabled()
+    assert not chosen.diagnose.isEnabled()
+    bad.write_bytes(chosen.together.files[0].data.read_bytes())
+    chosen.changeEvent(QEvent(QEvent.Type.ActivationChange))
+    qtbot.waitUntil(chosen.identify.isEnabled)
+    assert chosen.diagnose.isEnabled()
+    assert not window.notice.text
+
+
+def test_what_was_said_of_one_file_goes_when_others_are_chosen(window, chosen, tmp_path):
+    for asked in (lambda: drop(chosen, [tmp_path / "other.csv"]), lambda: chosen.together.remove(2)):
+        chosen.together.failed.emit("bad.csv: the file is empty")
+        assert window.notice.text
+        asked()
+        assert not window.notice.text
 
 
 def test_the_menu_asks_for_files_on_the_page(qtbot, window):
