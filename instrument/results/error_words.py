@@ -21,9 +21,20 @@ def ratio_words(ratio: float, error: float, sign: str = "+-") -> str:
     """A damping ratio in percent with its error; the floor where the error is below it."""
     if not is_below_floor(error, ratio):
         return with_error(ratio, error, 100, sign)
-    # As many digits as the next power of ten above the floor has.
-    digits = max(0, floor(-log10(FLOOR_PERCENT * abs(ratio))))
-    return f"{100 * ratio:.{digits}f} {sign} below {10.0**-digits:.{digits}f}"
+    return f"{100 * ratio:.{_floor_digits(ratio)}f} {sign} {ratio_error_words(ratio, error)}"
+
+
+def ratio_error_words(ratio: float, error: float) -> str:
+    """The error of a damping ratio by itself, in percent as `ratio_words` has it."""
+    if not is_below_floor(error, ratio):
+        return two_digits(100 * error)
+    digits = _floor_digits(ratio)
+    return f"below {10.0**-digits:.{digits}f}"
+
+
+def _floor_digits(ratio: float) -> int:
+    """Behind the point of a ratio in percent: as many as the next power of ten above the floor has."""
+    return max(0, floor(-log10(FLOOR_PERCENT * abs(ratio))))
 
 
 def is_below_floor(error: float, value: float) -> bool:

@@ -6,21 +6,16 @@ from math import isnan
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.digits import two_digits
 from fitting.modal.frf import Refusal
 from gui.pages.hammer.findings import ModesFound
 from gui.widgets.tables import Cell, Row
 from instrument.facts.damping import METHODS, DampingResult, Method, ModeFound, RatioFound
 from instrument.impact.mode import Mode
 from instrument.impact.scatter import Scatter
-from instrument.results.numbers import with_error
+from instrument.results.error_words import ratio_error_words, ratio_words
 
 _ADOPTED = 0
 """Of these."""
-_MOST_DIGITS = 5
-"""Behind the point of a damping ratio in percent."""
-_LEAST_PERCENT = 10.0**-_MOST_DIGITS
-"""Of an error in percent that is said."""
 _SAME = 0.05
 """Relative distance beyond which an expected mode is another one."""
 _AGREE = 1e-9
@@ -79,7 +74,9 @@ def _mode_row(number: int, mode: ModeFound, modes: ModesFound | None, expected_h
     k = number_of(modes, f) if modes is not None else None
     found = modes.found.modes[k] if modes is not None and modes.found is not None and k is not None else None
     scatter = modes.scatter[k] if modes is not None and k is not None else None
-    over_hits = "..." if modes is None else _size(100 * scatter.ratio) if scatter is not None else "–"
+    over_hits = "..." if modes is None else "–"
+    if scatter is not None:
+        over_hits = ratio_error_words(mode.damping_ratio, scatter.ratio)
     return ModeRow(
         f,
         (
@@ -131,17 +128,7 @@ def _close(x: float, y: float) -> bool:
 def _percent(estimate: RatioFound | None) -> str:
     if estimate is None:
         return "refused"
-    ratio, error = 100 * estimate.ratio, estimate.standard_error
-    if isnan(error):
-        return f"{ratio:.4f}"
-    if 100 * error < _LEAST_PERCENT:
-        return f"{ratio:.{_MOST_DIGITS}f} ± {_size(100 * error)}"
-    return with_error(ratio, 100 * error)
-
-
-def _size(error: float) -> str:
-    """An error by itself."""
-    return two_digits(error) if error >= _LEAST_PERCENT else f"<{_LEAST_PERCENT:.{_MOST_DIGITS}f}"
+    return ratio_words(estimate.ratio, estimate.standard_error, "±")
 
 
 def _method_tip(estimate: RatioFound | None, method: Method, found: Mode | None) -> str:

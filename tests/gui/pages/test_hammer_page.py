@@ -25,6 +25,7 @@ from instrument.impact.record import ResponseChannel
 from instrument.impact.result import damping_from
 from instrument.impact.spectra import spectra
 from instrument.interchange.found import Found
+from instrument.results.error_words import ratio_words
 from instrument.session.configuration import read_whole_experiment
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
@@ -131,6 +132,8 @@ def test_the_table_shows_what_was_recorded(looked_at, kept):
             estimate = mode.by(method)
             assert shown == (estimate and pytest.approx(100 * estimate.ratio, abs=1e-3))
     assert None in numbers(page, 3)
+    said = [ratio_words(m.damping_ratio, m.rational_fit.standard_error, "±") for m in recorded]
+    assert [page.modes.table.cell(row, 2).text for row in range(len(said))] == said
     assert "refused: " in page.modes.table.cell(0, 3).tip
     assert numbers(page, 1) == pytest.approx(numbers(page, 0), rel=2e-3)
     assert not page.modes.back.isVisible()
@@ -332,7 +335,7 @@ def test_scatter_needs_two_hits(hits):
         for m in (modes_of(a, BAND_HZ, lambda: None) for a in (one, two))
     ]
     assert texts[0] == "–"
-    assert float(texts[1].removeprefix("<")) > 0
+    assert float(texts[1].removeprefix("below ")) > 0
 
 
 def test_what_agrees_with_the_record_is_no_what_if(hits):
