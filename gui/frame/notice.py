@@ -4,6 +4,7 @@ from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QTabWidget, QWidget
 
+from gui.files.bare_names import bare_names
 from gui.style.theme import Role, current_theme
 from gui.widgets.basic import tool
 
@@ -20,7 +21,8 @@ class Notice(QFrame):
         super().__init__(parent)
         self._role: Role = "good"
         self._tabs: QTabWidget | None = None
-        self._said = ""
+        self._whole = self._said = ""
+        """As it came, with the paths of files; as it is shown, with their names."""
         self._label = QLabel()
         self._label.setWordWrap(True)
         self._label.setTextFormat(Qt.TextFormat.PlainText)
@@ -77,17 +79,17 @@ class Notice(QFrame):
         painter.end()
 
     def _fit(self, room: int) -> None:
-        """A word that no line has room for, as a path, loses its middle; the tool tip has all of it."""
+        """A word that no line has room for loses its middle; the tool tip has all of it, and whole paths."""
         margins, metrics = self._row.contentsMargins(), self._label.fontMetrics()
         room -= margins.left() + margins.right() + self._close.sizeHint().width() + self._row.spacing()
         middle = Qt.TextElideMode.ElideMiddle
         shown = " ".join(metrics.elidedText(word, middle, room) for word in self._said.split(" "))
         self._label.setText(shown)
-        self._label.setToolTip(self._said if shown != self._said else "")
+        self._label.setToolTip(self._whole if shown != self._whole else "")
 
     def _show(self, message: str, role: Role) -> None:
         self._role = role
-        self._said = message
+        self._whole, self._said = message, bare_names(message)
         self._fit(self.width())
         self._place()
         self.show()

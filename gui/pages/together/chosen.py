@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 from gui.actions.taking_together import ask_hammer, ask_specimen, ask_together
 from gui.actions.together import Together
 from gui.background.task import BackgroundTask, Progress
+from gui.files.bare_names import bare_names
 from gui.files.file_stamp import Stamp
 from gui.files.pairing import SPECIMEN_ENDING, PairedFile, fault_of
 from gui.files.short_name import short_name
@@ -138,7 +139,7 @@ class ChosenFiles(QWidget):
         if chosen is not None and chosen < len(files):
             self.table.selectRow(chosen)
         said = self.why_not
-        self.fault.say(said, "bad" if len(files) > 1 else "faint")
+        self.fault.say(bare_names(said), "bad" if len(files) > 1 else "faint")
         self.fault.setToolTip(said)
         self.fault.setVisible(bool(said))
         self._show_buttons()
@@ -164,7 +165,7 @@ class ChosenFiles(QWidget):
         elif looked in ("", "..."):
             holds = Cell(looked, left=True, faint=True)
         else:
-            holds = Cell(f"{_FAULTY}{looked}", looked, left=True, fill="bad", alpha=0.2)
+            holds = Cell(f"{_FAULTY}{bare_names(looked)}", looked, left=True, fill="bad", alpha=0.2)
         return [
             Cell(str(number), ", ".join(effects), bold=bool(effects), edge="data" if effects else None),
             Cell(short_name(file.data.name, _TABLE_LETTERS), str(file.data), left=True, bold=bool(effects)),

@@ -126,7 +126,8 @@ def test_a_damaged_file_is_said_before_anything_is_fitted(qtbot, chosen, tmp_pat
     chosen.together.add([bad])
     qtbot.waitUntil(lambda: "..." not in chosen.chosen.table.texts(3))
     assert chosen.chosen.table.texts(3)[2].startswith("✖ ")
-    assert chosen.chosen.fault.said.startswith(f"File 3: {bad}: header")
+    assert chosen.chosen.fault.said.startswith("File 3: bad.csv: header")
+    assert str(bad) in chosen.chosen.fault.toolTip()
     assert "\n" not in chosen.chosen.fault.said
 
 
