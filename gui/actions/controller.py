@@ -6,6 +6,8 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 
 from gui.actions.data_beside import DataBeside
+from gui.actions.laid_words import laid_words, unseen_words
+from gui.actions.one_message import OneMessage
 from gui.actions.rediagnosis import Rediagnosis
 from gui.actions.run_commands import RunCommands
 from gui.actions.starting import Starting
@@ -78,10 +80,12 @@ class AppController(QObject):
         """Of the last run; None while one goes on."""
         self._opening: RecordedFeed | None = None
         self._starting: Starting | None = None
+        self._opening_all = False
+        self._of_files = OneMessage(lambda: self._awaits_files, self.said.emit, self.refused.emit)
         self.data_beside.changed.connect(self.beside_changed)
         self.data_beside.renewed.connect(self.rediagnosis.let_go_of)
         self.data_beside.read.connect(self._laid)
-        self.data_beside.failed.connect(self.refused)
+        self.data_beside.failed.connect(self._of_files.refuse)
         self.data_beside.busy.connect(self.busy)
 
     @property
@@ -130,11 +134,20 @@ class AppController(QObject):
 
     # Files
 
+    def open_all(self, paths: Sequence[Path]) -> None:
+        """What `open` takes, and one message of all of it. Returns at once."""
+        self._of_files.begin()
+        self._opening_all = True
+        for path in paths:
+            self.open(path)
+        self._opening_all = False
+        self._of_files.settle()
+
     def open(self, path: Path) -> None:
         """A session, an experiment, or another program's data; returns at once."""
         ending = path.suffix.lower()
         if path.is_dir():
-            self.refused.emit(_said_of_folder(path))
+            self._of_files.refuse(_said_of_folder(path))
         elif ending == EXPERIMENT_ENDING:
             self._choose_experiment(path)
         elif is_session(path):
@@ -143,11 +156,11 @@ class AppController(QObject):
             self.data_beside.lay(path)
         else:
             known = ", ".join((EXPERIMENT_ENDING, *SESSION_ENDINGS, *foreign_endings()))
-            self.refused.emit(f"{path}: ending {path.suffix!r}, expected one of {known}")
+            self._of_files.refuse(f"{path}: ending {path.suffix!r}, expected one of {known}")
 
     def _choose_experiment(self, path: Path) -> None:
         if self.running or self.starting:
-            self.refused.emit(f"{path.name}: not opened: a run goes on")
+            self._of_files.refuse(f"{path.name}: not opened: a run goes on")
             return
         kind = other_kind(path)
         if not kind:
@@ -156,7 +169,7 @@ class AppController(QObject):
         then = "a new one (Ctrl+N) names it"
         if kind == "a specimen":
             then += "; Several files takes it where it is dropped on its data"
-        self.refused.emit(f"{path.name}: {kind}, expected an experiment: {then}")
+        self._of_files.refuse(f"{path.name}: {kind}, expected an experiment: {then}")
 
     def compare(self, path: Path) -> None:
         """Lay another session beside this one: its law and its sweep. Returns at once."""
@@ -199,6 +212,10 @@ class AppController(QObject):
 
     # Inside
 
+    @property
+    def _awaits_files(self) -> bool:
+        return self._opening_all or self.data_beside.reading or self._opening is not None
+
     def _started(self, configuration: object) -> None:
         work, self._starting = self._starting, None
         assert work is not None
@@ -236,7 +253,7 @@ class AppController(QObject):
 
     def _open_session(self, path: Path) -> None:
         if self.running:
-            self.refused.emit(f"{path.name}: not opened: a run goes on")
+            self._of_files.refuse(f"{path.name}: not opened: a run goes on")
             return
         if self._opening is not None:
             self._opening.close()
@@ -255,6 +272,7 @@ class AppController(QObject):
         feed.failed.disconnect(self._not_opened)
         feed.failed.connect(self.refused)
         self.busy.emit("")
+        self._of_files.settle()
         self._show(feed)
 
     def _not_opened(self, message: str) -> None:
@@ -263,7 +281,7 @@ class AppController(QObject):
             self._opening.deleteLater()
             self._opening = None
         self.busy.emit("")
-        self.refused.emit(message)
+        self._of_files.refuse(message)
 
     def _show(self, feed: Feed | None) -> None:
         old, self.feed = self.feed, feed
@@ -273,21 +291,13 @@ class AppController(QObject):
         self.changed.emit()
 
     def _laid(self, path: Path, what: str) -> None:
-        """Says where they are to be found."""
-        found = self.beside[path]
-        sweeps = found.sweeps
-        where = "laid beside the session" if self.feed is not None else "read"
-        if sweeps and all("force_re_n" in columns for columns in sweeps):
-            where += "; over a force, so not drawn on Sweep: Diagnosis takes it"
-        elif sweeps and self.feed is None:
-            where += "; Diagnosis takes it with its specimen"
-        if found.modes:
-            where += "; a law of them: Several files"
-        if (found.frfs or found.hits) and self.feed is None:
-            where += "; drawn on Hammer once a session with hits is open"
-        if found.hits:
-            where += f"; damping ratios of records in time: viscorig damping {path.name}"
-        self.said.emit(f"{path.name}: {what} {where}")
+        found, state = self.beside[path], self.state
+        said = f"{path.name}: {what} {laid_words(path, found, has_session=self.feed is not None)}"
+        unseen = unseen_words(found, state.plan.regions) if state is not None else ""
+        if unseen:
+            self._of_files.refuse(f"{said}; {unseen}")
+        else:
+            self._of_files.say(said)
 
 
 def _said_of_folder(path: Path) -> str:

@@ -221,11 +221,10 @@ class Window(Shell):
     # Inside
 
     def _open_all(self, paths: Sequence[Path]) -> None:
-        """What was said before is not of these; what is said of one of them stays beside the others."""
+        """What was said before is not of these."""
         assert self.pages, "what is opened is told to every page"
         self.notice.hide()
-        for path in paths:
-            self.controller.open(path)
+        self.controller.open_all(paths)
 
     def _tick(self) -> None:
         """Turn; in a run look again later where the machine is behind: painting must not fill its time."""

@@ -58,7 +58,11 @@ class ResonancePanes(QWidget):
             entries.append((seen.explained.name, EXPLAINED_ROLE, "\u2500"))
         if seen.foreseen is not None:
             entries.append((FORESEEN, "faint", "- -"))
-        entries += beside_key(one.name for one in seen.beside)
+        bands = [(low, high) for _, low, high in seen.regions]
+        entries += beside_key(
+            one.name if any(one.inside(band).any() for band in bands) else f"{one.name} (outside)"
+            for one in seen.beside
+        )
         self.key.show_key(entries)
 
     def _lay_out(self, regions: tuple[Region, ...]) -> None:

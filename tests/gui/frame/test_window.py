@@ -258,6 +258,20 @@ def test_of_files_dropped_together_a_bad_one_is_named_whichever_comes_after_it(
     assert "no.zip" in window.notice.text
 
 
+def test_files_dropped_together_have_one_message(qtbot, opened, tmp_path):
+    rows = "".join(f"{0.001 * f},{0.01 * f},0.002\n" for f in range(15, 25))
+    for name in ("one.csv", "two.csv"):
+        (tmp_path / name).write_text("frequency_hz,velocity_re_m_s,velocity_im_m_s\n" + rows)
+    drop(opened, tmp_path / "one.csv", tmp_path / "two.csv", tmp_path / "no.zip")
+    qtbot.waitUntil(lambda: not opened.controller.data_beside.reading)
+    said = opened.notice.text
+    assert all(f"{name}: 1 sweep laid beside the session" in said for name in ("one.csv", "two.csv"))
+    assert said.startswith("no.zip: ")
+    assert said.count("is it in kHz?") == 2
+    drop(opened, tmp_path / "no.zip")
+    assert "one.csv" not in opened.notice.text
+
+
 def test_another_session_ends_a_diagnosis_and_it_is_said(qtbot, opened, tmp_path):
     rediagnosis, before = opened.controller.rediagnosis, opened.controller.recorded.path
     other = tmp_path / "other.h5"
