@@ -21,6 +21,11 @@ class CarriedSensor:
     x_m: float
     y_m: float
 
+    @property
+    def words(self) -> str:
+        """For people, where it cannot be."""
+        return "the hammer test's accelerometer"
+
 
 def bare_modes(plate: Plate, count: int, sensor: CarriedSensor | None = None) -> tuple[RealModes, Array]:
     """The bare plate's modes as plate theory has them, the sensor on it, and their `edge_softening`.
@@ -38,7 +43,7 @@ def loaded_modes(plate: Plate, modes: RealModes, sensor: CarriedSensor) -> RealM
 
     (K - omega^2 (M + m w^T w)) x = 0, w reading the deflection under the sensor.
     """
-    row = plate.observe(sensor.x_m, sensor.y_m)
+    row = plate.observe(sensor.x_m, sensor.y_m, sensor.words)
     K = plate.K_0.real.tocsc()
     rigid = plate.rigid.shape[1]
     pushed = factorise(K + lowest_scale(plate) * plate.M if rigid else K)(row)

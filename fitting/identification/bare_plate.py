@@ -120,7 +120,7 @@ def match_modes(
     parts = np.einsum("pmm->mp", projected_parts(plate, shapes))
     counts = names_of(plate.specimen).counts
     of_K, of_M = parts[:, counts.K_0], parts[:, counts.M]
-    row = plate.observe(sensor.x_m, sensor.y_m) if sensor is not None else np.zeros(plate.size)
+    row = plate.observe(sensor.x_m, sensor.y_m, sensor.words) if sensor is not None else np.zeros(plate.size)
     return MatchedModes(
         stiffness=of_K.astype(complex),
         inertia=of_M,

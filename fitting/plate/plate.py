@@ -287,7 +287,7 @@ class Plate:
         """
         if self.specimen.pickup_m is None:
             raise OutsideModel("[pickup] is missing, expected x_mm and y_mm of the measured spot")
-        row = self.observe(*self.specimen.pickup_m)
+        row = self.observe(*self.specimen.pickup_m, "pickup")
         if self.specimen.reads == "relative" and np.abs(row).max() < _STILL:
             x, y = (1e3 * v for v in self.specimen.pickup_m)
             raise OutsideModel(f"pickup ({x:g}, {y:g}) mm lies on a held edge, expected a point that moves")
@@ -300,15 +300,15 @@ class Plate:
             np.array([self.observe(*at) for at in self.specimen.further_pickups_m]).reshape(-1, self.size).T
         )
 
-    def observe(self, x_m: float, y_m: float) -> Array:
+    def observe(self, x_m: float, y_m: float, what: str = "point") -> Array:
         """The row that reads w at a point, by the shape functions; a unit force there too. Shape (n,).
 
-        Raises `OutsideModel` for a point off the plate.
+        `what` is there, for people. Raises `OutsideModel` for a point off the plate.
         """
         L, B = self.mesh.length_m, self.mesh.width_m
         if not (0 <= x_m <= L and 0 <= y_m <= B):
             raise OutsideModel(
-                f"point ({x_m * 1e3:g}, {y_m * 1e3:g}) mm is off the plate, "
+                f"{what} ({x_m * 1e3:g}, {y_m * 1e3:g}) mm is off the plate, "
                 f"expected 0 to {L * 1e3:g} mm and 0 to {B * 1e3:g} mm"
             )
         a, b = self.mesh.sides_m

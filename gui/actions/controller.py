@@ -19,7 +19,7 @@ from gui.state import SessionState
 from instrument.engine import Engine, Order, Stopped
 from instrument.engine.client import ENGINE
 from instrument.engine.messages import Ended
-from instrument.files.experiment_file import other_kind
+from instrument.files.toml_kind import kind_of_toml
 from instrument.interchange.found import Found
 from instrument.interchange.given import SESSION_ENDINGS, is_session
 from instrument.interchange.readers import foreign_endings
@@ -162,8 +162,8 @@ class AppController(QObject):
         if self.running or self.starting:
             self._of_files.refuse(f"{path.name}: not opened: a run goes on")
             return
-        kind = other_kind(path)
-        if not kind:
+        kind = kind_of_toml(path)
+        if kind in ("an experiment", ""):
             self.experiment_chosen.emit(path)
             return
         then = "a new one (Ctrl+N) names it"

@@ -107,8 +107,8 @@ def damping_of_hits(
     seconds = good[0].hit.seconds
     band = band_hz or (3 / seconds, min(rolloff_hz(plain), _OF_RATE * rate))
     if not at_hz and band[0] >= rate / 2:
-        said = f"band {band[0]:g} to {band[1]:g} Hz lies above half the sampling rate"
-        raise BadInput(f"{said}, expected below {rate / 2:g} Hz")
+        above = f"band {band[0]:g} to {band[1]:g} Hz lies above half the sampling rate"
+        raise BadInput(f"{above}, expected below {rate / 2:g} Hz")
     single = [one.frfs for one in alone]
     modes = _modes(plain.frfs, fine.frfs, band, at_hz, seconds, single)
     modes, differ = told_apart(good, single, modes)

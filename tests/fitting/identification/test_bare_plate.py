@@ -18,7 +18,7 @@ from fitting.dynamics.bare_modes import (
 from fitting.dynamics.real_modes import real_modes
 from fitting.effects import CATALOGUE
 from fitting.effects.orthotropic_substrate import sheet
-from fitting.errors import TooFewPoints
+from fitting.errors import OutsideModel, TooFewPoints
 from fitting.identification.bare_plate import (
     FREQUENCY_SCATTER,
     fit_bare_plate,
@@ -307,6 +307,12 @@ def test_a_gram_at_the_tip_takes_half_a_percent_off_mode_1(zn1, stiff):
     np.testing.assert_allclose(loaded, with_sensor_hz(plate, tip), rtol=2e-5)
     unloaded = real_modes(plate, 0.0, 8).omega / (2 * np.pi)
     assert 100 * (1 - loaded[0] / unloaded[0]) == pytest.approx(0.64, abs=0.1)
+
+
+def test_a_sensor_off_the_plate_is_called_what_it_is(zn1):
+    off = CarriedSensor(1e-3, 0.25, 2 * zn1.width_m)
+    with pytest.raises(OutsideModel, match=r"hammer test's accelerometer \(250, 399.8\) mm is off the"):
+        fit_bare_plate(zn1, np.array([18.0, 60.0]), np.array([0.003, 0.003]), off)
 
 
 def test_the_sensors_mass_is_not_taken_for_a_soft_plate(zn1, stiff):
