@@ -5,6 +5,8 @@ import re
 _TYPESET = ((" +- ", " ± "), (" -> ", " → "), ("/s^2", "/s²"), ("/m^2", "/m²"), ("/m^3", "/m³"))
 """What is written in ASCII, and what is printed. Names of files stay as they are."""
 _MICROSECONDS = re.compile(r"(?<=\d) us\b")
+_EXPONENT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?e)(?:\+|(-))0*(\d+)(?![\w.]*\w)")
+"""Of a number by itself: 2.7e+13 is printed as beside its error, (2.692 ± 0.094)e13."""
 _UNITS = {"_mpa": "MPa", "_pa": "Pa", "_rad_s": "rad/s", "_s": "s"}
 _LAW_KEY = re.compile(r"\b(g\w*|tau\w*)_(?:pa|s)\b")
 """A parameter of a law as results have it, its unit behind it."""
@@ -14,6 +16,7 @@ def typeset(text: str) -> str:
     """A sentence or cell as it is printed."""
     for plain, printed in _TYPESET:
         text = text.replace(plain, printed)
+    text = _EXPONENT.sub(lambda n: f"{n[1]}{n[2] or ''}{n[3]}", text)
     return _MICROSECONDS.sub(" µs", text)
 
 

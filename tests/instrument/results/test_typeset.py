@@ -11,6 +11,12 @@ def test_a_page_prints_what_a_terminal_writes_in_ascii_and_leaves_names_alone():
     assert typeset("a->b^2+-c.toml") == "a->b^2+-c.toml"
 
 
+def test_a_number_has_the_same_exponent_with_an_error_and_without():
+    assert typeset("elastic (2.7e+13 N/m^3 of clamped face).") == "elastic (2.7e13 N/m³ of clamped face)."
+    assert typeset("-3e-05 and 4e+05.") == "-3e-5 and 4e5."
+    assert typeset("1.044e-16, 2e13, run1e+05, 1e+05.toml") == "1.044e-16, 2e13, run1e+05, 1e+05.toml"
+
+
 @pytest.mark.parametrize(
     ("said", "printed"),
     [
