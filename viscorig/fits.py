@@ -93,10 +93,10 @@ def diagnose(
 ) -> Diagnosis:
     """Which effect the residual of a sweep or a session shows, and the law without and with it.
 
-    Effects in `without` are not considered; those in `accept` are fitted on your word and nothing is
-    searched for. `resamples` sweeps without effects give the p-value, with one pickup only and without
-    `accept`, and by default where points are few. The same numbers as `viscorig diagnose`. Raises `BadInput`,
-    `OutsideModel`, `TooFewPoints`.
+    Effects in `without`, and what contains one of them, are not considered; those in `accept` are fitted on
+    your word and nothing is searched for. `resamples` sweeps without effects give the p-value, with one
+    pickup only and without `accept`, and by default where points are few. The same numbers as `viscorig
+    diagnose`. Raises `BadInput`, `OutsideModel`, `TooFewPoints`.
     """
     given = _given(data, specimen, hammer)
     points, model, declined = given.points, given.plate.model, frozenset(without)

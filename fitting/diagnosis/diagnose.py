@@ -28,6 +28,7 @@ from fitting.diagnosis.verdict.kin import UNLISTED, Unlisted, kin_of
 from fitting.diagnosis.verdict.resampling import Again, Resampled, gain, repeats_of, resampled_of
 from fitting.diagnosis.verdict.result import Candidate, Diagnosis, FoundEffect, ParameterEstimate, Rivals
 from fitting.diagnosis.verdict.stage import few_of_law, found_effects, mixed_band, stage_of
+from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.progress import Report, unheard
@@ -127,6 +128,11 @@ def diagnose_problem(
     return _diagnosis(decided, case, channels, options.report)
 
 
+def _on(kind: str, name: str) -> Effect:
+    """An effect that channels show by themselves, whether it was asked for or not."""
+    return CATALOGUE[name].on(kind) or CATALOGUE[name]
+
+
 def _refuse_what_is_objected_to(problem: DiagnosisProblem, effects: Sequence[Effect]) -> None:
     """Before anything is fitted. Raises `OutsideModel` where the data cannot carry one."""
     for effect in effects:
@@ -195,7 +201,9 @@ def _diagnosis(decided: _Decided, case: DiagnosisCase, channels: ChannelsSeen, r
     if judgement.unlisted is not None:
         scored_fits.append(judgement.unlisted)
     scored_fits = sorted([absent, *scored_fits], key=by_cost)
-    seen = tuple(text.story(catalogue[c.name], c) for c in channels.effects)
+    seen = tuple(
+        text.story(catalogue.get(c.name) or _on(problem.specimen.kind, c.name), c) for c in channels.effects
+    )
     return Diagnosis(
         verdict=judgement.verdict,
         effects=tuple(replace(e, probability=judgement.of_effect(e.name)) for e in found),

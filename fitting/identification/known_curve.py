@@ -58,9 +58,8 @@ class KnownCurve:
             by_stated=W @ self.by_stated,
         )
 
-    def wider_by(self, variance: Array) -> "KnownCurve":
-        """Known so much worse, at each frequency for itself. Shape (2 frequencies,)."""
-        more = np.diag(variance)
+    def wider_by(self, more: Array) -> "KnownCurve":
+        """Known so much worse. `more` of the shape of `covariance`."""
         return replace(
             self,
             covariance=self.covariance + more,

@@ -6,7 +6,7 @@ from pathlib import Path
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.cli.reading import read_tables
-from instrument.finding.modal import diagnose_tables, first_fit_of
+from instrument.finding.modal import diagnose_tables, first_fit_of, refuse_to_diagnose
 from instrument.interchange.questions import question_modes, question_numbers
 from instrument.planning.unseen import with_unseen_in_tables
 from instrument.progress import bar
@@ -21,6 +21,7 @@ def diagnose_modes(
     What no core comes near is refused unless someone insists.
     """
     tables, read = read_tables(data, specimens, insist=insist)
+    refuse_to_diagnose(read, without)
     if not insist:
         question_numbers(tables, read, data)
         # Of tables that are misread no effect is looked for, which takes a minute.

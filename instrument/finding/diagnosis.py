@@ -67,9 +67,6 @@ def diagnose(
             f"{' and '.join(sorted(kinds))} together, expected specimens of one kind to diagnose"
         )
     standing = effects_among(specimens, without, accept)
-    both = sorted(set(without) & set(accept or ()))
-    if both:
-        raise BadInput(f"effect {both[0]!r} both accepted and left out, expected one of them")
     if resamples and accept is not None:
         raise BadInput("resamples with accepted effects: no search to repeat, expected one of them")
     plate = lone_plate(files)

@@ -23,9 +23,9 @@ def effects_among(
     """Effects on some specimens of one kind, and on which of these each has a meaning.
 
     A base that moves, or a clamp, is of those that have one; all must offer what else an effect needs. What
-    goes with the level of a base is of those that one drives, where others are struck. Raises `BadInput` for
-    a name that is none of them. What is in `without` takes along what contains it: a clamp that does not
-    yield does not yield unevenly.
+    goes with the level of a base is of those that one drives, where others are struck. What is in `without`
+    takes along what contains it: a clamp that does not yield does not yield unevenly. Raises `BadInput` for
+    a name that is none of them, and for one that is accepted and left out.
     """
     refuse_unknown_effects([*without, *(accept or ())])
     first = specimens[0]
@@ -45,9 +45,16 @@ def effects_among(
                 f"effect {name!r} has no meaning on this {first.kind} driven by a {drives}, "
                 f"expected one of {', '.join(sorted(standing))}"
             )
-    return [found for found in standing.values() if not is_left_out(found[0], without)]
+    left = left_out([form for form, _ in standing.values()], without)
+    for name in accept or ():
+        if name in left:
+            along = "" if name in without else f" with {standing[name][0].extends!r}"
+            raise BadInput(f"effect {name!r} both accepted and left out{along}, expected one of them")
+    return [found for name, found in standing.items() if name not in left]
 
 
-def is_left_out(effect: Effect, without: Collection[str]) -> bool:
-    """Whether an effect, or the one that it contains, is among names that are not considered."""
-    return not {effect.name, effect.extends}.isdisjoint(without)
+def left_out(effects: Iterable[Effect], without: Collection[str]) -> set[str]:
+    """Names of those effects that are not considered: what is in `without`, and what contains one of it."""
+    by_name = {effect.name: effect for effect in effects}
+    declined = by_name.keys() & set(without)
+    return {name for name, effect in by_name.items() if {name, effect.extends} & declined}

@@ -31,7 +31,7 @@ from fitting.structures.beam import Beam
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from fitting.widened.enriching import enriched, reach_over
 from fitting.widened.full_plate import FullPlate
-from instrument.finding.effect_names import is_left_out, refuse_unknown_effects
+from instrument.finding.effect_names import left_out, refuse_unknown_effects
 from instrument.models.cache import cached
 from instrument.progress import Progress, quiet
 from instrument.remarks.free_layers import remark_on_free_layers
@@ -122,6 +122,14 @@ class TablesDiagnosed:
     """Which mode does not go with the others, where that says more than any effect."""
 
 
+def refuse_to_diagnose(specimens: Sequence[AnySpecimen], without: Collection[str]) -> None:
+    """Raises `BadInput` for an unknown effect, `OutsideModel` for specimens of several kinds."""
+    refuse_unknown_effects(without)
+    kinds = sorted({s.kind for s in specimens})
+    if len(kinds) > 1:
+        raise OutsideModel(f"{' and '.join(kinds)} together, expected specimens of one kind to diagnose")
+
+
 def diagnose_tables(
     tables: Sequence[ModalTable],
     specimens: Sequence[AnySpecimen],
@@ -132,10 +140,7 @@ def diagnose_tables(
 
     Raises `BadInput` for an unknown effect, `FittingError` as `identify_tables`.
     """
-    refuse_unknown_effects(without)
-    kinds = sorted({s.kind for s in specimens})
-    if len(kinds) > 1:
-        raise OutsideModel(f"{' and '.join(kinds)} together, expected specimens of one kind to diagnose")
+    refuse_to_diagnose(specimens, without)
     start, began = start_of(tables, specimens), perf_counter()
     with threadpool_limits(1, "blas"):
         with progress("spanning what effects change") as report:
@@ -144,7 +149,9 @@ def diagnose_tables(
                 for t, s in zip(tables, specimens, strict=True)
             ]
         ready = perf_counter()
-        effects = tuple(e for e in standing(specimens) if not is_left_out(e, without))
+        every = standing(specimens)
+        left = left_out(every, without)
+        effects = tuple(e for e in every if e.name not in left)
         with progress("tracing what is left") as report:
             found = diagnose_modes(ModalProblem.of(members), effects, start, report)
     accepted = found.judgement.accepted

@@ -13,7 +13,12 @@ _WIDER = 1.5
 
 
 def remarks_on_common_causes(result: Diagnosis) -> tuple[str, ...]:
-    """Of several files: where what is found in every one of them makes the band of the law wider."""
+    """Of several files: where what is found in every one of them makes the band of the law wider.
+
+    Only what is certain: beside other explanations the band is wide because these disagree.
+    """
+    if result.verdict != "effect":
+        return ()
     common = [e.name for e in result.effects if FILE in e.parameters and e.parameters[FILE].value == ALIKE]
     if not common:
         return ()

@@ -68,10 +68,15 @@ class BareModes:
         k_0, m_0 = self._energies(nuisances.bare_coefficients(0 * z))
         return np.asarray(np.log((k / m) / (k_0 / m_0)) / 2)
 
+    @staticmethod
+    def nearest(z: Array) -> Array:
+        """Where slopes are taken: they change little from one tolerance to the next. Shape of `z`."""
+        return np.round(z)
+
     def by_stated(self, nuisances: Nuisances, z: Array) -> Array:
-        """Derivatives of `stated_shift` to z, at the nearest whole numbers. Shape (count, modes)."""
+        """Derivatives of `stated_shift` to z, at the `nearest` whole numbers. Shape (count, modes)."""
         found = np.zeros((len(z), len(self.shift)))
-        z = np.round(z)
+        z = self.nearest(z)
         for k in nuisances.of_bare_plate:
             up, down = z.copy(), z.copy()
             up[k], down[k] = z[k] + _STEP, z[k] - _STEP

@@ -171,7 +171,7 @@ class JointProblem:
         if bare is None:
             return J
         if self._z:
-            z, nuisances = np.round(u[: self._z]), self.response.nuisances
+            z, nuisances = bare.nearest(u[: self._z]), self.response.nuisances
             by_z = self._bare_shifts.get("slopes", z, lambda: bare.by_stated(nuisances, z))
             J[:, self._n : self._n + self._z] = bare.whitened_change(by_z.T)
         for column, k in enumerate(np.flatnonzero(self.free)):

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from fitting.arrays import Array
 from fitting.diagnosis.checks.structure import structure
@@ -160,15 +161,21 @@ def mixture_of(bands: Sequence[LawBand], shares: Array, *, all_wrong: bool = Fal
         whole = known_of_mixture(curves, known, shares)
         if all_wrong:
             apart = shares @ (np.array(curves) - shares @ np.array(curves)) ** 2
-            whole = whole.wider_by(np.concatenate([_lacking(at, half) for half in np.split(apart, 2)]))
+            halves = [np.sqrt(_lacking(at, half)) for half in np.split(apart, 2)]
+            whole = whole.wider_by(block_diag(*(_nearby(at) * np.outer(e, e) for e in halves)))
     return LawBand(f, G, eta, G_error, eta_error, whole)
 
 
 def _lacking(frequency_hz: Array, variance: Array) -> Array:
     """What a variance has less than on average round about. Shape (frequencies,) each."""
-    x = np.log(frequency_hz)
-    weights = np.exp(-((x[:, None] - x) ** 2) / (2 * _NEXT_TO**2))
+    weights = _nearby(frequency_hz)
     return np.maximum(weights @ variance / weights.sum(axis=1) - variance, 0.0)
+
+
+def _nearby(frequency_hz: Array) -> Array:
+    """How far frequencies have to do with one another. Shape (frequencies, frequencies)."""
+    x = np.log(frequency_hz)
+    return np.exp(-((x[:, None] - x) ** 2) / (2 * _NEXT_TO**2))
 
 
 def found_effects(

@@ -151,7 +151,8 @@ class Decisions:
         if self.accepted:
             return f"fit with {' and '.join(self.accepted)}"
         if self.declined:
-            return f"search again without {', '.join(self.declined)}"
+            along = {e.extends for e in CATALOGUE.values()} & set(self.declined)
+            return f"search again without {', '.join(self.declined)}{' and what contains it' * bool(along)}"
         return ""
 
     def of(self, name: str) -> str:

@@ -199,7 +199,7 @@ def test_no_effect_by_hand_is_not_called_noise(window, page):
 def test_what_is_computed_can_be_cancelled(qtbot, window, page):
     select(qtbot, page, "added_mass")
     qtbot.mouseClick(page.candidates.decline, LEFT)
-    assert page.candidates.compute.text() == "Recompute: search again without added_mass"
+    assert page.candidates.compute.text() == "Recompute: search again without added_mass and what contains it"
     qtbot.mouseClick(page.candidates.compute, LEFT)
     assert window.controller.rediagnosis.running
     qtbot.mouseClick(page.working.cancel, LEFT)

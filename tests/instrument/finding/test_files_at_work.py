@@ -8,7 +8,9 @@ from shear_pair_cases import pair, sweep
 
 from fitting.data.aside import DISTURBED
 from fitting.diagnosis.problem.glitch import Glitch
+from fitting.effects import CATALOGUE
 from fitting.identification.doubt import doubts_among
+from instrument.finding.diagnosis import diagnose
 from instrument.finding.files_at_work import FilesAtWork, SetAside
 from instrument.models.files import File
 from instrument.progress import quiet
@@ -38,6 +40,13 @@ def test_what_is_set_aside_of_a_file_hangs_on_no_other_file_and_on_no_rounding()
     again = FilesAtWork([File(moved, given.specimen)], quiet, with_effects=False)
     again.set_disturbances_aside()
     np.testing.assert_array_equal(again.used[0], alone.used[0])
+
+
+def test_a_disturbance_is_shown_whether_or_not_its_effect_is_looked_for():
+    given = [disturbed(pair(0.2533))]
+    declined = {name for name in CATALOGUE if name != "gain_error"}
+    found = diagnose(given, without=declined).result
+    assert [one.name for one in found.channels] == ["fixture_resonance"]
 
 
 def test_a_stretch_is_told_with_its_file():

@@ -13,6 +13,7 @@ from fitting.diagnosis.verdict.resampling import REPEATS, SMALL, gain, nested_rm
 from fitting.diagnosis.verdict.stage import found_effects, mixture_of
 from fitting.effects.gain_error import GainErrorEffect
 from fitting.effects.tether import TetherEffect
+from fitting.identification.known_curve import KnownCurve
 from fitting.identification.result import LawBand
 
 
@@ -103,6 +104,20 @@ def test_laws_that_are_all_wrong_are_known_no_better_where_they_cross():
     assert np.all(wrong.storage_modulus_standard_error_pa >= plain.storage_modulus_standard_error_pa)
     assert wrong.storage_modulus_pa == pytest.approx(plain.storage_modulus_pa)
     assert wrong.loss_factor_standard_error == pytest.approx(small)
+
+
+def test_a_curve_over_laws_that_are_all_wrong_is_known_no_better_than_their_band():
+    f, small = np.geomspace(10.0, 1000.0, 41), np.full(41, 1e-3)
+    known = KnownCurve(f, np.zeros((82, 82)), np.zeros((82, 82)), np.zeros((82, 0)))
+    slope = 0.1 * np.log10(f / 100.0)
+    bands = [LawBand(f, np.exp(s * slope), small, small, small, known) for s in (1, -1)]
+    wrong = mixture_of(bands, np.array([0.5, 0.5]), all_wrong=True)
+    at = np.sqrt(f[1:] * f[:-1])
+    errors = np.sqrt(np.diag(wrong.known.at(at).covariance)[:40])
+    np.testing.assert_allclose(errors, np.interp(at, f, wrong.storage_modulus_standard_error_pa), rtol=0.02)
+    near = wrong.known.covariance[20, 21] / wrong.known.covariance[20, 20]
+    assert near == pytest.approx(1.0, abs=0.05)
+    np.testing.assert_array_equal(wrong.known.of_another_measurement, wrong.known.covariance)
 
 
 def test_effects_are_told_with_errors_unless_they_end_at_a_limit():
