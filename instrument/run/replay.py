@@ -28,6 +28,7 @@ from instrument.stream.raw import (
     BlockAcquired,
     ChoiceStarted,
     DiagnosisStarted,
+    FitFailed,
     FitStarted,
     SessionBegan,
     SessionEnded,
@@ -74,7 +75,7 @@ def _replay(
     configuration = session.configuration
     specimen = configuration.the_specimen()
     setup, table = setup_of(configuration), configuration.experiment.sweep
-    settled_at = _settled_at(session)
+    settled_at, failed = _settled_at(session), _failed(session)
     analysis = Analysis(setup, settled_at)
     adaptive = table is not None and table.plan == "adaptive"
     chooser = None
@@ -102,7 +103,7 @@ def _replay(
         watch(event)
         derived = analysis.feed(event)
         expected += derived
-        if isinstance(event, FitStarted):
+        if isinstance(event, FitStarted) and before not in failed:
             again.fit = fit(event.number, event.last_step, analysis.points, analysis.damping, specimen)
             apart[FitUpdated, event.number] = again.fit
             derived = [*derived, again.fit]
@@ -130,6 +131,26 @@ def _settled_at(session: SessionFile) -> dict[int, frozenset[int]]:
     for event in session.events(with_samples=False):
         if isinstance(event, StepSettled):
             found[event.step] = found.get(event.step, frozenset()) | {event.sample}
+    return found
+
+
+def _failed(session: SessionFile) -> set[int]:
+    """Of the session's events, which are the `FitStarted` of fits that failed: none is computed again.
+
+    By their place: a run that is carried on counts its fits anew.
+    """
+    found: set[int] = set()
+    # One fit at a time: what ended is the last that had started, and only once.
+    running: tuple[int, int] | None = None
+    for place, event in enumerate(session.events(with_samples=False)):
+        match event:
+            case FitStarted():
+                running = event.number, place
+            case FitUpdated() | SessionBegan():
+                running = None
+            case FitFailed() if running is not None and running[0] == event.number:
+                found.add(running[1])
+                running = None
     return found
 
 
