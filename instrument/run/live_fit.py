@@ -135,7 +135,17 @@ class LiveFit:
             # Without its frames: they would keep the memory that the next fit may need.
             self._failure = error.with_traceback(None)
             log.warning("no fit of the points up to step %d: %s", last, fault_words(error))
-            self._emit(FitFailed(self.number, fault_words(error)))
+            self._tell_failed(fault_words(error))
+
+    def _tell_failed(self, message: str) -> None:
+        """Raises `RigStopped` as `_fit_one` does; what else fails here must not end the fits to come."""
+        try:
+            self._emit(FitFailed(self.number, message))
+        except RigStopped:
+            raise
+        except Exception as error:
+            log.debug("internal error", exc_info=True)
+            log.warning("that fit %d failed is not recorded: %s", self.number, fault_words(error))
 
     def _next(self) -> tuple[list[PointMeasured], DampingFound | None] | None:
         with self._wake:

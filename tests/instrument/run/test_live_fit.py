@@ -65,6 +65,34 @@ def test_a_fit_that_fails_is_told_of_at_once_and_the_next_points_are_fitted(hear
     assert words_for(heard, error) == [f"no fit of the points up to step 1: {said}"]
 
 
+def test_where_there_is_no_memory_to_tell_of_a_failed_fit_the_next_points_are_fitted_all_the_same(heard):
+    emitted, untold = [], threading.Event()
+
+    def emit(event):
+        if isinstance(event, FitFailed):
+            untold.set()
+            raise MemoryError
+        emitted.append(event)
+
+    with LiveFit(None, emit, Fits(KeyError("x"))) as live:
+        live.offer([point(1)], None)
+        assert untold.wait(5.0)
+        live.offer([point(1), point(2)], None)
+    assert [type(e) for e in emitted] == [FitStarted, FitStarted, FitUpdated]
+    assert live.latest.last_step == 2
+    assert heard.messages[1] == "that fit 1 failed is not recorded: no memory left"
+
+
+def test_where_nothing_is_recorded_any_more_that_a_fit_failed_is_not_told_either(heard):
+    def emit(event):
+        if isinstance(event, FitFailed):
+            raise RigStopped("disk full")
+
+    with pytest.raises(RigStopped, match="disk full"), LiveFit(None, emit, Fits(MemoryError())) as live:
+        live.offer([point(1)], None)
+    assert heard.messages == ["no fit of the points up to step 1: no memory left"]
+
+
 def test_that_the_newest_points_have_no_fit_is_raised_in_the_end():
     with pytest.raises(MemoryError), LiveFit(None, lambda _: None, Fits(MemoryError())) as live:
         live.offer([point(1)], None)
