@@ -125,11 +125,15 @@ def _record_remarks(hammer: Hammer, specimen: PlateSpecimen | Beam) -> Iterator[
         return
     left = _END ** (hammer.record_s / needed)
     if left > _LEFT:
-        as_auto = " as auto has it" if needed <= LONGEST_RECORD_S else ""
+        if needed > MOST_RECORD_S:
+            expected = (
+                f"{needed:g} s would leave {100 * _END:g} %, {MOST_RECORD_S:g} s is the most a record may be"
+            )
+        else:
+            expected = f"expected {needed:g} s" + (" as auto has it" if needed <= LONGEST_RECORD_S else "")
         yield (
             f"hammer.record_s = {hammer.record_s:g}: at its end the slowest mode still has "
-            f"{100 * left:.0f} % of its start, too much to tell decays and neighbours apart: expected "
-            f"{needed:g} s{as_auto}"
+            f"{100 * left:.0f} % of its start, too much to tell decays and neighbours apart: {expected}"
         )
 
 

@@ -60,6 +60,25 @@ def test_a_record_in_which_nothing_decays_is_warned_of(tmp_path):
     assert list(bare_test_remarks(*whole(tmp_path, record_s=6.0))) == []
 
 
+def with_damping(folder, percent, **changes):
+    """`whole`, with other damping stated of the plate."""
+    experiment, _ = whole(folder, **changes)
+    specimen = folder / "specimen.toml"
+    text, count = re.subn(r"(?m)^modal_percent = .*$", f"modal_percent = {percent}", specimen.read_text())
+    assert count
+    specimen.write_text(text)
+    experiment = read_whole_experiment(experiment.path)
+    return experiment, experiment.document.hammer
+
+
+@pytest.mark.parametrize("record_s", [200.0, 300.0])
+def test_no_longer_record_is_asked_for_than_a_file_may_state(tmp_path, record_s):
+    (said,) = bare_test_remarks(*with_damping(tmp_path, [0.001], record_s=record_s))
+    assert said.startswith(f"hammer.record_s = {record_s:g}: at its end the slowest mode still has")
+    assert said.endswith("4138 s would leave 1 %, 300 s is the most a record may be")
+    assert "expected" not in said
+
+
 @pytest.mark.parametrize(
     ("percent", "said"),
     [
@@ -69,13 +88,7 @@ def test_a_record_in_which_nothing_decays_is_warned_of(tmp_path):
     ],
 )
 def test_a_record_that_auto_cuts_says_how_long_it_would_have_to_be(tmp_path, percent, said):
-    experiment, hammer = whole(tmp_path)
-    specimen = tmp_path / "specimen.toml"
-    ratios = f"modal_percent = {percent}"
-    text, count = re.subn(r"(?m)^modal_percent = .*$", ratios, specimen.read_text())
-    assert count
-    specimen.write_text(text)
-    found = list(bare_test_remarks(read_whole_experiment(experiment.path), hammer))
+    found = list(bare_test_remarks(*with_damping(tmp_path, percent)))
     assert len(found) == len(said)
     for one, expected in zip(found, said, strict=True):
         assert one.startswith('hammer.record_s = "auto" ends at 60 s, its most, where the slowest mode')
