@@ -55,7 +55,9 @@ def number_name(name: str) -> NumberName:
     kind = own if own in NUMBERS else own.partition("_")[0]
     which = _WHICH.fullmatch(own.removeprefix(kind)) or _WHICH.fullmatch("")
     assert which is not None
-    if kind not in NUMBERS or (kind == "damping" and which["item"] is None):
+    # A mode's damping: modes count from 1, and have no axis.
+    of_no_mode = kind == "damping" and (not int(which["item"] or 0) or which["axis"] is not None)
+    if kind not in NUMBERS or of_no_mode:
         raise ValueError(f"no stated number is called {own!r}")
     return NumberName(kind, int(which["item"]) if which["item"] else None, which["axis"] or "")
 

@@ -31,7 +31,9 @@ def test_every_kind_is_told_by_its_name(name):
         assert kind_of(name) == name
 
 
-@pytest.mark.parametrize("name", ["", "damping", "damping_x", "elasticity", "_x"])
+@pytest.mark.parametrize(
+    "name", ["", "damping", "damping_x", "damping_0", "damping_00", "damping_1_x", "elasticity", "_x"]
+)
 def test_what_no_number_is_called_is_refused(name):
     with pytest.raises(ValueError, match="no stated number is called"):
         number_name(name)
@@ -40,7 +42,7 @@ def test_what_no_number_is_called_is_refused(name):
 def test_items_and_axes_are_counted_from_none_and_missing_ones_are_refused():
     which = number_name("place_2_y")
     assert (which.item, which.axis, which.number.unit) == (1, 1, "m")
-    for name in ("length", "damping_0"):
+    for name in ("length", "mass_0"):
         with pytest.raises(LookupError, match="of which"):
             _ = number_name(name).item
     with pytest.raises(LookupError, match="which axis"):

@@ -1,5 +1,6 @@
 """What a law that is read back takes along of the plate it was found on."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -8,7 +9,7 @@ from beam_temperatures import beam
 
 from fitting.specimen import PlacedMass
 from instrument.errors import BadInput
-from instrument.results.fit_file import FoundLaw, is_of_first, plain_name
+from instrument.results.fit_file import FoundLaw, is_of_first, plain_name, read_fit
 
 NOTHING = {"law_kind": "constant", "parameters": {}, "standard_errors": {}, "correlations": {}}
 
@@ -70,6 +71,15 @@ def test_a_plate_has_the_first_file_s_damping_and_places(coarse):
 def test_a_number_that_the_plate_does_not_state_is_refused_in_a_line(coarse, name):
     with pytest.raises(BadInput, match=f"^adjusted: {name}, expected a number that the specimen states$"):
         found([name]).plate(coarse)
+
+
+@pytest.mark.parametrize("name", ["damping_0", "damping_1_x"])
+def test_damping_of_what_is_no_mode_is_refused_in_a_line(tmp_path, name):
+    path = tmp_path / "fit.json"
+    adjusted = [{"name": name, "stated": 1.0, "tolerance": 0.01, "found": 1.02}]
+    path.write_text(json.dumps({**NOTHING, "adjusted": adjusted}))
+    with pytest.raises(BadInput, match="expected the JSON of 'viscorig identify'"):
+        read_fit(path)
 
 
 @pytest.mark.parametrize(
