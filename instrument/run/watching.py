@@ -3,6 +3,7 @@
 import logging
 from contextlib import suppress
 from dataclasses import dataclass
+from time import monotonic, sleep
 
 from drivers.errors import DriverError, Refused
 from drivers.shaker import Alarm, ShakerStatus
@@ -17,6 +18,9 @@ log = logging.getLogger(__name__)
 
 BEAT_S = 0.2
 """A tenth of the heartbeat's usual limit: a few may come late."""
+_WORD_S, _LISTENS_S = 1.0, 0.01
+"""How long the word of a stop may come after its deed, and how often it is listened for. A choice: the shaker is
+silent."""
 _LOST_SAID, _LOST_MORE = 3, 10
 """Answers of the shaker lost before the first word of it, and times as many for each further one."""
 
@@ -45,10 +49,7 @@ class Watching:
 
         Raises `RigStopped` where the run is to end, `KeyboardInterrupt` where its user has stopped it.
         """
-        if self._control.interrupted:
-            raise KeyboardInterrupt
-        if self._control.aborted is not None:
-            raise RigStopped(self._control.aborted)
+        self._heed()
         if not self.beats.due(BEAT_S):
             return
         with self.beats.asking("shaker"):
@@ -66,12 +67,26 @@ class Watching:
             raise RigStopped("shaker interlock open: close it, then begin again")
         self._question(status)
 
+    def _heed(self) -> None:
+        if self._control.interrupted:
+            raise KeyboardInterrupt
+        if self._control.aborted is not None:
+            raise RigStopped(self._control.aborted)
+
+    def _heed_who_stopped_it(self) -> None:
+        """A stop goes straight to the shaker, past the run: its word may be on its way still."""
+        until = monotonic() + _WORD_S
+        while monotonic() < until:
+            self._heed()
+            sleep(_LISTENS_S)
+
     def _question(self, status: ShakerStatus) -> None:
         """Whether the shaker does what it was told. Raises `RigStopped`."""
         told = self._told
         if told.drive_v == 0:
             return
         if not status.running:
+            self._heed_who_stopped_it()
             raise RigStopped("the shaker was switched off by somebody else: begin again when it is free")
         if abs(status.frequency_hz / told.frequency_hz - 1) > MOST_OFF:
             raise RigStopped(
@@ -106,6 +121,8 @@ class Watching:
         with suppress(DriverError):
             status = self._rig.shaker.status()
             self._count(status)
+            if not status.running and self._told.drive_v:
+                self._heed_who_stopped_it()
             if status.alarm is Alarm.HEARTBEAT:
                 return Refused(f"{refusal}; {self.beats.said}")
         return refusal

@@ -41,6 +41,22 @@ def test_a_shaker_that_is_not_as_it_was_told_ends_the_run(changes, said):
         watching(shaker_that_says(**changes)).look()
 
 
+def test_a_shaker_that_the_users_own_stop_has_silenced_is_nobody_elses_deed():
+    """The stop goes straight to the shaker; the run hears of it after it has seen that it stands still."""
+    control = RunControl()
+
+    def stopped():
+        control.interrupt()
+        return ShakerStatus(**{**WELL, "running": False})
+
+    shaker = SimpleNamespace(beat=lambda: None, status=stopped)
+    with pytest.raises(KeyboardInterrupt):
+        watching(shaker, control=control).look()
+    refused = watching(shaker, control=control)
+    with pytest.raises(KeyboardInterrupt):
+        refused.explained(Refused("busy"))
+
+
 def test_a_silent_shaker_is_not_asked_for_its_frequency():
     watching(shaker_that_says(running=False, frequency_hz=0.0), Told(50.0, 0.0)).look()
 
