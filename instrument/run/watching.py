@@ -19,8 +19,8 @@ log = logging.getLogger(__name__)
 BEAT_S = 0.2
 """A tenth of the heartbeat's usual limit: a few may come late."""
 _WORD_S, _LISTENS_S = 1.0, 0.01
-"""How long the word of a stop may come after its deed, and how often it is listened for. A choice: the shaker is
-silent."""
+"""How long the word of a stop may come after its deed, and how often it is listened for. A choice: by then
+the shaker is silent."""
 _LOST_SAID, _LOST_MORE = 3, 10
 """Answers of the shaker lost before the first word of it, and times as many for each further one."""
 
