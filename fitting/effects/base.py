@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.data.noise import Noise
-from fitting.effects.given import BarePlateModes, ModulusAt, Points
+from fitting.effects.given import BarePlateModes, ModulusAt, Points, Swings
 from fitting.laws import CoreLaw
 from fitting.specimen import KINDS, Kind, StatedSpecimen
 from fitting.sweep import Sweep
@@ -141,10 +141,10 @@ class Effect:
     """Whether it says how one file differs from the others: one alone cannot show it."""
 
     sharp: ClassVar[bool] = False
-    """Whether it adds a resonance of its own to the plate.
+    """Whether it adds a resonance of its own to the plate: a mass that swings at one place (`swings`).
 
-    The response is then computed at every point, not interpolated between nodes, and the reduced plate has
-    one motion more (`EnrichedReducedPlate.with_part`).
+    What it does is computed at every point, not interpolated between nodes. To `change`, the reduced plate
+    has one motion more (`EnrichedReducedPlate.with_part`).
     """
 
     anew: ClassVar[bool] = False
@@ -278,6 +278,10 @@ class Effect:
 
     def sharply(self, omega: Array, u: Array) -> Complex | None:
         """Factor on what `coming_in` makes of the reading; None: one. Shape of `omega`, in rad/s."""
+        return None
+
+    def swings(self, plate: EnrichedReducedPlate, u: Array) -> Swings | None:
+        """What is `sharp`: the mass that is felt `sharply`, and where. `u` of shape (parameters,)."""
         return None
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex | None:

@@ -54,6 +54,15 @@ class Points:
         return moving if self.at_rest is None else np.where(self.at_rest, 0.0, moving)
 
 
+@dataclass(frozen=True)
+class Swings:
+    """A part that swings on a plate, without its frequency."""
+
+    mass_kg: float
+    row: Array
+    """Reads the plate where it sits. Shape (k,)."""
+
+
 class Strain(Protocol):
     """The core's strain at every point, in shares of the largest at 1 g of a core as it is."""
 

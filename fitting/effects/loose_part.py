@@ -6,7 +6,8 @@ k = m omega_0^2 (1 + i loss) its spring, inertia and load are
     k (w . q - xi / sqrt(m))^2,   xi^2,   -sqrt(m) a
 
 So xi is one motion more of the plate (`EnrichedReducedPlate.with_part`), and the response has a pole more. At
-low frequencies it is a mass at that place, far above its own it is gone.
+low frequencies it is a mass at that place, far above its own it is gone. A fit needs no such motion: it takes
+the part for what it is felt as (`diagnosis/response/swinging_part.py`).
 """
 
 from collections.abc import Mapping
@@ -17,7 +18,7 @@ from fitting.arrays import Array, Complex
 from fitting.effects.added_mass import PLACE, AddedMassEffect, MassOnBeamEffect, PointMass, near
 from fitting.effects.along_a_beam import AlongABeam
 from fitting.effects.base import ONE_PIECE, Effect, EffectParameter
-from fitting.effects.given import Points
+from fitting.effects.given import Points, Swings
 from fitting.widened.change import Change
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from fitting.widened.span import Span
@@ -102,6 +103,9 @@ class LoosePartEffect(Effect):
         k = 1 + 1j * u[2]
         return np.asarray(k / (k - (omega / (2 * np.pi * u[1])) ** 2))
 
+    def swings(self, plate: EnrichedReducedPlate, u: Array) -> Swings:
+        return Swings(float(u[0]), plate.row(u[3], u[4]))
+
     def shows(self, points: Points, resonances: Complex, u: Array) -> bool:
         f = np.unique(points.omega) / (2 * np.pi)
         return int(np.sum(np.abs(f - u[1]) <= u[1] * u[2] / 2)) >= _SEEN
@@ -133,6 +137,9 @@ class LoosePartOnBeamEffect(AlongABeam, LoosePartEffect):
 
     def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
         return ((MassOnBeamEffect(), u[[0, 3]]),)
+
+    def swings(self, plate: EnrichedReducedPlate, u: Array) -> Swings:
+        return super().swings(plate, np.array([*u, 0.0]))
 
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         lower, upper = Effect.limits(self, plate)

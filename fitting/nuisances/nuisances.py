@@ -180,18 +180,31 @@ class Nuisances:
         return self.of_parts.load_sign * loaded(c[self.of_parts.counts.load].real, plate.load_part)
 
     def by_response(
-        self, plate: EnrichedReducedPlate, omega: Array, G: Complex, q: Complex, adjoint: Complex, z: Array
+        self,
+        plate: EnrichedReducedPlate,
+        omega: Array,
+        G: Complex,
+        q: Complex,
+        adjoint: Complex,
+        z: Array,
+        *,
+        loads: bool = True,
+        reads: bool = True,
     ) -> Complex:
         """Derivatives of adjoint . (load - A q) + observe . q. Shapes (points, k) of both; (count, points).
 
-        For a load that does not depend on the stated numbers take `by_pitch`.
+        Without `loads` or `reads` of a load or a row that does not depend on the stated numbers.
         """
         found = self._by_matrices(plate, omega, G, q, adjoint, z)
-        found += self._by_load(plate, adjoint, z)
-        for k, moved_load in self._masses.by_load(plate, adjoint, z).items():
-            found[k] += moved_load
-        for k, row in self.spots.rows_by("force", plate, z).items():
-            found[k] += adjoint @ row
+        if reads:
+            for k, row in self.spots.rows_by("pickup", plate, z).items():
+                found[k] += q @ row
+        if loads:
+            found += self._by_load(plate, adjoint, z)
+            for k, moved_load in self._masses.by_load(plate, adjoint, z).items():
+                found[k] += moved_load
+            for k, row in self.spots.rows_by("force", plate, z).items():
+                found[k] += adjoint @ row
         return found
 
     def _by_load(self, plate: EnrichedReducedPlate, adjoint: Complex, z: Array) -> Complex:
@@ -199,12 +212,6 @@ class Nuisances:
         if plate.load_part.ndim > 1:
             return np.asarray(by @ (plate.load_part @ adjoint.T))
         return np.asarray(by * (adjoint @ plate.load_part))
-
-    def by_pitch(
-        self, plate: EnrichedReducedPlate, omega: Array, G: Complex, p: Complex, adjoint: Complex, z: Array
-    ) -> Complex:
-        """The same for the answer `p` to a turning base."""
-        return self._by_matrices(plate, omega, G, p, adjoint, z)
 
     def _by_matrices(
         self, plate: EnrichedReducedPlate, omega: Array, G: Complex, q: Complex, adjoint: Complex, z: Array
@@ -214,8 +221,6 @@ class Nuisances:
         counts.weigh(each, G, -(omega**2))
         by = self.of_parts.by(z)[:, counts.matrices]
         found = np.asarray(-(by @ each), dtype=complex)
-        for k, row in self.spots.rows_by("pickup", plate, z).items():
-            found[k] += q @ row
         for k, moved_mass in self._masses.by_mass(plate, q, adjoint, z).items():
             found[k] += omega**2 * moved_mass
         if self.narrow:

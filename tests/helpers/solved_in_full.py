@@ -86,7 +86,7 @@ class Full:
     def reduced(self, effect, u):
         plate = self.taken(effect)
         change = effect.change(plate, np.array(u, dtype=float))
-        return answer(plate, OMEGA, G, change, [], with_pitch=False).heave
+        return answer(plate, OMEGA, G, change, [], with_pitch=False).heave.value
 
     def error(self, effect, u, **changes):
         return float(np.max(np.abs(self.reduced(effect, u) / self.direct(**changes) - 1)))
@@ -98,5 +98,5 @@ class Full:
         step = h * np.eye(len(u))[n]
         up, down = (effect.change(plate, u + s * step) for s in (1, -1))
         nearby = [(up, down, 2 * h)]
-        by = answer(plate, OMEGA, G, effect.change(plate, u), nearby, with_pitch=False).heave_by_u[0]
+        by = answer(plate, OMEGA, G, effect.change(plate, u), nearby, with_pitch=False).heave.by_u[0]
         return by, (self.reduced(effect, u + step) - self.reduced(effect, u - step)) / (2 * h)

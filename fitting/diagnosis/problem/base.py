@@ -9,7 +9,6 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.data.times import is_timed
-from fitting.diagnosis.problem.every_point import EveryPoint
 from fitting.diagnosis.problem.narrow_resonances import Errs, narrow_of
 from fitting.diagnosis.problem.nodes import HZ_A_NODE, Nodes
 from fitting.diagnosis.problem.plate_poles import PlatePoles, cuts_between
@@ -250,13 +249,6 @@ class DiagnosisProblem:
         if not self.nuisances.each:
             return self
         return replace(self, nuisances=replace(self.nuisances, each=(), narrow=NarrowResonances()))
-
-    @cached_property
-    def each(self) -> NodeGrid:
-        """Every point a node: for what has poles of its own between them."""
-        if isinstance(self.fine.nodes, EveryPoint):
-            return self.fine
-        return NodeGrid(EveryPoint.at(self.sweep.omega), self.rational)
 
     def around(self, law: CoreLaw, poles: PlatePoles | None = None) -> "DiagnosisProblem":
         """The same, its grids made for the poles that the plate has under a law.

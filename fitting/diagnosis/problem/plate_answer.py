@@ -29,12 +29,16 @@ class Asked:
     poles: KnownPoles | None
     """Those of the unchanged plate that are to be followed."""
     with_pitch: bool
+    place: Array | None = None
+    """The row that reads one place more, where something pulls at the plate. Shape (k,)."""
 
     @property
-    def sides(self) -> list[Array]:
-        """Load, row that reads, and the load of a turning base. Shape (k,) each."""
-        found = [self.plate.load + self.change.load, self.plate.observe + self.change.observe]
-        return [*found, self.plate.pitch] if self.with_pitch else found
+    def sides(self) -> dict[str, Array]:
+        """Load, row that reads, the load of a turning base and the row of the place. Shape (k,) each."""
+        found = {"q": self.plate.load + self.change.load, "z": self.plate.observe + self.change.observe}
+        if self.with_pitch:
+            found["p"] = self.plate.pitch
+        return found if self.place is None else {**found, "c": self.place}
 
     @cached_property
     def matrices(self) -> Matrices:
@@ -57,16 +61,18 @@ class Asked:
 
 @dataclass(frozen=True)
 class Motions:
-    """Of the plate asked for: to its load, to a unit force at its pickup, and to a turning base.
-
-    Shape (nodes, k) each.
-    """
+    """Of the plate asked for. Shape (nodes, k) each."""
 
     q: Complex
+    """To its load."""
     z: Complex
-    p: Complex | None
+    """To a unit force at its pickup."""
     poles: Complex
-    """Where the poles that were asked for have gone, rad/s."""
+    """Where the poles that were asked for have gone, rad/s. Shape (poles,)."""
+    p: Complex | None = None
+    """To a turning base."""
+    c: Complex | None = None
+    """To a unit force at the place more."""
 
 
 def motions(asked: Sequence[Asked]) -> list[Motions]:
@@ -86,17 +92,13 @@ def _together(asked: Sequence[Asked]) -> list[Motions]:
     places = []
     travel = -1 / one.omega**2
     for a in asked:
-        rows = [np.broadcast_to(side, (len(a.omega), len(side))) for side in a.sides]
+        rows = {name: np.broadcast_to(side, (len(a.omega), len(side))) for name, side in a.sides.items()}
         if np.any(a.change.travel_load):
-            rows[0] = rows[0] + travel[:, None] * a.change.travel_load
-        places.append([_place(row, each) for row in rows])
+            rows["q"] = rows["q"] + travel[:, None] * a.change.travel_load
+        places.append({name: _place(row, each) for name, row in rows.items()})
     solved = np.asarray(np.linalg.solve(A, np.stack(each, axis=2).astype(complex)), dtype=np.complex128)
-    columns = [solved[:, :, n] for n in range(len(each))]
     poles = one.poles.followed(one.matrices)[0] if one.poles else np.empty(0, complex)
-    return [
-        Motions(columns[at[0]], columns[at[1]], columns[at[2]] if one.with_pitch else None, poles)
-        for at in places
-    ]
+    return [Motions(poles=poles, **{name: solved[:, :, n] for name, n in at.items()}) for at in places]
 
 
 def _place(row: Array, each: list[Array]) -> int:
@@ -109,18 +111,76 @@ def _place(row: Array, each: list[Array]) -> int:
 
 
 @dataclass(frozen=True)
-class PlateAnswer:
-    """What is read of the motions of what was asked for, each worked out as it is asked for.
+class Receptance:
+    """What is read at one side of a plate as another is driven, x = read . A^-1 load, and its derivatives.
 
-    At every node; displacements per base acceleration (heave) or angular acceleration (pitch).
+    Per acceleration of the base, angular acceleration, or force, as what acts is.
     """
+
+    asked: Asked
+    driven: Complex
+    """A^-1 load, the plate's motion. Shape (nodes, k)."""
+    adjoint: Complex
+    """A^-1 read. Shape (nodes, k)."""
+    row: Array
+    """What is read. Shape (k,)."""
+    loads: bool
+    """Whether it is the plate's own load that acts: others are the same whatever changes."""
+    reads: bool
+    """Whether it is the plate's own reading: the same."""
+    slopes: Sequence[Change]
+    """Derivatives of the change to every unknown."""
+    nuisances: tuple[Nuisances, Array] | None
+    """Nuisances and their values, which are already included in the change."""
+
+    @cached_property
+    def value(self) -> Complex:
+        """Shape (nodes,)."""
+        x = self.driven @ self.row
+        return x - self.asked.change.travel / self.asked.omega**2 if self.loads and self.reads else x
+
+    @cached_property
+    def by_G(self) -> Complex:
+        """Shape (nodes,)."""
+        K_1 = self.asked.matrices[1]
+        return np.asarray(-np.einsum("pi,pi->p", self.adjoint, self.driven @ K_1.T))
+
+    @cached_property
+    def by_u(self) -> Complex:
+        """To each unknown. Shape (unknowns, nodes)."""
+        return self._each([self._by(d) for d in self.slopes])
+
+    @cached_property
+    def by_z(self) -> Complex:
+        """To each stated number, in standard deviations. Shape (count, nodes)."""
+        if self.nuisances is None:
+            return self._each([])
+        (who, at), a = self.nuisances, self.asked
+        return who.by_response(
+            a.plate, a.omega, a.G, self.driven, self.adjoint, at, loads=self.loads, reads=self.reads
+        )
+
+    def _by(self, d: Change) -> Complex:
+        step = _Step(self.asked.plate, self.asked.omega, self.asked.G, self.adjoint)
+        if not self.reads:
+            d = replace(d, observe=0.0, travel=0.0)
+        found = step.by(d, self.driven)
+        return found + step.by_base(d) if self.loads else found
+
+    def _each(self, rows: list[Complex]) -> Complex:
+        return np.array(rows) if rows else np.zeros((0, len(self.asked.omega)), complex)
+
+
+@dataclass(frozen=True)
+class PlateAnswer:
+    """What is read of the motions of what was asked for, each worked out as it is asked for."""
 
     asked: Asked
     moved: Motions
     nearby: Sequence[tuple[Change, Change, float]] = ()
     """For every unknown the changes a step above and below, and the step between them."""
     nuisances: tuple[Nuisances, Array] | None = None
-    """Nuisances and their values, which are already included in the change."""
+    """As `Receptance` has it."""
 
     @property
     def poles(self) -> Complex:
@@ -128,65 +188,41 @@ class PlateAnswer:
         return self.moved.poles
 
     @cached_property
-    def heave(self) -> Complex:
-        """Shape (nodes,)."""
-        return self.moved.q @ self._observe - self.asked.change.travel / self.asked.omega**2
+    def heave(self) -> Receptance:
+        """Of the load, at the pickup."""
+        return self._between(self.moved.q, self.moved.z, self._observe, loads=True, reads=True)
 
     @cached_property
-    def pitch(self) -> Complex:
-        """Shape (nodes,)."""
+    def pitch(self) -> Receptance | None:
+        """Of a turning base, at the pickup; None where it does not turn."""
         p = self.moved.p
-        return np.zeros(len(self.asked.omega), complex) if p is None else p @ self._observe
+        return None if p is None else self._between(p, self.moved.z, self._observe, reads=True)
 
     @cached_property
-    def heave_by_G(self) -> Complex:
-        """Shape (nodes,)."""
-        K_1 = self.asked.matrices[1]
-        return np.asarray(-np.einsum("pi,pi->p", self.moved.z, self.moved.q @ K_1.T))
+    def of_place(self) -> tuple[Receptance, ...]:
+        """Of a force there, at the pickup and there; of the load, and of a base that turns, there."""
+        z, c, p, row = self.moved.z, self.moved.c, self.moved.p, self.asked.place
+        if c is None or row is None:
+            return ()
+        found = [
+            self._between(c, z, self._observe, reads=True),
+            self._between(c, c, row),
+            self._between(self.moved.q, c, row, loads=True),
+        ]
+        return (*found, *([] if p is None else [self._between(p, c, row)]))
 
-    @cached_property
-    def heave_by_u(self) -> Complex:
-        """To each unknown. Shape (unknowns, nodes)."""
-        q, step = self.moved.q, self._step
-        return self._each([step.by(d, q) + step.by_base(d) for d in self._slopes])
-
-    @cached_property
-    def pitch_by_u(self) -> Complex:
-        """The same of a turning base. Shape (unknowns, nodes)."""
-        p, step = self.moved.p, self._step
-        return self._each([step.by(d, p) for d in self._slopes]) if p is not None else 0 * self.heave_by_u
-
-    @cached_property
-    def heave_by_z(self) -> Complex:
-        """To each stated number, in standard deviations. Shape (count, nodes)."""
-        if self.nuisances is None:
-            return self._each([])
-        (who, at), a = self.nuisances, self.asked
-        return who.by_response(a.plate, a.omega, a.G, self.moved.q, self.moved.z, at)
-
-    @cached_property
-    def pitch_by_z(self) -> Complex:
-        """The same of a turning base. Shape (count, nodes)."""
-        p = self.moved.p
-        if self.nuisances is None or p is None:
-            return 0 * self.heave_by_z
-        (who, at), a = self.nuisances, self.asked
-        return who.by_pitch(a.plate, a.omega, a.G, p, self.moved.z, at)
+    def _between(
+        self, driven: Complex, adjoint: Complex, row: Array, *, loads: bool = False, reads: bool = False
+    ) -> Receptance:
+        return Receptance(self.asked, driven, adjoint, row, loads, reads, self._slopes, self.nuisances)
 
     @cached_property
     def _observe(self) -> Array:
         return np.asarray(self.asked.plate.observe + self.asked.change.observe)
 
     @cached_property
-    def _step(self) -> "_Step":
-        return _Step(self.asked.plate, self.asked.omega, self.asked.G, self.moved.z)
-
-    @cached_property
     def _slopes(self) -> list[Change]:
         return [_between(up, down, 1 / h) for up, down, h in self.nearby]
-
-    def _each(self, rows: list[Complex]) -> Complex:
-        return np.array(rows) if rows else np.zeros((0, len(self.asked.omega)), complex)
 
 
 def answer(

@@ -1,5 +1,6 @@
 """What effects and stated numbers change of a plate, from the unknowns of a response."""
 
+from collections.abc import Collection
 from functools import reduce
 
 from fitting.arrays import Array
@@ -13,10 +14,18 @@ from fitting.widened.enriched_plate import EnrichedReducedPlate
 class PlateChanges:
     """What stated numbers and effects change of one problem's `plate`. `u` has shape (unknowns,)."""
 
-    def __init__(self, problem: DiagnosisProblem, unknowns: Unknowns, plate: EnrichedReducedPlate) -> None:
+    def __init__(
+        self,
+        problem: DiagnosisProblem,
+        unknowns: Unknowns,
+        plate: EnrichedReducedPlate,
+        without: Collection[int] = (),
+    ) -> None:
+        """`without` the effects of these numbers."""
         self.plate, self._unknowns, self._nuisances = plate, unknowns, problem.nuisances
         self._at_base = problem.points.drive == "base"
-        self.effects = [k for k, e in enumerate(unknowns.effects) if type(e).change is not Effect.change]
+        changing = [k for k, e in enumerate(unknowns.effects) if type(e).change is not Effect.change]
+        self.effects = [k for k in changing if k not in without]
         """Numbers of those that change a plate."""
         self._latest: tuple[bytes, Change] | None = None
 

@@ -4,10 +4,10 @@ The stated numbers come first among the unknowns (`fitting.nuisances.nuisances`)
 
 The unchanged plate is exact at every point (a rational sum in G*). What effects change of the plate is
 solved at a few nodes and interpolated, to first order in how far a point's modulus is off the law's.
-Channels, sharp factors and the law itself act at every point.
+Channels, sharp factors, a part that swings (`swinging_part`) and the law itself act at every point.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from typing import ClassVar
@@ -16,12 +16,13 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.problem.base import DiagnosisProblem, NodeGrid, spans_of
-from fitting.diagnosis.problem.plate_answer import Asked, Motions, PlateAnswer, motions
+from fitting.diagnosis.problem.plate_answer import Asked, Motions, PlateAnswer, Receptance, motions
 from fitting.diagnosis.problem.plate_poles import PLAIN
 from fitting.diagnosis.response.channels import Channels
 from fitting.diagnosis.response.plate_changes import PlateChanges
 from fitting.diagnosis.response.point_modulus import PointModulus
 from fitting.diagnosis.response.strains import Reference
+from fitting.diagnosis.response.swinging_part import SwingingPart, WithPart
 from fitting.diagnosis.response.unknowns import Unknowns, stepped
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
@@ -56,22 +57,24 @@ class SweepResponse:
         self.plate: EnrichedReducedPlate = plate or problem.plate.take(spans)
         if grid is problem.coarse and grid is not problem.fine:
             self.plate = self.plate.roughly
-        sharp = any(e.sharp for e in self.effects)
-        if sharp:
-            self.plate = self.plate.with_part
-        self._changes = PlateChanges(problem, self._unknowns, self.plate)
-        self._modulus = PointModulus(problem, self._unknowns, self._changes, spans, reference or Reference())
+        swings = [k for k, e in enumerate(self.effects) if e.sharp]
+        self._part: SwingingPart | None = None
+        if swings:
+            of_base = problem.points.drive == "base"
+            self._part = SwingingPart(self._unknowns, swings[0], problem.points.omega, at_base=of_base)
+        self._changes = self._straining = PlateChanges(problem, self._unknowns, self.plate, without=swings)
+        if swings and any(s.strains for s in spans):
+            self._straining = PlateChanges(problem, self._unknowns, self.plate.with_part)
+        of_strain = self._straining, spans, reference or Reference()
+        self._modulus = PointModulus(problem, self._unknowns, *of_strain)
         self._pitching = [k for k, e in enumerate(self.effects) if type(e).pitch is not Effect.pitch]
-        each = self._unknowns.slices
         self._fitted = [n for n, q in enumerate(self.parameters) if every or not q.fixed]
-        moving_it = [n for k in self._changes.effects for n in range(each[k].start, each[k].stop)]
-        self._moving_it = [n for n in moving_it if n in self._fitted]
-        grid = grid or problem.fine
+        self._moving_it = [n for k in self._changes.effects for n in self._fitted_of(k)]
+        self._of_part = self._fitted_of(self._part.of) if self._part else []
+        self.grid = grid or problem.fine
         if self._modulus.effects and self._moves:
             # The modulus is another one in every pass.
-            grid = problem.passes
-        self._smooth, self.grid = grid, problem.each if sharp else grid
-        """The grid of what is smooth between nodes, and the one that all of these effects need."""
+            self.grid = problem.passes
         self._last: tuple[bytes, _OfPlate] | None = None
         self._latest: tuple[CoreLaw, Array, _At] | None = None
         self._ready: tuple[Array, Asked, Motions] | None = None
@@ -83,7 +86,7 @@ class SweepResponse:
     def with_derivatives(self, law: CoreLaw, u: Array) -> tuple[Complex, Complex]:
         """Phasors, and their derivatives to log parameters and then to `u`. Shape (parameters, points)."""
         at = self._with_slopes(law, u)
-        by_law = self._modulus.by_law(law, u) * (at.plate.slope * at.per_x)
+        by_law = self._modulus.by_law(law, u) * at.per_G
         count = len(self.nuisances)
         by_z = self._by_stated(at) if count else np.zeros((0, len(at.raw)))
         of_effects = [k for k in self._fitted if k >= count]
@@ -106,21 +109,21 @@ class SweepResponse:
 
         It changes the plate alone; `known` are the unknowns of the others.
         """
-        others = SweepResponse(self.problem, self.effects[:-1], self._smooth)
+        others = SweepResponse(self.problem, self.effects[:-1], self.grid)
         at = others._at(law, known)
         grid, last = others.grid, self.effects[-1]
         found = [others._changes.of(k, known, self.plate) for k in others._changes.effects]
         G, _ = others._bearing(law, others._modulus.of_law(law), at.plate.G)
         change = reduce(Change.and_then, [*found, *self._changes.stated(known)], Change())
-        asked = self._asked(G, change, grid)
+        asked = self._asked(G, change, others._place(self.plate, known), grid)
         each = [self._changes.moving(last.coming_in(self.plate, u)) for u in starts]
         # What is sharp starts at many frequencies in one place: one change serves them all.
         of = [np.asarray(c.M).tobytes() if last.sharp else k for k, c in enumerate(each)]
         number = {key: n for n, key in enumerate(dict.fromkeys(of))}
         by_start = [(each[of.index(key)], Change(), 1.0) for key in number]
         solved = PlateAnswer(asked, motions([asked])[0], by_start)
-        by_u = grid.nodes.spread(np.stack([solved.heave_by_u, solved.pitch_by_u]), solved.poles, solved.poles)
-        raw = at.per_x * (by_u[0] + at.pitch * by_u[1])
+        heave, turned = others._along(solved, at.plate.part, lambda r: r.by_u)
+        raw = at.per_x * (heave + at.pitch * turned)
         if last.sharp:
             factors = [last.sharply(self.problem.points.omega, u) for u in starts]
             raw = raw[[number[key] for key in of]] * np.array(factors)
@@ -171,18 +174,50 @@ class SweepResponse:
         G = self._modulus.at(law, u)
         x, slope = self.problem.rational.with_derivative(G)
         if not self._moves:
-            return _OfPlate(G, x, slope, np.zeros(len(G), complex), None, None)
+            return _OfPlate(G, x, slope, np.zeros(len(G), complex), None, None, None)
         G_nodes, smooth = self._bearing(law, G_law, G)
         asked, moved = self._solved(u, G_nodes)
         solved, nodes = PlateAnswer(asked, moved), self.grid.nodes
-        changed = np.array([solved.heave - self.grid.rational.displacement(G_nodes), solved.pitch])
+        pitch = 0 * G_nodes if solved.pitch is None else solved.pitch.value
+        changed = np.array([solved.heave.value - self.grid.rational.displacement(G_nodes), pitch])
         more, turned = nodes.spread(changed, self.grid.unchanged_poles(G_nodes), solved.poles)
         x = x + more
         if self._modulus.effects:
             _, plain_slope = self.problem.rational.with_derivative(smooth)
-            slope = nodes.spread(solved.heave_by_G, solved.poles, solved.poles)
+            slope = nodes.spread(solved.heave.by_G, solved.poles, solved.poles)
             x = x + (slope - plain_slope) * (G - smooth)
-        return _OfPlate(G, x, slope, turned, (asked, moved), None)
+        if self._part is None:
+            return _OfPlate(G, x, slope, turned, (asked, moved), None, None)
+        off = G - smooth if self._modulus.effects else None
+        part = self._part.on(self.plate, u, x, turned, *self._of_place(solved, off))
+        return _OfPlate(G, part.heave.x, slope, part.turned.x, (asked, moved), None, part)
+
+    def _of_place(self, solved: PlateAnswer, off: Complex | None) -> Complex:
+        """Receptances of the part's place at every point, to first order in how far a modulus is `off`.
+
+        Shapes (points,) to (receptances, points).
+        """
+        found = self._spread(np.array([r.value for r in solved.of_place]), solved)
+        if off is None:
+            return found
+        return np.asarray(found + off * self._spread(np.array([r.by_G for r in solved.of_place]), solved))
+
+    def _along(
+        self, solved: PlateAnswer, part: WithPart | None, rows: Callable[[Receptance], Complex]
+    ) -> tuple[Complex, Complex]:
+        """Derivatives of the answers to a base that moves, or to a force, and to one that turns.
+
+        `rows` takes a receptance's. Shape (any, points) each.
+        """
+        heave = self._spread(rows(solved.heave), solved)
+        turned = 0 * heave if solved.pitch is None else self._spread(rows(solved.pitch), solved)
+        if part is None:
+            return heave, turned
+        return part.along(heave, turned, *(self._spread(rows(r), solved) for r in solved.of_place))
+
+    def _spread(self, values: Complex, solved: PlateAnswer) -> Complex:
+        """From the nodes to every point of what has the poles of the changed plate alone, once or twice."""
+        return self.grid.nodes.spread(values, solved.poles, solved.poles)
 
     def _slopes_of(self, plate: "_OfPlate", u: Array) -> "_OfPlate":
         """The same with its derivatives."""
@@ -195,15 +230,21 @@ class SweepResponse:
             nearby.append((up, down, 2 * h))
         stated = (self.nuisances, u[self._unknowns.stated]) if self.nuisances else None
         solved = PlateAnswer(asked, moved, nearby, stated)
-        # A derivative has every pole twice, and only those of the changed plate.
-        twice = [solved.heave_by_G[None], solved.heave_by_z, solved.heave_by_u]
-        if self._pitching:
-            twice += [solved.pitch_by_z, solved.pitch_by_u]
-        spread = self.grid.nodes.spread(np.concatenate(twice), solved.poles, solved.poles)
-        heaves = len(solved.heave_by_z) + len(solved.heave_by_u)
-        heave, turned = spread[1 : 1 + heaves], spread[1 + heaves :]
-        by = _ByChange(heave, turned)
-        return replace(plate, slope=spread[0], by=by)
+        heave, turned = self._along(
+            solved, plate.part, lambda r: np.concatenate([r.by_G[None], r.by_z, r.by_u])
+        )
+        by = _ByChange(heave[1:], turned[1:])
+        if self._part is not None and plate.part is not None and self._of_part:
+
+            def spread(values: Complex) -> Complex:
+                return self._spread(values, solved)
+
+            own = [self._part.by_own(n, self.plate, u, moved, spread, plate.part) for n in self._of_part]
+            by = _ByChange(
+                np.vstack([by.heave, *(heave for heave, _ in own)]),
+                np.vstack([by.turned, *(turned for _, turned in own)]),
+            )
+        return replace(plate, slope=heave[0], turned_slope=turned[0], by=by)
 
     def _bearing(self, law: CoreLaw, G_law: Complex, G: Complex) -> tuple[Complex, Complex]:
         """The modulus at the nodes, and the smooth one at every point that goes through it."""
@@ -219,25 +260,35 @@ class SweepResponse:
         ready, self._ready = self._ready, None
         if ready is not None and np.array_equal(ready[0], u) and np.array_equal(ready[1].G, G):
             return ready[1:]
-        asked = self._asked(G, self._changes.every(u))
+        asked = self._asked(G, self._changes.every(u), self._place(self.plate, u))
         return asked, motions([asked])[0]
 
     @property
     def _moves(self) -> bool:
-        """Whether anything changes the plate or the base's motion."""
-        return bool(self._changes.effects or self._pitching or not self.nuisances.change_nothing)
+        """Whether anything changes the plate or the base's motion, or swings on it."""
+        acts = self._changes.effects or self._pitching or self._part
+        return bool(acts or not self.nuisances.change_nothing)
+
+    def _fitted_of(self, k: int) -> list[int]:
+        """Unknowns of effect k that derivatives are asked to."""
+        own = self._unknowns.slices[k]
+        return [n for n in self._fitted if own.start <= n < own.stop]
+
+    def _place(self, plate: EnrichedReducedPlate, u: Array) -> Array | None:
+        """Where a part swings, if one does. Shape (k,)."""
+        return None if self._part is None else self._part.row(plate, u)
 
     def _key(self, G_law: Complex, u: Array) -> bytes:
-        moving = self._changes.effects + self._modulus.effects
+        moving = self._changes.effects + self._modulus.effects + ([self._part.of] if self._part else [])
         own = [u[self._unknowns.stated], *(self._unknowns.of(k, u) for k in moving)]
         return b"".join(part.tobytes() for part in (G_law, *own))
 
-    def _asked(self, G: Complex, change: Change, grid: NodeGrid | None = None) -> Asked:
+    def _asked(self, G: Complex, change: Change, place: Array | None, grid: NodeGrid | None = None) -> Asked:
         grid = grid or self.grid
         known, own = grid.known_poles(G), self.plate.group == PLAIN
         if known is not None:
             known = known.on(own)
-        return Asked(self.plate, grid.nodes.omega, G, change, known, bool(self._pitching))
+        return Asked(self.plate, grid.nodes.omega, G, change, known, bool(self._pitching), place)
 
     def asked(self, law: CoreLaw, u: Array) -> Asked | None:
         """What has to be solved there; None: nothing. `u` of shape (unknowns,)."""
@@ -247,7 +298,7 @@ class SweepResponse:
         if self._last is not None and self._last[0] == self._key(G_law, u):
             return None
         G, _ = self._bearing(law, G_law, self._modulus.at(law, u))
-        return self._asked(G, self._changes.every(u))
+        return self._asked(G, self._changes.every(u), self._place(self.plate, u))
 
     def know(self, asked: Asked, moved: Motions, u: Array) -> None:
         """The motions asked for there. `u` of shape (unknowns,)."""
@@ -261,8 +312,9 @@ class SweepResponse:
         found = np.zeros(len(omega), complex)
         h = self._unknowns.step(n, u)
         up, down = stepped(u, n, h), stepped(u, n, -h)
-        if k in self._changes.effects and at.plate.by is not None:
-            place = len(self.nuisances) + self._moving_it.index(n)
+        moving = [*self._moving_it, *self._of_part]
+        if n in moving and at.plate.by is not None:
+            place = len(self.nuisances) + moving.index(n)
             by = at.plate.by.heave[place]
             found = found + at.per_x * (by + at.pitch * at.plate.by.turned[place] if self._pitching else by)
         if k in self._pitching:
@@ -273,13 +325,14 @@ class SweepResponse:
             )
             if above is not None and below is not None:
                 found = found + (above - below) / (2 * h) * (at.per_x * at.plate.turned + at.lever)
-        if k in self._changes.effects and self._modulus.strained:
-            nearby = self._changes.of(k, up, self.plate), self._changes.of(k, down, self.plate), 2 * h
+        if k in self._straining.effects and self._modulus.strained:
+            more, less = (self._straining.of(k, one, self._straining.plate) for one in (up, down))
+            nearby = more, less, 2 * h
             dG = (self._modulus.along(law, u, nearby, h) - at.plate.G) / h
-            found = found + at.per_x * at.plate.slope * dG
+            found = found + at.per_G * dG
         if k in self._modulus.effects:
             dG = (self._modulus.at(law, up) - self._modulus.at(law, down)) / (2 * h)
-            found = found + at.per_x * at.plate.slope * dG
+            found = found + at.per_G * dG
         return found
 
     def _by_stated(self, at: "_At") -> Complex:
@@ -300,6 +353,11 @@ class _At:
     lever: Complex
     plate: "_OfPlate"
 
+    @property
+    def per_G(self) -> Complex:
+        """Derivative of `raw` to the core's modulus. Shape (points,)."""
+        return np.asarray(self.per_x * (self.plate.slope + self.pitch * self.plate.turned_slope))
+
 
 @dataclass(frozen=True)
 class _OfPlate:
@@ -316,6 +374,10 @@ class _OfPlate:
     """What the nodes were asked, and how they move; None where nothing moves them."""
     by: "_ByChange | None"
     """None: not asked for so far."""
+    part: WithPart | None
+    """With the part that swings on it; None where none does."""
+    turned_slope: Complex | float = 0.0
+    """d turned/dG; zero until derivatives are asked for."""
 
 
 @dataclass(frozen=True)
@@ -325,4 +387,4 @@ class _ByChange:
     heave: Complex
     """Shape (numbers, points)."""
     turned: Complex
-    """The same of a turning base; of no number where the base does not turn."""
+    """The same of a turning base; zero where the base does not turn."""

@@ -47,7 +47,7 @@ def test_a_strip_along_an_edge_holds_as_far_as_the_sweep_goes():
     def error(reach_hz):
         spanned = enriched(full, basis, effect.spans, reach_hz=reach_hz).take(effect.spans)
         change = effect.change(spanned, np.array([specimen.width_m - width, width]))
-        found = answer(spanned, 2 * np.pi * HZ, G, change, [], with_pitch=False).heave
+        found = answer(spanned, 2 * np.pi * HZ, G, change, [], with_pitch=False).heave.value
         return np.max(np.abs(found / expected - 1))
 
     assert reach_over(HZ) == 600.0

@@ -44,7 +44,7 @@ def at_every_point(problem, law, effect, u, G):
     plate = problem.plate.take(effect.spans)
     change = effect.change(plate, np.array(u))
     omega = problem.points.omega
-    x = answer(plate, omega, G, change, [], with_pitch=False).heave
+    x = answer(plate, omega, G, change, [], with_pitch=False).heave.value
     return 1j * omega * problem.points.drive_amplitude * x
 
 
