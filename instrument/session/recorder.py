@@ -2,14 +2,16 @@
 
 It is critical: once it has failed every further `record` and `check` raises, and the run ends safely. Events
 are handed on to others only when they are on the disk: what a person sees as done is done.
+
+A stop by a signal may come anywhere in `record`, and the end of the run is recorded after it. So nothing here
+asks `Thread` whether it lives (broken off, it takes a living one for ended), and no lock is taken in Python.
 """
 
 import logging
 import queue
 import threading
 from collections.abc import Callable
-from contextlib import suppress
-from time import monotonic
+from time import monotonic, sleep
 
 from instrument.errors import RigStopped, system_words
 from instrument.session.journal import Entry, SessionJournal
@@ -65,6 +67,8 @@ _MOST_SAMPLES = 2_000_000
 """Of all channels together: memory stays flat however long nothing completes."""
 _QUEUE = 256
 """Events in flight; beyond that the run waits for the disk."""
+_LOOK_S = 0.002
+"""Between two looks at a queue that full: less than the disk takes for a part."""
 _PATIENCE_S = 10.0
 """With a queue that full: no disk that works is away for so long."""
 _LAST_PATIENCE_S = 120.0
@@ -79,44 +83,59 @@ class Recorder:
     ) -> None:
         self._journal, self._parts = journal, list(parts)
         self._sealed = sealed
-        self._queue: queue.Queue[Event | None] = queue.Queue(_QUEUE)
+        self._queue: queue.SimpleQueue[Event | None] = queue.SimpleQueue()
         self._pending: list[Event] = []
         self._samples = 0
         self._failure: Exception | None = None
-        self._left = False
-        self._thread = threading.Thread(target=self._work, name="recorder", daemon=True)
+        self._stopped: RigStopped | None = None
+        self._left, self._works = False, True
+        self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
 
     def __enter__(self) -> "Recorder":
         self._thread.start()
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, _: object, error: BaseException | None, *__: object) -> None:
+        """Where something else ended the run, a failure is said here: nobody asks `check` any more."""
         self._left = True
+        self._queue.put(None)
         deadline = monotonic() + _LAST_PATIENCE_S
-        while self._thread.is_alive() and monotonic() < deadline:
-            with suppress(queue.Full):
-                self._queue.put(None, timeout=_PATIENCE_S)
-                self._thread.join(deadline - monotonic())
-        if self._thread.is_alive():
+        while self._works and monotonic() < deadline:
+            sleep(_LOOK_S)
+        if self._works:
             self._failure = TimeoutError(f"the disk took nothing for {_LAST_PATIENCE_S:.0f} s")
+        if error is not None and self._failure is not None and error is not self._stopped:
+            log.warning("%s", self._stop(self._failure))
 
     def record(self, event: Event) -> None:
         """Take an event. Raises `RigStopped` once the disk has failed."""
         self.check()
-        try:
-            self._queue.put(event, timeout=_PATIENCE_S)
-        except queue.Full:
-            raise RigStopped(
-                f"{self._journal.folder}: the disk took nothing for {_PATIENCE_S:.0f} s"
-            ) from None
+        deadline = monotonic() + _PATIENCE_S
+        while self._queue.qsize() >= _QUEUE:
+            if monotonic() > deadline:
+                raise RigStopped(f"{self._journal.folder}: the disk took nothing for {_PATIENCE_S:.0f} s")
+            sleep(_LOOK_S)
+        self._queue.put(event)
 
     def check(self) -> None:
         """Raises `RigStopped` once the disk has failed."""
         if self._failure is not None:
-            why = system_words(self._failure) if isinstance(self._failure, OSError) else self._failure
-            raise RigStopped(f"{self._journal.folder}: recording failed: {why}")
-        if not self._thread.is_alive() and not self._left:
+            raise self._stop(self._failure)
+        if not self._works and not self._left:
             raise RigStopped(f"{self._journal.folder}: recording failed: its thread has ended")
+
+    def _stop(self, failure: Exception) -> RigStopped:
+        """What is said of a failure, the same whenever it is asked for."""
+        if self._stopped is None:
+            why = system_words(failure) if isinstance(failure, OSError) else failure
+            self._stopped = RigStopped(f"{self._journal.folder}: recording failed: {why}")
+        return self._stopped
+
+    def _run(self) -> None:
+        try:
+            self._work()
+        finally:
+            self._works = False
 
     def _work(self) -> None:
         while (event := self._queue.get()) is not None:
