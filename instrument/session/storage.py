@@ -35,7 +35,7 @@ from instrument.files.toml import one_line
 from instrument.session.configuration import Configuration
 from instrument.session.heaps import check_heaps
 from instrument.stream.derived import CalibrationFound, PointMeasured
-from instrument.stream.event import Event, from_line, to_line
+from instrument.stream.event import Event, UnknownEvent, from_line, to_line
 from instrument.stream.raw import BlockAcquired
 
 FORMAT = "viscorig session"
@@ -61,7 +61,10 @@ def write_part(path: Path, events: list[Event]) -> str:
 
 
 def write_session(path: Path, configuration: Configuration, parts: list[Path]) -> None:
-    """Put a session together from its sealed parts. Raises `OSError` where the disk is too full for it."""
+    """Put a session together from its sealed parts.
+
+    Raises `OSError` where the disk is too full for it, `BadInput` where a part is of a later version.
+    """
     needed = _ROOM * sum(part.stat().st_size for part in parts) + _OVERHEAD_BYTES
     if (free := shutil.disk_usage(path.parent).free) < needed:
         room = f"{free / 1e6:.0f} MB free, {needed / 1e6:.0f} MB needed for {path.name}"
@@ -103,8 +106,7 @@ def _put_together(temporary: Path, configuration: Configuration, parts: list[Pat
         for number, part in enumerate(parts, start=1):
             group = file.create_group(f"parts/{number:06d}")
             _copy(part, group)
-            events = _events(group, with_samples=False)
-            kept += [event for event in events if isinstance(event, PointMeasured | CalibrationFound)]
+            kept += [e for e in part_events(part) if isinstance(e, PointMeasured | CalibrationFound)]
         _write_points(file, [event for event in kept if isinstance(event, PointMeasured)])
         for found in kept:
             if isinstance(found, CalibrationFound):
@@ -216,7 +218,7 @@ _LONGEST = 100
 
 
 def part_events(path: Path) -> list[Event]:
-    """The events of a sealed part, without samples."""
+    """The events of a sealed part, without samples. Raises `BadInput` where it is of a later version."""
     with h5py.File(path, "r") as file:
         return list(_events(file, with_samples=False))
 
@@ -272,7 +274,16 @@ def _events(group: Any, with_samples: bool) -> Iterator[Event]:
     if stated is not None and _text(stated) != _digest(lines):
         raise ValueError("events: not as they were written")
     for line in lines:
-        event = from_line(line)
+        try:
+            event = from_line(line)
+        except UnknownEvent as error:
+            if stated is None:
+                raise
+            # Written so: what else it may have changed is not known, so nothing is read past it.
+            raise BadInput(
+                f"{group.file.filename}: of a later version of viscorig (its event {error.name} is not known "
+                "here), expected this version or an earlier one: update viscorig"
+            ) from None
         if isinstance(event, BlockAcquired) and samples is not None:
             counts = samples[:, at : at + event.samples]
             at += event.samples

@@ -41,6 +41,14 @@ class Derived(Event):
     derived: ClassVar[bool] = True
 
 
+class UnknownEvent(ValueError):
+    """A line of an event whose kind is not known here: a later version's, or damaged."""
+
+    def __init__(self, line: str, name: str) -> None:
+        super().__init__(f"no event of this name: {line[:80]}")
+        self.name = name
+
+
 def to_line(event: Event) -> str:
     """One line of JSON. Floats come back to the bit."""
     return json.dumps({"event": type(event).__name__, **event.facts()}, allow_nan=False)
@@ -49,11 +57,14 @@ def to_line(event: Event) -> str:
 def from_line(line: str) -> Event:
     """The event of a line. Raises `ValueError` for what is none, or not as its kind declares its fields.
 
+    `UnknownEvent` where it is one of a kind that is not known.
     Fields that are not known, of a later version, are dropped.
     """
     head = _HEAD.match(line)
-    if head is None or head[1] not in Event.known:
+    if head is None:
         raise ValueError(f"no event of this name: {line[:80]}")
+    if head[1] not in Event.known:
+        raise UnknownEvent(line, head[1])
     event: Event = _adapter(head[1]).validate_json(line, strict=True)
     return event
 

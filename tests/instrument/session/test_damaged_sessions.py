@@ -1,5 +1,6 @@
 """A damaged session is one line and exit 2 for every command that reads one."""
 
+import hashlib
 import shutil
 
 import h5py
@@ -7,11 +8,13 @@ import numpy as np
 import pytest
 from formula_rig import formula_rig
 from quick_run import no_fit
+from sessions import configuration, point
 
 from instrument.cli.main import run
 from instrument.errors import BadInput
 from instrument.run.experiment import run_experiment
-from instrument.session.storage import SessionFile
+from instrument.session.journal import Entry, SessionJournal
+from instrument.session.storage import SessionFile, checksum, write_part
 
 
 @pytest.fixture(scope="module")
@@ -103,6 +106,50 @@ def test_a_damaged_session_is_refused_in_one_line(session, tmp_path, capsys, dam
         assert status == 2, (command, error)
         assert error.startswith("viscorig: "), command
         assert error.count("\n") == 1, (command, error)
+
+
+def of_a_later_version(lines):
+    """An event of a kind that is not known here among them, summed up as a later version would."""
+    return [*lines, '{"event": "LaterHappened", "number": 1}']
+
+
+def rewritten(part, change):
+    """Its events changed, and their sum with them."""
+    lines = change([line.decode() for line in part["events"][()]])
+    del part["events"]
+    events = part.create_dataset("events", data=lines, dtype=h5py.string_dtype())
+    events.attrs["sha256"] = hashlib.sha256("\n".join(lines).encode()).hexdigest()
+
+
+LATER = "of a later version of viscorig (its event LaterHappened is not known here)"
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_session_of_a_later_version_is_said_to_be_one(session, tmp_path, capsys, command):
+    path = tmp_path / "session.h5"
+    shutil.copy(session, path)
+    with h5py.File(path, "r+") as file:
+        rewritten(next(iter(file["parts"].values())), of_a_later_version)
+    assert run([command[0], str(path), *command[1:]]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith(f"viscorig: {path}: {LATER}")
+    assert "damaged" not in said
+    assert said.count("\n") == 1
+
+
+def test_a_folder_of_a_later_version_is_said_to_be_one(tmp_path, capsys):
+    folder = tmp_path / "s.running"
+    journal = SessionJournal(folder)
+    journal.begin(configuration())
+    part = folder / "part-000001.h5"
+    write_part(part, [point(1)])
+    with h5py.File(part, "r+") as file:
+        rewritten(file, of_a_later_version)
+    journal.add(Entry(1, part.name, checksum(part), 2, (1,)))
+    assert run(["recover", str(folder)]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith(f"viscorig: {part}: {LATER}")
+    assert list(tmp_path.iterdir()) == [folder]
 
 
 @pytest.mark.parametrize("how", ["stored", "linked", "virtual"])
