@@ -12,6 +12,7 @@ from fitting.dynamics.bare_modes import CarriedSensor
 from fitting.errors import TooFewPoints
 from instrument.errors import BadInput
 from instrument.facts.damping import DampingResult
+from instrument.files.no_json import no_json
 from instrument.files.text import read_text
 
 _HIGHEST_HZ = 1e6
@@ -56,8 +57,9 @@ def read_hammer(path: Path) -> HammerModes:
         _refuse_undamped(path, document)
         return _modes(document)
     except json.JSONDecodeError as error:
-        said = f"line {error.lineno}: not JSON ({error.msg})"
-        raise BadInput(f"{path}: {said}, expected the JSON of 'viscorig damping', or a session") from None
+        raise BadInput(
+            f"{path}: {no_json(path, error)}, expected the JSON of 'viscorig damping', or a session"
+        ) from None
     except (ValidationError, RecursionError) as error:
         first = error.errors()[0] if isinstance(error, ValidationError) else None
         place = ".".join(str(p) for p in first["loc"]) or "the whole" if first else "nesting"

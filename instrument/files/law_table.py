@@ -16,6 +16,7 @@ from fitting.arrays import Array
 from fitting.laws.table import Tabulated
 from instrument.errors import BadInput
 from instrument.files.dma_file import read_dma
+from instrument.files.no_json import no_json
 from instrument.files.text import read_text
 from instrument.files.toml import one_line
 
@@ -78,8 +79,7 @@ def _card_rows(path: Path) -> _Rows:
     try:
         card = _Card.model_validate(json.loads(read_text(path)))
     except json.JSONDecodeError as error:
-        said = f"line {error.lineno}: not JSON ({error.msg})"
-        raise BadInput(f"{path}: {said}, expected a material card's JSON") from None
+        raise BadInput(f"{path}: {no_json(path, error)}, expected a material card's JSON") from None
     except ValidationError as error:
         raise BadInput(f"{path}: expected a material card's JSON: {one_line(error)}") from None
     except RecursionError:

@@ -11,7 +11,8 @@ LONGEST_LINE = 1_000_000
 """Letters: no row of a table has as many, and to split one far longer takes minutes."""
 IMPORT_READS = "'viscorig import' reads other programs' tables"
 """For people whose tables are written in another way."""
-_TABLES = (".csv", ".txt", ".tsv", ".dat", ".asc", ".prn")
+TABLE_ENDINGS = (".csv", ".txt", ".tsv", ".dat", ".asc", ".prn")
+_HDF5 = b"\x89HDF\r\n\x1a\n"
 _ARCHIVE = b"PK\x03\x04"
 _OLD_WORKBOOK = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
 _WORKBOOKS = (".xlsx", ".xlsm", ".xls")
@@ -47,7 +48,7 @@ def read_text(path: Path, encoding: str = "utf-8-sig", most_bytes: int = LARGEST
     refuse_packed(path, content)
     try:
         if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-            is_table = path.suffix.lower() in _TABLES
+            is_table = path.suffix.lower() in TABLE_ENDINGS
             cure = f'save it as such ("CSV UTF-8"), or {IMPORT_READS}' if is_table else "save it as such"
             raise BadInput(f"{path}: UTF-16 text, expected UTF-8: {cure}")
         text = content.decode(encoding)
@@ -63,10 +64,12 @@ def read_text(path: Path, encoding: str = "utf-8-sig", most_bytes: int = LARGEST
 
 
 def refuse_packed(path: Path, content: bytes) -> None:
-    """Raise `BadInput` where a file's content is a workbook, or another archive, and no text."""
+    """Raise `BadInput` where a file's content is a workbook, HDF5 or an archive, and no text."""
     if content.startswith(_OLD_WORKBOOK) or (content.startswith(_ARCHIVE) and _OF_A_WORKBOOK in content):
         cure = ": save it as CSV" if path.suffix.lower() != ".toml" else ""
         raise BadInput(f"{path}: an Excel workbook, expected text{cure}")
+    if content.startswith(_HDF5):
+        raise BadInput(f"{path}: an HDF5 file, expected text; a session's name ends in .h5")
     if content.startswith(_ARCHIVE):
         raise BadInput(f"{path}: a packed archive, expected text")
 

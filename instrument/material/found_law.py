@@ -17,6 +17,7 @@ from fitting.structures.shear_pair import ShearPair
 from instrument.errors import BadInput
 from instrument.facts.doubts import doubts_in
 from instrument.facts.identification import IdentificationResult
+from instrument.files.no_json import no_json
 from instrument.files.table import LARGEST
 from instrument.files.text import read_text
 from instrument.interchange.given import is_session
@@ -186,8 +187,7 @@ def read_law(path: Path, progress: Progress = quiet) -> MaterialLaw:
     try:
         facts = json.loads(read_text(path))
     except json.JSONDecodeError as error:
-        said = f"line {error.lineno}: not JSON ({error.msg})"
-        raise BadInput(f"{path}: {said}, {_EXPECTED}") from None
+        raise BadInput(f"{path}: {no_json(path, error)}, {_EXPECTED}") from None
     except RecursionError:
         raise BadInput(f"{path}: not JSON that can be read (too deep), {_EXPECTED}") from None
     found = _of_facts(path, facts)

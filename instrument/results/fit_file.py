@@ -21,6 +21,7 @@ from fitting.stated.number_names import kind_of, number_name
 from fitting.stated.tolerances import OF_NARROW
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult
+from instrument.files.no_json import no_json
 from instrument.files.text import read_text
 from instrument.models.fitted_plate import FittedPlate
 
@@ -221,8 +222,7 @@ def read_fit(path: Path) -> FoundLaw:
             )
         return FoundLaw.model_validate(facts)
     except json.JSONDecodeError as error:
-        said = f"line {error.lineno}: not JSON ({error.msg})"
-        raise BadInput(f"{path}: {said}, expected the JSON of 'viscorig identify'") from None
+        raise BadInput(f"{path}: {no_json(path, error)}, expected the JSON of 'viscorig identify'") from None
     except (ValidationError, RecursionError, OutsideModel):
         raise BadInput(f"{path}: expected the JSON of 'viscorig identify'") from None
 
