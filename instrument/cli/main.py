@@ -15,7 +15,7 @@ from drivers.errors import DriverError
 from fitting.errors import FittingError
 from fitting.plugins import GROUPS, NoPlugin, Registry, others, package_of
 from instrument.cli.printable import printable
-from instrument.cli.stopping import ended_as_by_a_person
+from instrument.cli.stopping import ended_as_by_a_person, hear_no_more
 from instrument.cli.summaries import SUMMARIES
 from instrument.errors import BadInput, RigStopped, StoppedByUser, system_words
 from instrument.processes.background import VARIABLE as BACKGROUND
@@ -160,7 +160,13 @@ def main(
     # A library's warning is for the log; what a reader has to know a command says itself.
     logging.captureWarnings(True)
     logging.getLogger("py.warnings").addHandler(logging.NullHandler())
-    sys.exit(run(arguments, program, name))
+    status = STOPPED_BY_USER
+    try:
+        status = run(arguments, program, name)
+        hear_no_more()
+    except KeyboardInterrupt:  # while its last words were said
+        hear_no_more()
+    sys.exit(status)
 
 
 def run(arguments: list[str] | None = None, program: click.Command = viscorig, name: str = "viscorig") -> int:

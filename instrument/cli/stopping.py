@@ -77,6 +77,12 @@ def safe_stop(control: RunControl) -> Iterator[None]:
             signal.signal(number, handler)
 
 
+def hear_no_more() -> None:
+    """Ctrl-C is unheard from here on: the command is over, and its exit status stands."""
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
 @contextmanager
 def ended_as_by_a_person(*, even_ignored: bool = True) -> Iterator[None]:
     """While this is open SIGTERM and SIGHUP raise `KeyboardInterrupt`, as Ctrl-C does: the first counts.

@@ -2,6 +2,8 @@
 
 import os
 import signal
+import subprocess
+import sys
 import threading
 
 import pytest
@@ -26,6 +28,34 @@ def end(kept, first, *others):
         for number in others:
             send(number)
         kept.append("all")
+
+
+LAST_MOMENT = """
+import os, signal, sys
+from instrument.cli import main as program
+
+ended, run, exit = sys.argv[1], program.run, sys.exit
+
+def late(what, *given):
+    found = what(*given) if what is run else None
+    os.kill(os.getpid(), signal.SIGINT)
+    return found if what is run else what(*given)
+
+if ended == "said":
+    program.run = lambda *given: late(run, *given)
+else:
+    sys.exit = lambda status: late(exit, status)
+program.main(["check", "absent.toml"])
+"""
+"""A Ctrl-C as soon as a command has said its last word, or when its process is about to end."""
+
+
+@pytest.mark.parametrize(("moment", "status"), [("said", 130), ("ends", 2)])
+def test_a_ctrl_c_in_the_last_moment_gives_a_status_that_is_documented(tmp_path, moment, status):
+    words = [sys.executable, "-c", LAST_MOMENT, moment]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    assert done.returncode == status, done.stderr
+    assert "Traceback" not in done.stderr
 
 
 @pytest.mark.parametrize("first", [signal.SIGINT, signal.SIGQUIT])
