@@ -248,6 +248,9 @@ class AppController(QObject):
         assert isinstance(result, Stopped)
         if result.silent:
             self.said.emit(f"{result.message}, {result.seconds:.2f} s after the stop")
+        elif result.let_go:
+            # The run only computed, and is stopped in doing so.
+            self.said.emit(result.message)
         else:
             self.refused.emit(result.message)
 

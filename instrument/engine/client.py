@@ -57,6 +57,8 @@ class Stopped:
     """How long it took until then."""
     message: str
     """One line for people."""
+    let_go: bool = False
+    """Whether the run had let go of the shaker at rest before: that nobody answers by now is no alarm."""
 
 
 class Engine:
@@ -194,7 +196,8 @@ class Engine:
                 self._ending = threading.Thread(target=self._see_it_end, name="engine's end", daemon=True)
                 self._ending.start()
         silent, message = self._confirm()
-        return Stopped(silent, monotonic() - began, message)
+        let_go = self._stop_path is not None and not self._rig_open and self._left_at_rest
+        return Stopped(silent, monotonic() - began, message, let_go)
 
     def close(self) -> None:
         """Let go of the engine; a run that goes on is stopped. Waits for its end, about `ENDS_S` at most."""
@@ -223,7 +226,9 @@ class Engine:
             if problem and not self._left_at_rest:
                 problem = f"{SWITCH_OFF}: the run had let go of a shaker that did not stop: {problem}"
             elif problem and not self._rig_open:
-                problem = f"the run had let go of the shaker at rest before; asked again: {problem}"
+                problem = (
+                    f"the shaker is silent already: the run let go of it at rest; asked again: {problem}"
+                )
             return not problem, problem or "the shaker is silent"
         if self._at_rest.wait(_SILENCES_S):
             return True, "the shaker is silent"

@@ -60,13 +60,17 @@ def opened(tmp_path):
 def test_a_stop_after_a_run_that_left_the_shaker_running_says_to_switch_it_off(says, tmp_path):
     engine = says(*opened(tmp_path), RigClosed(at_rest=False))
     stopped = engine.stop()
-    assert not stopped.silent
+    assert (stopped.silent, stopped.let_go) == (False, False)
     assert stopped.message == f"{SWITCH_OFF}: the run had let go of a shaker that did not stop: no answer"
 
 
 def test_of_a_shaker_that_the_run_left_at_rest_there_is_no_alarm(says, tmp_path):
     stopped = says(*opened(tmp_path), RigClosed()).stop()
-    assert stopped.message == "the run had let go of the shaker at rest before; asked again: no answer"
+    assert (
+        stopped.message
+        == "the shaker is silent already: the run let go of it at rest; asked again: no answer"
+    )
+    assert stopped.let_go
 
 
 def test_an_engine_ended_as_it_keeps_a_run_is_told_of_with_what_ended_that(says, tmp_path):

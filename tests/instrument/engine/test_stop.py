@@ -194,7 +194,9 @@ def test_a_shaker_that_the_run_let_go_of_and_that_is_away_by_now_is_no_alarm(tmp
     stopped = engine.stop()
     engine.close()
     assert not stopped.silent
-    assert stopped.message.startswith("the run had let go of the shaker at rest before; asked again: ")
+    assert stopped.message.startswith(
+        "the shaker is silent already: the run let go of it at rest; asked again: "
+    )
     assert "no connection" in stopped.message
 
 
