@@ -104,14 +104,19 @@ def kept(
         again = shlex.join(["viscorig", *goes_on])
         return f"{done} kept in {path}; to go on: {again}"
     except KeyboardInterrupt:
-        return f"what is complete is in {journal.folder}: viscorig recover {journal.folder}"
+        return f"what is complete is in {journal.folder}: {_recovery(journal)}"
     except (BadInput, OSError, ValueError, RuntimeError) as error:
         first = "make room, or copy that folder to another disk; then " if is_full(error) else ""
         why = system_words(error) if isinstance(error, OSError) else str(error)
         return (
             f"what is complete is in {journal.folder}, as no session could be written of it "
-            f"({' '.join(why.split())}): {first}viscorig recover {journal.folder}"
+            f"({' '.join(why.split())}): {first}{_recovery(journal)}"
         )
+
+
+def _recovery(journal: SessionJournal) -> str:
+    """What a person types to have a session of what is complete."""
+    return shlex.join(["viscorig", "recover", str(journal.folder)])
 
 
 def _refuse_another(before: Configuration, now: Configuration) -> None:

@@ -1,6 +1,7 @@
 """The folder of a running session: begun, taken up again, put together whatever the end was."""
 
 import errno
+import shlex
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
@@ -18,7 +19,7 @@ from instrument.run.keeping import finish_session, kept, open_journal
 from instrument.run.part import Part
 from instrument.session.configuration import Configuration
 from instrument.session.contents import contents_of
-from instrument.session.journal import JOURNAL, Entry
+from instrument.session.journal import JOURNAL, Entry, SessionJournal
 from instrument.session.storage import SessionFile, write_part
 from instrument.stream.derived import HitJudged
 from instrument.stream.raw import Held
@@ -168,6 +169,21 @@ def test_the_folder_of_a_session_with_a_damaged_part_stays(begin, tmp_path, capl
     assert finish_session(journal, tmp_path / "a.h5") == 1
     assert (journal.folder / "part-000002.h5").exists()
     assert "part-000002.h5 is damaged" in caplog.text
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), OSError(errno.ENOSPC, "full")])
+def test_a_folder_with_a_blank_in_its_name_is_named_as_a_terminal_takes_it(tmp_path, monkeypatch, error):
+    journal = SessionJournal(tmp_path / "of a run.running")
+    journal.begin(configuration())
+    add(journal, point(1))
+
+    def fails(*_):
+        raise error
+
+    monkeypatch.setattr(keeping, "write_session", fails)
+    said = kept(journal, tmp_path / "of a run.h5")
+    command = said[said.index("viscorig recover") :]
+    assert shlex.split(command) == ["viscorig", "recover", str(journal.folder)]
 
 
 def test_what_is_complete_is_kept_and_can_be_carried_on(begin, tmp_path):
