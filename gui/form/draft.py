@@ -20,7 +20,7 @@ from instrument.errors import BadInput, system_words
 from instrument.files.law_table import with_rows
 from instrument.files.structure_file import AnyDocument, described, document_type
 from instrument.files.text import read_text
-from instrument.files.toml import faults, parse_document
+from instrument.files.toml import faults, parse_document, toml_text
 
 Faults = dict[Place, str]
 """What is wrong where, in words; `()` is the whole file."""
@@ -58,7 +58,7 @@ class Draft:
         """Read a file. Raises `BadInput` where it is none that can be edited."""
         # Looked at first: what is written while it is read is news.
         stamp = stamp_of(path)
-        found = cls(path, model, read_text(path))
+        found = cls(path, model, toml_text(path))
         found.stamp = stamp
         return found
 

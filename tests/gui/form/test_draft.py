@@ -41,6 +41,14 @@ def test_a_good_file_has_no_faults_and_is_kept_to_the_letter(name):
     assert draft(name).text == case_file(f"{name}.toml").read_text()
 
 
+def test_a_file_too_large_to_be_toml_is_refused_as_by_the_commands(tmp_path):
+    path = tmp_path / "specimen.toml"
+    path.write_text(case_file("specimen.toml").read_text() + "#" * 1_000_000)
+    for read in (Draft.of, read_document):
+        with pytest.raises(BadInput, match=r"bytes, expected at most 1000000"):
+            read(path, SpecimenDocument)
+
+
 def test_a_change_keeps_every_comment_and_the_way_numbers_are_written():
     edited = draft("specimen")
     edited.write(("core", "thickness_mm"), Field("thickness_mm", "number"), "0.50")
