@@ -31,9 +31,10 @@ def unstated_mass(beam: Beam, distance: Callable[[Beam], float]) -> tuple[float,
     bounds = best - step, best + step
     found = minimize_scalar(with_share, bounds=bounds, method="bounded", options={"maxiter": _NEARER})
     grams = 1e3 * whole * float(np.exp(found.x))
+    # A question is followed by how one goes on all the same, in a terminal or the window.
     said = (
         f"some {two_digits(grams)} g sat at the pickup that are not stated: [[mass]] states a sensor, and "
-        "'viscorig diagnose --force' finds one"
+        "a diagnosis made all the same finds one"
     )
     return float(found.fun), said
 

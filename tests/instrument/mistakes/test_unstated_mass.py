@@ -33,6 +33,8 @@ def test_what_a_sensor_of_that_mass_explains_is_said_to_be_one(share):
     carrying = replace(BEAM, masses=(PlacedMass(m, 0.28, 0.0),))
     said = data_doubt(sweep_of(carrying), BEAM)
     assert "g sat at the pickup that are not stated: [[mass]]" in said
+    # The window says the same, and has no options.
+    assert "--" not in said
     assert float(said.split("some ")[1].split(" g")[0]) == pytest.approx(1e3 * m, rel=0.35)
     assert data_doubt(sweep_of(carrying), carrying) == ""
 
