@@ -81,7 +81,7 @@ class FilesDiagnosis:
         return (
             *remarks_on_one_specimen(self._files, result.before.rms_percent),
             *remarks_on_files(self._files),
-            *(remarks_on_common_causes(result) if max(numbers_of(self._files)) > 1 else ()),
+            *remarks_on_common_causes(result, max(numbers_of(self._files))),
             *theory,
             *(one.words(self._files) for one in self.aside),
         )

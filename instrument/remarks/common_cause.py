@@ -12,12 +12,13 @@ _WIDER = 1.5
 """Times as wide as without the cause: below it nobody would measure otherwise. A choice."""
 
 
-def remarks_on_common_causes(result: Diagnosis) -> tuple[str, ...]:
+def remarks_on_common_causes(result: Diagnosis, files: int) -> tuple[str, ...]:
     """Of several files: where what is found in every one of them makes the band of the law wider.
 
-    Only what is certain: beside other explanations the band is wide because these disagree.
+    `files`: how many there are; one has nothing in common with another. Only what is certain: beside other
+    explanations the band is wide because these disagree.
     """
-    if result.verdict != "effect":
+    if files < 2 or result.verdict != "effect":
         return ()
     common = [e.name for e in result.effects if FILE in e.parameters and e.parameters[FILE].value == ALIKE]
     if not common:

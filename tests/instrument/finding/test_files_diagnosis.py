@@ -47,8 +47,10 @@ def test_exchanged_specimens_are_refused_where_a_cause_is_searched_for():
     assert handed.options.settle is not None
 
 
-def test_a_common_cause_that_widens_the_band_is_remarked_on_where_there_are_several_files(monkeypatch):
-    monkeypatch.setattr("instrument.finding.files_diagnosis.remarks_on_common_causes", lambda _: ("wide",))
+def test_whether_a_common_cause_widens_the_band_is_asked_with_how_many_files_there_are(monkeypatch):
+    monkeypatch.setattr(
+        "instrument.finding.files_diagnosis.remarks_on_common_causes", lambda _, files: (f"wide in {files}",)
+    )
     found = Like(before=Like(rms_percent=1.0))
-    assert "wide" in diagnosis_of(FILES).remarks(found, ())
-    assert "wide" not in diagnosis_of(FILES[:1]).remarks(found, ())
+    assert f"wide in {len(FILES)}" in diagnosis_of(FILES).remarks(found, ())
+    assert "wide in 1" in diagnosis_of(FILES[:1]).remarks(found, ())

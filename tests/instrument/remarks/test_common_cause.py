@@ -36,7 +36,7 @@ def found(file, *, storage=1.0, loss=1.0):
     ],
 )
 def test_a_common_cause_that_widens_the_band_is_said(storage, loss, said):
-    remarks = remarks_on_common_causes(found(ALIKE, storage=storage, loss=loss))
+    remarks = remarks_on_common_causes(found(ALIKE, storage=storage, loss=loss), 2)
     assert len(remarks) == (said is not None)
     assert all(
         r.startswith(f"with gain_error in every file the law's band is {said}: what all files have")
@@ -46,4 +46,9 @@ def test_a_common_cause_that_widens_the_band_is_said(storage, loss, said):
 
 @pytest.mark.parametrize("file", [EACH, 1, 2, None])
 def test_a_cause_that_is_not_common_is_not(file):
-    assert remarks_on_common_causes(found(file, storage=5.0)) == ()
+    assert remarks_on_common_causes(found(file, storage=5.0), 2) == ()
+
+
+def test_one_file_has_nothing_in_common():
+    assert remarks_on_common_causes(found(ALIKE, storage=5.0), 1) == ()
+    assert remarks_on_common_causes(found(ALIKE, storage=5.0), 2)
