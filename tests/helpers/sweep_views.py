@@ -1,5 +1,6 @@
 """What a person does on the page Sweep, and what it then shows."""
 
+import pytest
 from PySide6.QtCore import QPointF, Qt
 
 LEFT = Qt.MouseButton.LeftButton
@@ -52,3 +53,15 @@ def as_first_shown(window):
     page.seen = page.seen.but(chosen=None)
     page._draw_all()
     return page
+
+
+@pytest.fixture
+def page(opened):
+    """Of the session at its end."""
+    return sweep_page(opened)
+
+
+@pytest.fixture
+def looked_at(kept):
+    """The same, in the window of the whole module."""
+    return as_first_shown(kept)

@@ -1,7 +1,9 @@
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from sweep_views import LEFT, as_first_shown, click_point, click_segment, shown, sweep_page, value
+from sweep_views import LEFT, click_point, click_segment, shown, value
+from sweep_views import looked_at as looked_at
+from sweep_views import page as page
 
 from gui.style.theme import DARK, LIGHT
 from instrument.stepped_sine.sine_fit import sine_fit
@@ -9,18 +11,6 @@ from instrument.stepped_sine.sine_fit import sine_fit
 pytestmark = pytest.mark.pages("run", "sweep")
 
 PATIENCE_MS = 240_000
-
-
-@pytest.fixture
-def page(opened):
-    """Of the session at its end."""
-    return sweep_page(opened)
-
-
-@pytest.fixture
-def looked_at(kept):
-    """The same, in the window of the whole module."""
-    return as_first_shown(kept)
 
 
 def test_without_a_session_it_says_what_will_appear(qtbot, window):

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 from diagnosed_session import diagnosed_session
 from diagnosis_cases import diagnosis
-from sweep_views import as_first_shown, shown, sweep_page
+from sweep_views import looked_at as looked_at
+from sweep_views import page as page
+from sweep_views import shown
 
 from gui.actions.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from gui.pages.sweep.drawing import FORESEEN
@@ -14,18 +16,6 @@ from gui.pages.sweep.drawing import FORESEEN
 pytestmark = pytest.mark.pages("run", "sweep")
 
 PATIENCE_MS = 240_000
-
-
-@pytest.fixture
-def page(opened):
-    """Of the session at its end."""
-    return sweep_page(opened)
-
-
-@pytest.fixture
-def looked_at(kept):
-    """The same, in the window of the whole module."""
-    return as_first_shown(kept)
 
 
 def test_the_fitted_model_goes_through_the_points(qtbot, page):

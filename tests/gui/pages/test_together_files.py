@@ -7,6 +7,8 @@ from PySide6.QtCore import QEvent, QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QFileDialog
+from together_views import chosen as chosen
+from together_views import page as page
 
 from gui.pages.together import TogetherPage
 from gui.pages.together.chosen import ChosenFiles
@@ -20,19 +22,6 @@ LEFT = Qt.MouseButton.LeftButton
 def masses(tmp_path_factory):
     """A light one and a heavy one."""
     return list(two_masses(tmp_path_factory.mktemp("masses")))
-
-
-@pytest.fixture
-def page(window):
-    window.show_page("together")
-    return window.tabs.currentWidget()
-
-
-@pytest.fixture
-def chosen(qtbot, page, masses):
-    page.together.add(masses)
-    qtbot.waitUntil(lambda: "..." not in page.chosen.table.texts(3))
-    return page
 
 
 def test_a_page_without_files_says_what_to_do(page):

@@ -7,6 +7,8 @@ from pair_files import two_masses
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog
 from rivals import all_but
+from together_views import chosen as chosen
+from together_views import page as page
 
 from gui.actions.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from gui.pages.material import MaterialPage
@@ -51,19 +53,6 @@ def results(masses, tmp_path_factory, cache_of_this_run):
         name: kind.model_validate(json.loads((to / f"{name}.json").read_text()))
         for name, kind in kinds.items()
     }
-
-
-@pytest.fixture
-def page(window):
-    window.show_page("together")
-    return window.tabs.currentWidget()
-
-
-@pytest.fixture
-def chosen(qtbot, page, masses):
-    page.together.add(masses)
-    qtbot.waitUntil(lambda: "..." not in page.chosen.table.texts(3))
-    return page
 
 
 @pytest.fixture
