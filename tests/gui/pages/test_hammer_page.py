@@ -1,48 +1,29 @@
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from engine_cases import engine_rig
-from plot_numbers import plot_numbers
+from hammer_views import BAND_HZ, by_command
+from hammer_views import hits as hits
 from PySide6.QtCore import Qt
 from quick_engine import QUICK_ENGINE
 from session_cases import SyntheticSession, configuration
 
 from fitting.modal.frf import Frf
 from gui.feeds.live import LiveFeed
-from gui.pages.hammer.choice import WhatIf, standing_of
-from gui.pages.hammer.findings import Sight, accelerated, modes_of
-from gui.pages.hammer.frf_plots import FrfPlots
-from gui.pages.hammer.mode_words import mode_rows
-from gui.pages.hammer.records_beside import frfs_of_records
 from gui.pages.hammer.traces import accelerance
-from gui.pages.hammer.words import hit_rows
 from instrument.engine import Engine, Order
 from instrument.files.experiment_file import ExperimentDocument
-from instrument.impact.damping import damping_of_hits
-from instrument.impact.record import ResponseChannel
-from instrument.impact.result import damping_from
-from instrument.impact.spectra import spectra
 from instrument.interchange.found import Found
 from instrument.results.error_words import ratio_words
 from instrument.session.configuration import read_whole_experiment
-from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import DampingFound, HitRevised
 
 pytestmark = [pytest.mark.usefixtures("warm"), pytest.mark.pages("run", "hammer")]
 
 LEFT = Qt.MouseButton.LeftButton
-BAND_HZ = (10.0, 550.0)
 PATIENCE_MS = 240_000
-
-
-@pytest.fixture(scope="module")
-def hits(session_path):
-    """Three, the second one a double hit."""
-    with SessionFile(session_path) as file:
-        return tuple(contents_of(file).hits)
 
 
 @pytest.fixture
@@ -76,20 +57,6 @@ def computed(qtbot, page, numbers):
         return modes is not None and [h.number for h in modes.hits if h.accepted] == numbers
 
     qtbot.waitUntil(done, timeout=PATIENCE_MS)
-
-
-def only(hits, numbers):
-    """As they count where just these do."""
-    what_if = WhatIf()
-    for hit in hits:
-        what_if.say(hit, hit.number in numbers)
-    return what_if.applied(hits)
-
-
-def by_command(hits, numbers):
-    """What `viscorig damping` would say of these hits."""
-    judged = [h.judged() for h in only(hits, numbers)]
-    return damping_from(damping_of_hits(judged, band_hz=BAND_HZ))
 
 
 def numbers(page, column):
@@ -250,19 +217,6 @@ def test_records_of_another_file_are_drawn_as_the_average_of_its_good_hits_until
     assert name not in page.frf.phase.names
 
 
-def test_records_of_another_length_are_an_average_of_their_own_and_bad_hits_none(hits):
-    one, double, other = (h.record for h in hits)
-    short = replace(
-        other,
-        force_n=other.force_n[:-9],
-        responses=tuple(replace(r, samples=r.samples[:-9]) for r in other.responses),
-    )
-    found = frfs_of_records({Path("a.csv"): [one, short], Path("b.csv"): [double]}, lambda: None)
-    assert list(found) == ["a.csv: 1 of 1 hits, set 1", "a.csv: 1 of 1 hits, set 2"]
-    lines = [len(frf.frequency_hz) for frf in found.values()]
-    assert lines == [len(h.force_n) // 2 + 1 for h in (one, short)]
-
-
 def test_before_the_first_blow_nothing_is_drawn(qtbot, page, opened):
     opened.controller.recorded.jump(0.0)
     qtbot.waitUntil(lambda: page.hits.table.row_count == 0, timeout=PATIENCE_MS)
@@ -313,97 +267,3 @@ def test_a_word_about_a_hit_goes_to_the_run(qtbot, window, live):
     assert HitRevised(1, accepted=False) in events
     (found,) = [e for e in events if isinstance(e, DampingFound)]
     assert found.result.as_json()["modes"] == preliminary
-
-
-# Without the window
-
-
-def test_a_hit_seen_before_is_not_computed_again(hits):
-    sight = Sight()
-    first = sight.average(hits, lambda: None)
-    again = sight.average(only(hits, [1]), lambda: None)
-    assert again.seen[3].alone is first.seen[3].alone
-    assert not again.seen[3].judged.accepted
-    assert len(again.used) == 1
-
-
-def test_scatter_needs_two_hits(hits):
-    one = Sight().average(only(hits, [1]), lambda: None)
-    two = Sight().average(hits, lambda: None)
-    texts = [
-        mode_rows(m.result, m, None)[0].cells[5].text
-        for m in (modes_of(a, BAND_HZ, lambda: None) for a in (one, two))
-    ]
-    assert texts[0] == "–"
-    assert float(texts[1].removeprefix("below ")) > 0
-
-
-def test_what_agrees_with_the_record_is_no_what_if(hits):
-    what_if = WhatIf()
-    what_if.say(hits[0], accepted=False)
-    assert what_if.changes(hits[0])
-    assert what_if.applied(hits)[0].accepted is False
-    what_if.say(hits[0], accepted=True)
-    assert not what_if.changes(hits[0])
-    assert standing_of(what_if.applied(hits)) == standing_of(hits)
-
-
-def test_a_hit_whose_samples_are_lost_is_listed_and_not_averaged(hits):
-    record = hits[0].record
-    channel = replace(record.responses[0], samples=np.zeros(0))
-    lost = replace(hits[0], record=replace(record, force_n=np.zeros(0), responses=(channel,)))
-    some = (lost, *hits[1:])
-    averaged = Sight().average(some, lambda: None)
-    assert list(averaged.seen) == [2, 3]
-    row = hit_rows(list(some), some, WhatIf(), averaged)[0]
-    assert row.cells[2].text == "–"
-    assert "samples" in row.cells[4].text
-
-
-def test_refusals_and_flags_are_said(hits):
-    found = by_command(hits, [1, 3])
-    mode = found.modes[0].but(half_power=None, why="half power refused: too short; LSCF differs")
-    row = mode_rows(found.but(modes=(mode,)), None, None)[0]
-    assert row.cells[3].text == "refused"
-    assert "half power refused" in row.cells[7].text
-    assert row.cells[5].text == "..."
-
-
-def test_only_the_lowest_plot_of_the_column_names_its_axis_in_every_mode(qtbot, appearance):
-    plots = FrfPlots()
-    qtbot.addWidget(plots)
-    plots.resize(700, 400)
-    plots.show()
-    for mode in ("dark", "light"):
-        appearance.choose(mode)
-        qtbot.wait(1)
-        named = [p.getAxis("bottom").labelText for p in (plots.magnitude, plots.phase, plots.coherence)]
-        assert named == ["", "", "Frequency / Hz"]
-
-
-@pytest.mark.parametrize("high", [210, 400])
-def test_the_coherence_has_its_numbers_however_low_it_is(qtbot, appearance, high):
-    plots = FrfPlots()
-    qtbot.addWidget(plots)
-    plots.resize(700, high)
-    plots.show()
-    qtbot.waitExposed(plots)
-    assert {"0", "1"} <= {f"{float(said):g}" for said in plot_numbers(plots.coherence)}
-
-
-def test_what_a_laser_read_is_drawn_as_an_accelerometer_would_have_it(hits):
-    first = hits[0].judged()
-    assert accelerated(first) is first
-    (read,) = first.hit.responses
-    rate = first.hit.sample_rate_hz
-    means = (read.samples[1:] + read.samples[:-1]) / 2
-    velocity = np.concatenate([[0.0], np.cumsum(means)]) / rate
-    swaying = velocity + 0.3 * np.sin(2 * np.pi * 0.7 * np.arange(len(velocity)) / rate)
-    laser = ResponseChannel("velocity", "velocity", swaying)
-    seen = accelerated(replace(first, hit=replace(first.hit, responses=(laser,))))
-    (again,) = seen.hit.responses
-    assert again.motion == "acceleration"
-    alike = [spectra([one]).frfs[name] for one, name in ((first, read.name), (seen, "velocity"))]
-    low = (alike[0].frequency_hz > 30) & (alike[0].frequency_hz < 100)
-    largest = np.abs(alike[0].H[low]).max()
-    assert np.abs(alike[1].H[low] - alike[0].H[low]).max() < 0.05 * largest

@@ -1,8 +1,11 @@
 """The widgets of the hammer test's page, each alone."""
 
 import numpy as np
+import pytest
+from plot_numbers import plot_numbers
 
 from gui.pages.hammer.bench import Latest
+from gui.pages.hammer.frf_plots import FrfPlots
 from gui.pages.hammer.hit_list import HitList
 from gui.pages.hammer.hit_plots import HitPlots
 from gui.pages.hammer.mode_table import ModeTable
@@ -103,3 +106,25 @@ def test_only_what_was_asked_for_last_is_told(qtbot, qapp):
     assert heard == [2]
     assert not latest.busy
     latest.deleteLater()
+
+
+def test_only_the_lowest_plot_of_the_column_names_its_axis_in_every_mode(qtbot, appearance):
+    plots = FrfPlots()
+    qtbot.addWidget(plots)
+    plots.resize(700, 400)
+    plots.show()
+    for mode in ("dark", "light"):
+        appearance.choose(mode)
+        qtbot.wait(1)
+        named = [p.getAxis("bottom").labelText for p in (plots.magnitude, plots.phase, plots.coherence)]
+        assert named == ["", "", "Frequency / Hz"]
+
+
+@pytest.mark.parametrize("high", [210, 400])
+def test_the_coherence_has_its_numbers_however_low_it_is(qtbot, appearance, high):
+    plots = FrfPlots()
+    qtbot.addWidget(plots)
+    plots.resize(700, high)
+    plots.show()
+    qtbot.waitExposed(plots)
+    assert {"0", "1"} <= {f"{float(said):g}" for said in plot_numbers(plots.coherence)}

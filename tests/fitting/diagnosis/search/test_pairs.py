@@ -1,123 +1,16 @@
 """Which two effects are tried: a wrong one may stand where the right one would begin."""
 
-from dataclasses import replace
 from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from pair_worlds import NOTHING, World, effect
 
 from fitting.diagnosis.executor import ALONE
 from fitting.diagnosis.search import catalogue_search as searching
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
-from fitting.diagnosis.search.pairs import Pairs
-from fitting.diagnosis.thresholds import PAIRS, SEARCH, WIDE_VALLEYS
 from fitting.effects.base import Effect, EffectParameter
-
-NOTHING = 1000.0
-"""Chi-square of two effects that are not in a world's list."""
-
-
-def effect(name):
-    return type(name, (Effect,), {"name": name})()
-
-
-class World:
-    """A search in which chi-square is known of every two effects and a look sees it; costs are the same."""
-
-    executor, data = ALONE, 100
-
-    def __init__(self, names, **chi2):
-        self.effects = [effect(n) for n in names]
-        self.chi2 = {frozenset(two.split("_")): value for two, value in chi2.items()}
-        self.work, self.kept, self.goals, self.laws, self.ends = self, [], [], [], {}
-        self.candidates = {e.name: [SimpleNamespace(effect=e)] for e in self.effects}
-
-    def fit(self, *effects):
-        chi2 = self.chi2.get(frozenset(e.name for e in effects), NOTHING)
-        # What is left of two is not alike.
-        left = np.random.default_rng([ord(c) for e in effects for c in e.name]).normal(size=self.data)
-        return SimpleNamespace(
-            effects=effects,
-            chi2=chi2,
-            residuals=left * np.sqrt(chi2 / np.sum(left**2)),
-            chi2_per_dof=1.0,
-            data=self.data,
-            converged=True,
-        )
-
-    def judged(self, fitted):
-        return ScoredFit(fitted, fitted.chi2)
-
-    leading, left_by, suffices = Search.leading, Search.left_by, Search.suffices
-
-    @property
-    def none(self):
-        return self.judged(self.fit())
-
-    def alone(self, scored):
-        return [self.judged(self.fit(e)) for e in scored.fitted.effects]
-
-    def evaluate_alone(self, pair, effect):
-        self.kept.append(effect.name)
-        return self.fit(effect)
-
-    def fit_second(self, before, form, starts, goal):
-        return self.both(before, form)
-
-    fit_second_roughly = fit_second
-
-    def both(self, before, form):
-        return self.fit(*before.effects, *(e for e in self.effects if e.name == form[0]))
-
-    def follow_to_end(self, rough, goal):
-        self.goals.append(goal)
-        return rough
-
-    def fit_other_laws_beside(self, before, name, goal):
-        self.laws.append((before.effects[0].name, name, goal))
-        return [self.both(before, (name, 0))]
-
-    def look(self, before, forms):
-        after = [self.both(before, form) for form in forms]
-        return [[(before.chi2 - f.chi2, np.zeros(0))] for f in after]
-
-    def follow_to_convergence(self, fitted):
-        return "its end"
-
-    def converged_group(self, scored_fits, best):
-        return list(scored_fits)
-
-    moves = False
-
-    def moving(self, scored_fits, best):
-        return [t.fitted for t in scored_fits] if self.moves else []
-
-    def keep_converged(self, fits, ends):
-        self.ends |= dict(zip([f.effects for f in fits], ends, strict=True))
-
-    def simpler(self, scored):
-        return []
-
-    def temper(self, best):
-        return 1.0
-
-    def allowed(self, scored):
-        return 1.0
-
-    def unrefused(self, effects):
-        return 2.0 * self.data
-
-    def has_places(self, name):
-        return False
-
-    def goal(self, best):
-        return best.chi2
-
-    def found(self, *singles, wide=False):
-        alone = [self.judged(self.fit(e)) for n in singles for e in self.effects if e.name == n]
-        found = Pairs(self).best(alone, lambda fraction: None, wide=wide)
-        return [set(t.names) for t in found if len(t.names) == 2]
 
 
 @pytest.mark.parametrize("wide", [False, True])
@@ -279,92 +172,6 @@ def test_beside_a_best_pair_that_fails_those_as_bad_are_not_exchanged(monkeypatc
     monkeypatch.setattr(World, "judged", lambda _, fitted: ScoredFit(fitted, fitted.chi2, {"size": 0.0}))
     assert {"a", "b"} not in world.found("w")
     assert sorted(world.kept) == ["c", "w"]
-
-
-class Wanting(World):
-    """None will do, and beside a fit alone a look shows nothing; in a wide valley it shows what there is."""
-
-    evidence = None
-
-    def __init__(self, names, **chi2):
-        super().__init__(names, **chi2)
-        self.candidates = {
-            e.name: [SimpleNamespace(effect=e, fit_plain=lambda e=e: [self.fit(e)])] for e in self.effects
-        }
-        self.followed, self.went_on = [], []
-
-    def judged(self, fitted):
-        return ScoredFit(fitted, fitted.chi2, {"size": 1e-9})
-
-    def look(self, before, forms):
-        return [[(0.0, np.zeros(0))] for _ in forms]
-
-    def look_wide(self, before, forms):
-        return [[np.zeros(0)] for _ in forms]
-
-    def begin_wide(self, before, form, starts):
-        return [self.both(before, form) for _ in starts]
-
-    def follow_wide(self, begun):
-        self.followed.append(tuple(e.name for e in begun.effects))
-        return begun
-
-    noise_in_wide_valleys = 300.0
-
-    def left_in_wide_valley(self, fitted):
-        return fitted.chi2
-
-    def follow_briefly(self, wide):
-        self.went_on.append(tuple(e.name for e in wide.effects))
-        return wide
-
-    def follow_roughly(self, brief):
-        return brief
-
-    def fit_plainly(self, names):
-        pass
-
-    def order_of_plain(self):
-        return [e.name for e in self.effects]
-
-
-def wanting(monkeypatch, wide, names, **chi2):
-    few = {
-        "SEARCH": replace(SEARCH, leaders=1),
-        "PAIRS": replace(PAIRS, fitted=1, fitted_a_leader=1),
-        "WIDE_VALLEYS": replace(WIDE_VALLEYS, followed=wide, leaders=3),
-    }
-    for name, thresholds in few.items():
-        monkeypatch.setattr(f"fitting.diagnosis.search.pairs.{name}", thresholds)
-    return Wanting(names, **chi2)
-
-
-def test_where_none_will_do_a_pair_is_found_from_where_the_wide_valley_led(monkeypatch):
-    world = wanting(monkeypatch, 4, "wabc", w=200.0, w_c=150.0)
-    assert world.found("w", wide=True)[0] == {"w", "c"}
-
-
-def test_of_what_begins_in_wide_valleys_the_best_go_on_and_the_best_of_every_leader(monkeypatch):
-    world = wanting(monkeypatch, 4, "wabc", w=200.0, w_c=150.0, w_b=160.0, b_c=300.0)
-    world.found("w", wide=True)
-    # Three lead; what is left goes to the best of all.
-    assert [two[0] for two in world.followed] == ["w", "b", "a", "w"]
-    assert world.followed[:2] == [("w", "c"), ("b", "w")]
-    assert world.followed[3] == ("w", "b")
-
-
-def test_what_leaves_far_more_in_its_wide_valley_than_is_known_goes_no_further(monkeypatch):
-    world = wanting(monkeypatch, 4, "wabc", w=200.0, w_c=150.0, w_b=610.0, b_c=300.0)
-    world.found("w", wide=True)
-    assert sorted(world.went_on) == [("b", "c"), ("w", "c")]
-
-
-def test_in_wide_valleys_none_begins_beside_two_of_a_kind_but_beside_the_one(monkeypatch):
-    world = wanting(monkeypatch, 9, "wabc", w=200.0, w_c=150.0)
-    twice = world.effects[0]
-    type(twice).twice, type(twice).extends = True, "a"
-    world.found("w", wide=True)
-    assert {two[0] for two in world.followed} == {"a", "b"}
 
 
 def test_a_form_that_only_says_more_of_what_another_finds_stands_beside_no_effect():
