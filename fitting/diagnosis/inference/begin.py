@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Complex
 from fitting.data.noise import Noise
 from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.inference.evidence import BareModes, Evidence
@@ -69,55 +69,92 @@ def begin(
 
     `to_its_end`: as far as is reported; else as far as a search begins from, which follows it if it matters.
     """
-    sweep = problem.sweep
+    sweep, points = problem.sweep, problem.points
     start = start.to_fit(sweep.frequency_hz)
-    points, every = problem.points, np.arange(len(sweep))
-    model = SweepModel(problem.rational, every, sweep.commanded_m_s2, points.reads, points.at_rest)
+    model = SweepModel(
+        problem.rational, np.arange(len(sweep)), sweep.commanded_m_s2, points.reads, points.at_rest
+    )
     first = fit_direct(Residuals.of(sweep, noise, model), start)
-    inside = within_search(first.law, sweep.omega)
-    # A fit of the law alone may end at its limits because stated numbers are slightly wrong.
-    at_limits = inside is not first.law
-    laws = [_free_to_bend(problem, law) for law in ((first.law, inside) if at_limits else (first.law,))]
-    problem = problem.with_narrow(laws[0])
-    law, u, meets = laws[0], problem.as_stated, False
-    v = model.velocity(law)
-    for round in range(_ROUNDS):
-        here = problem.condensed(law).around(law)
-        evidence = Evidence.of(sweep, noise, model_error(here, reduced, law, v), v, bare)
-        if not noise.is_known and len(u):
-            evidence = _sized(evidence, first, law)
-        if len(laws) > 1:
-            rough = response_of(here, (), here.coarse)
-            fits = [refit(rough, evidence, one, u, tolerance=ROUGH) for one in laws]
-            best = min(fits, key=by_chi2)
-            law, u, laws, meets = best.law, best.u, [best.law], _are_one(fits)
-        none = polished(here, (), evidence, law, u)
-        is_clear = meets and none.chi2_per_dof < STOPPING.explained_chi2_per_dof
-        if round == 0 and not is_clear and (at_limits or none.chi2_per_dof > STOPPING.wrong_law_chi2_per_dof):
-            # The law alone did what tolerances might do, and led to a valley of its own.
-            none = _from_elsewhere(here, evidence, _free_to_bend(problem, start), none, executor)
-        omega = problem.coarse.nodes.omega
-        moved = np.max(np.abs(none.law.modulus(omega) / law.modulus(omega) - 1))
-        law, u = none.law, none.u
-        if moved < _FAR and not (problem.errs_as_found and round == 0):
-            break
-        v = model.velocity(law)
-        if problem.errs_as_found:
-            problem, v = problem.as_found(none.z), none.velocity_m_s
-    begun = Begun(here, problem.plate, evidence, none, first, is_clear)
+    begun = _Beginning(reduced, noise, bare, start, model, first, executor).in_rounds(problem)
     if to_its_end:
         return ended(begun, executor)
-    return (
-        replace(begun, none=followed_to_convergence(here, evidence, none))
-        if none.chi2_per_dof < STOPPING.wrong_law_chi2_per_dof
-        else begun
-    )
+    if begun.none.chi2_per_dof < STOPPING.wrong_law_chi2_per_dof:
+        return replace(begun, none=followed_to_convergence(begun.problem, begun.evidence, begun.none))
+    return begun
 
 
 def ended(begun: Begun, executor: Executor = ALONE) -> Begun:
     """The same, its fit followed as far as is reported."""
     follow = followed_to_convergence if begun.is_clear else partial(followed, executor=executor)
     return replace(begun, none=follow(begun.problem, begun.evidence, begun.none))
+
+
+@dataclass(frozen=True)
+class _Beginning:
+    """One joint fit without effects: what it is begun with."""
+
+    reduced: ReducedPlate | None
+    noise: Noise
+    bare: BareModes | None
+    start: CoreLaw
+    """As stated."""
+    model: SweepModel
+    first: Fit
+    executor: Executor
+
+    def in_rounds(self, problem: DiagnosisProblem) -> Begun:
+        """Until grids and the model's error are those of the law found."""
+        inside = within_search(self.first.law, problem.sweep.omega)
+        # A fit of the law alone may end at its limits because stated numbers are slightly wrong.
+        at_limits = inside is not self.first.law
+        laws = [_free_to_bend(problem, law) for law in ((self.first.law, inside) if at_limits else (inside,))]
+        problem = problem.with_narrow(laws[0])
+        law, u, meets = laws[0], problem.as_stated, False
+        v = self.model.velocity(law)
+        for round in range(_ROUNDS):
+            here = problem.condensed(law).around(law)
+            evidence = self._evidence(here, law, u, v)
+            if len(laws) > 1:
+                law, u, meets = _best_of(here, evidence, laws, u)
+                laws = [law]
+            none = polished(here, (), evidence, law, u)
+            is_clear = meets and none.chi2_per_dof < STOPPING.explained_chi2_per_dof
+            is_far = at_limits or none.chi2_per_dof > STOPPING.wrong_law_chi2_per_dof
+            if round == 0 and not is_clear and is_far:
+                # The law alone did what tolerances might do, and led to a valley of its own.
+                stated = _free_to_bend(problem, self.start)
+                none = _from_elsewhere(here, evidence, stated, none, self.executor)
+            moved = _moved(problem, law, none.law)
+            law, u = none.law, none.u
+            if moved < _FAR and not (problem.errs_as_found and round == 0):
+                break
+            v = self.model.velocity(law)
+            if problem.errs_as_found:
+                problem, v = problem.as_found(none.z), none.velocity_m_s
+        return Begun(here, problem.plate, evidence, none, self.first, is_clear)
+
+    def _evidence(self, here: DiagnosisProblem, law: CoreLaw, u: Array, v: Complex) -> Evidence:
+        """With the model's error about a law and what it gives, shape (points,), in m/s."""
+        sweep = here.sweep
+        error = model_error(here, self.reduced, law, v)
+        evidence = Evidence.of(sweep, self.noise, error, v, self.bare)
+        return evidence if self.noise.is_known or not len(u) else _sized(evidence, self.first, law)
+
+
+def _best_of(
+    problem: DiagnosisProblem, evidence: Evidence, laws: Sequence[CoreLaw], u: Array
+) -> tuple[CoreLaw, Array, bool]:
+    """Law and stated numbers of the best rough fit from several laws, and whether all came to one end."""
+    rough = response_of(problem, (), problem.coarse)
+    fits = [refit(rough, evidence, one, u, tolerance=ROUGH) for one in laws]
+    best = min(fits, key=by_chi2)
+    return best.law, best.u, _are_one(fits)
+
+
+def _moved(problem: DiagnosisProblem, law: CoreLaw, to: CoreLaw) -> float:
+    """The largest relative change of the modulus, at the frequencies of the coarse grid."""
+    omega = problem.coarse.nodes.omega
+    return float(np.max(np.abs(to.modulus(omega) / law.modulus(omega) - 1)))
 
 
 def _free_to_bend(problem: DiagnosisProblem, law: CoreLaw) -> CoreLaw:
