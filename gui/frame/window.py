@@ -14,7 +14,7 @@ from PySide6.QtGui import (
     QShortcut,
     QShowEvent,
 )
-from PySide6.QtWidgets import QMessageBox, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from fitting.plugins import told
 from gui.actions.controller import AppController
@@ -22,7 +22,7 @@ from gui.background.task import BackgroundCommand, BackgroundTask
 from gui.bars.replay_bar import ReplayBar
 from gui.bars.top_bar import TopBar
 from gui.form.form import Form
-from gui.frame.leaving import Question, leaving_question
+from gui.frame.leaving import Leaving
 from gui.frame.log_pane import LogPane
 from gui.frame.menus import Menus
 from gui.frame.notice import Notice
@@ -34,8 +34,7 @@ from gui.frame.stop_guard import StopGuard
 from gui.frame.tab_order import neighbour
 from gui.page import Page
 from gui.style.theme import Appearance
-from gui.widgets.asking import ask_open_many, ask_word
-from instrument.engine.client import ENDS_S
+from gui.widgets.asking import ask_open_many
 from instrument.files.acceleration import show_acceleration_in
 from instrument.interchange.given import SESSION_ENDINGS
 
@@ -64,9 +63,7 @@ class Window(Shell):
         self.replay = ReplayBar()
         self.log = LogPane()
         self._guard = StopGuard(self.bar.stop, self.controller.commands.stop, self._escaped)
-        self._closing = self._may_lose = False
-        self._asked: QMessageBox | None = None
-        """Whether to close although a run goes on."""
+        self._leaving, self._may_lose = Leaving(self, self.controller), False
         self._undrawn = list(reversed(self._page_set.kinds))
         self._arrange()
         # Files and what is run with them are its matter, whichever page is seen.
@@ -107,16 +104,7 @@ class Window(Shell):
         self.bar.show_state(state)
         self.log.show_state(state)
         self._page_set.show_state(state)
-        if not self.controller.running:
-            if self._asked is not None:
-                # There is nothing left to ask.
-                self._asked.close()
-                self._asked = None
-            if self._closing:
-                self.close()
-        elif (box := self._asked) is not None and box.isVisible() and box.text() != self._leaving.text:
-            # What is measured after a diagnosis has the shaker again.
-            self._ask_whether_to_leave()
+        self._leaving.turn()
 
     @property
     def pages(self) -> tuple[Page, ...]:
@@ -148,10 +136,7 @@ class Window(Shell):
 
     def interrupt(self) -> None:
         """Ctrl-C on the terminal: closes as a person does; another one is a yes to whether a run may end."""
-        if self.controller.running and self._asked is not None and self._asked.isVisible():
-            self._asked.close()
-            self._leave()
-        else:
+        if not self._leaving.insist():
             self.close()
 
     # What Qt tells
@@ -180,8 +165,7 @@ class Window(Shell):
         if self.controller.running:
             # It closes by itself once the run has ended.
             event.ignore()
-            if not self._closing:
-                self._ask_whether_to_leave()
+            self._leaving.ask()
             return
         unsaved = next((page for page in self._page_set.made.values() if page.unsaved), None)
         if unsaved is not None and not self._may_lose:
@@ -347,23 +331,6 @@ class Window(Shell):
         """What was not saved is, or is not wanted."""
         self._may_lose = True
         self.close()
-
-    @property
-    def _leaving(self) -> Question:
-        return leaving_question(self.controller)
-
-    def _ask_whether_to_leave(self) -> None:
-        self._asked = ask_word(self, "A run goes on", *self._leaving, self._leave)
-
-    def _leave(self) -> None:
-        self._closing = True
-        commands = self.controller.commands
-        if commands.at_rest:
-            commands.abort()
-            # One that hangs is ended as one that drives is; where it has ended, nothing is left to stop.
-            QTimer.singleShot(round(1e3 * ENDS_S), self, commands.stop)
-        else:
-            commands.stop()
 
 
 def _room_for(name: str) -> QWidget:

@@ -80,7 +80,7 @@ def test_of_a_run_that_only_computes_the_question_is_of_that_and_the_shaker_is_l
 
 
 def test_one_that_hangs_though_its_end_was_asked_for_is_stopped(qtbot, window, live, monkeypatch):
-    monkeypatch.setattr("gui.frame.window.ENDS_S", 0.01)
+    monkeypatch.setattr("gui.frame.leaving.ENDS_S", 0.01)
     hears(window, live, RigOpened(SHAKER), RigClosed())
     window.close()
     agree(window)
