@@ -5,13 +5,13 @@ from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QHideEvent, QKeySequence, QShortcut, QShowEvent
 from PySide6.QtWidgets import QCheckBox, QSplitter, QStackedLayout, QTabWidget, QVBoxLayout, QWidget
 
-from fitting.digits import two_digits
 from fitting.gravity import PUBLISHED_G_M_S2
 from gui.actions.controller import AppController
 from gui.actions.rediagnosis import ShownDiagnosis
 from gui.page import Page
 from gui.pages.sweep.chooser import Chooser
 from gui.pages.sweep.drift import DriftPane
+from gui.pages.sweep.fit_words import doubt_of, said_of_fit
 from gui.pages.sweep.model import ForeseenCurve, ModelCurve
 from gui.pages.sweep.nyquist import NyquistPane
 from gui.pages.sweep.overlay import besides
@@ -28,10 +28,7 @@ from gui.pages.sweep.step import StepPane
 from gui.state import SessionState
 from gui.widgets.basic import hint
 from instrument.check.piece import Region
-from instrument.results.diagnosis_words import UNKNOWN
-from instrument.results.session_result import BEFORE_DIAGNOSIS
 from instrument.results.set_aside import why_aside
-from instrument.results.standing import stage_before
 from instrument.session.configuration import Configuration
 from instrument.stepped_sine.settings import SweepSettings
 
@@ -172,7 +169,7 @@ class SweepPage(Page):
                 points, shown, own.last_step if own is not None else None, by_diagnosis != ""
             ),
             fit=fit.number if fit is not None else 0,
-            doubt=self._doubt(state),
+            doubt=doubt_of(state, shown),
             curve=self.model.curve,
             foreseen=self.foreseen.curve,
             planned_m_s2=sweep.level_g * PUBLISHED_G_M_S2 if sweep is not None else PUBLISHED_G_M_S2,
@@ -235,7 +232,10 @@ class SweepPage(Page):
         limits = state.limits if state is not None else SweepSettings()
         if pane is self.response:
             self.response.show_seen(self.seen)
-            said = self._said_of_fit(state) if state is not None else ""
+            said = ""
+            if state is not None:
+                aside, doubt = int(self.seen.points.aside.sum()), doubt_of(state, self._shown(state))
+                said = said_of_fit(state, self.model, aside, doubt)
             self.response.model.setText(said)
             self.response.model.setToolTip(f"{said}\n{_BAND}")
         elif pane is self.record:
@@ -251,46 +251,10 @@ class SweepPage(Page):
         elif pane is self.samples:
             self.samples.show_seen(self.seen, self.controller.session)
 
-    def _said_of_fit(self, state: SessionState) -> str:
-        failed = state.fit_failed
-        if failed is None:
-            return self._said_of_model(state)
-        before = f"{self._said_of_model(state)}; " if state.contents.fit is not None else ""
-        return before + failed.words
-
-    def _said_of_model(self, state: SessionState) -> str:
-        fit = state.contents.fit
-        if fit is None:
-            none = "no fit" if state.run.over else "no fit yet"
-            return "fitting ..." if state.fit_running is not None else none
-        if fit.result is None:
-            return f"fit {fit.number}: {fit.message}"
-        count, rms = len(fit.result.points), two_digits(fit.result.rms_percent)
-        said = f"fit of {count} points, rms {rms} %"
-        aside = int(self.seen.points.aside.sum())
-        doubt = self._doubt(state)
-        if doubt == BEFORE_DIAGNOSIS:
-            said = f"rms {rms} % {BEFORE_DIAGNOSIS}"
-        if aside:
-            said += f", {aside} set aside"
-        if doubt == UNKNOWN:
-            said += f", {UNKNOWN}"
-        if self.model.failure:
-            return f"{said}; no curve: {self.model.failure}"
-        return f"{said}; its curve is computed" if self.model.busy else said
-
     def _shown(self, state: SessionState) -> ShownDiagnosis | None:
         """The diagnosis shown, where it is of this session."""
         shown = self.controller.rediagnosis.shown(state)
         return shown if shown is not None and shown.is_of(self.controller.session) else None
-
-    def _doubt(self, state: SessionState) -> str:
-        """Of the law that is drawn: nothing explains its fit, or it lacks what the diagnosis found."""
-        shown, own = self._shown(state), state.contents.diagnosis
-        if shown is not None and shown.found.verdict == "unknown":
-            return UNKNOWN
-        found = own.result if own is not None else None
-        return BEFORE_DIAGNOSIS if found is not None and stage_before(found) is not None else ""
 
     def _back(self) -> None:
         self.walk(-1)

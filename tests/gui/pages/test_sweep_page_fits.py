@@ -12,6 +12,7 @@ from sweep_views import shown
 
 from gui.actions.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from gui.pages.sweep.drawing import FORESEEN
+from gui.pages.sweep.fit_words import said_of_model
 
 pytestmark = pytest.mark.pages("run", "sweep")
 
@@ -124,8 +125,8 @@ def test_a_fit_that_nothing_explains_says_so_wherever_it_is_drawn(qtbot, window,
 
 
 @pytest.mark.parametrize(("over", "said"), [(False, "no fit yet"), (True, "no fit")])
-def test_a_run_that_is_over_has_no_fit_to_come(looked_at, over, said):
+def test_a_run_that_is_over_has_no_fit_to_come(over, said):
     state = SimpleNamespace(
         contents=SimpleNamespace(fit=None), fit_running=None, run=SimpleNamespace(over=over)
     )
-    assert looked_at._said_of_model(state) == said
+    assert said_of_model(state, SimpleNamespace(failure="", busy=False), 0, "") == said
