@@ -303,8 +303,9 @@ class PlateSpecimen(Driven[tuple[float, float]]):
     @property
     def bare(self) -> "PlateSpecimen":
         """The plate before its damping treatment."""
-        without = replace(self, constraining=None, core=None, patches=(), both_sides=False, masses=())
-        return replace(without, faces_shear=False)
+        return replace(
+            self, constraining=None, core=None, patches=(), both_sides=False, masses=(), faces_shear=False
+        )
 
     def with_law(self, law: CoreLaw) -> "PlateSpecimen":
         """The plate with another core law. Raises `ValueError` for a bare one."""

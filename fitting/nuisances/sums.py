@@ -63,3 +63,20 @@ class Kept:
                 del self._known[next(iter(self._known))]
             self._known[key] = make()
         return self._known[key]
+
+
+class KeptOfLatest:
+    """`Kept` results that depend on one thing more, of the latest such thing."""
+
+    def __init__(self) -> None:
+        self._latest: tuple[object, Kept] | None = None
+
+    def of(self, thing: object) -> Kept:
+        """Its own."""
+        if self._latest is None or self._latest[0] is not thing:
+            self._latest = thing, Kept()
+        return self._latest[1]
+
+    def __reduce__(self) -> tuple[type["KeptOfLatest"], tuple[()]]:
+        # Another process makes its own.
+        return KeptOfLatest, ()

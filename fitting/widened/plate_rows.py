@@ -9,8 +9,8 @@ from fitting.arrays import Array
 from fitting.plate.element import Shape
 from fitting.plate.mesh import Mesh
 
-_MOST_ROWS = 32
-"""Rows that are kept: those of one evaluation. A choice."""
+_MOST_ROWS = 256
+"""Rows that are kept: those of an evaluation, and of the places that effects are looked for at. A choice."""
 
 
 @dataclass(frozen=True, eq=False)

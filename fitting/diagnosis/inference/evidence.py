@@ -11,6 +11,7 @@ from fitting.data.readings import Readings
 from fitting.diagnosis.inference.whitening import SHARE, Whitening
 from fitting.effects.base import Effect
 from fitting.nuisances.nuisances import Nuisances
+from fitting.nuisances.sums import KeptOfLatest
 from fitting.stated.layers import Face
 from fitting.sweep import Sweep
 
@@ -46,6 +47,7 @@ class BareModes:
     """Standard deviation of where it is."""
     substrate: Face
     """The substrate as its file states it."""
+    _kept: KeptOfLatest = field(default_factory=KeptOfLatest, init=False, compare=False, repr=False)
 
     @cached_property
     def _whitening(self) -> Whitening:
@@ -74,9 +76,15 @@ class BareModes:
         return np.round(z)
 
     def by_stated(self, nuisances: Nuisances, z: Array) -> Array:
-        """Derivatives of `stated_shift` to z, at the `nearest` whole numbers. Shape (count, modes)."""
-        found = np.zeros((len(z), len(self.shift)))
+        """Derivatives of `stated_shift` to z, at the `nearest` whole numbers. Shape (count, modes).
+
+        Kept: all fits of one problem come by the same few places.
+        """
         z = self.nearest(z)
+        return self._kept.of(nuisances).get("slopes", z, lambda: self._slopes_at(nuisances, z))
+
+    def _slopes_at(self, nuisances: Nuisances, z: Array) -> Array:
+        found = np.zeros((len(z), len(self.shift)))
         for k in nuisances.of_bare_plate:
             up, down = z.copy(), z.copy()
             up[k], down[k] = z[k] + _STEP, z[k] - _STEP

@@ -171,8 +171,7 @@ class JointProblem:
         if bare is None:
             return J
         if self._z:
-            z, nuisances = bare.nearest(u[: self._z]), self.response.nuisances
-            by_z = self._bare_shifts.get("slopes", z, lambda: bare.by_stated(nuisances, z))
+            by_z = bare.by_stated(self.response.nuisances, u[: self._z])
             J[:, self._n : self._n + self._z] = bare.whitened_change(by_z.T)
         for column, k in enumerate(np.flatnonzero(self.free)):
             if k < self._z:
