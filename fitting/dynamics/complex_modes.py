@@ -12,7 +12,7 @@ import numpy as np
 import scipy.linalg as la
 
 from fitting.arrays import Array, Complex
-from fitting.dynamics.real_modes import real_modes
+from fitting.dynamics.real_modes import real_modes, refuse_negative
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 from fitting.numerics.linear import factorise
@@ -77,7 +77,8 @@ def complex_modes(
     """The first `count` elastic modes; `law` None for a bare plate.
 
     Real modes at a few moduli span the start; each mode is then corrected on the full plate. Raises
-    `OutsideModel` for no mode, or more than half of the mesh's degrees of freedom.
+    `OutsideModel` for no mode, or more than half of the mesh's degrees of freedom, and for a mesh too fine to
+    have a stiffness.
     """
     if not 0 < count <= plate.size // 2:
         raise OutsideModel(f"{count} modes asked for, expected 1 to {plate.size // 2}")
@@ -91,6 +92,7 @@ def complex_modes(
     K_0, K_1 = (V.T @ (A @ V) for A in (plate.K_0, plate.K_1))
     modes: list[ComplexMode] = []
     omega = _START_RAD_S
+    refuse_negative(plate, float(la.eigvals(K_0 + modulus(omega) * K_1).real.min()))
     for r in range(count):
         omega, u, omega_of_next = _fixed_point(K_0, K_1, modulus, r, omega)
         modes.append(_correct(plate, modulus, omega, V @ u))

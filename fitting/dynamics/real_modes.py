@@ -8,6 +8,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 from fitting.arrays import Array
 from fitting.errors import OutsideModel
 from fitting.numerics.linear import factorise
+from fitting.plate.edge_twist import wide_enough
 from fitting.plate.plate import Plate
 
 
@@ -24,7 +25,8 @@ class RealModes:
 def real_modes(plate: Plate, G: float, count: int) -> RealModes:
     """The first `count` elastic modes at the real core modulus `G` in Pa.
 
-    Raises `OutsideModel` where the mesh has hardly more degrees of freedom than that.
+    Raises `OutsideModel` where the mesh has hardly more degrees of freedom than that, or is too fine to have
+    a stiffness.
     """
     if count + 8 > plate.size:
         raise OutsideModel(f"{count} modes asked of a mesh of {plate.size} degrees of freedom, refine [mesh]")
@@ -36,8 +38,20 @@ def real_modes(plate: Plate, G: float, count: int) -> RealModes:
     inverse = LinearOperator(K.shape, matvec=solve, dtype=float)
     start = np.random.default_rng(0).normal(size=plate.size)
     squared, shapes = eigsh(K, count + rigid, plate.M, sigma=shift, OPinv=inverse, v0=start)
+    refuse_negative(plate, float(squared.min()))
     order = np.argsort(squared)[rigid:]
     return RealModes(np.sqrt(squared[order]), shapes[:, order])
+
+
+def refuse_negative(plate: Plate, squared: float) -> None:
+    """Raise `OutsideModel` where the lowest omega^2 in (rad/s)^2 is negative by more than rounding."""
+    if squared < -lowest_scale(plate):
+        a, b = (1e3 * side for side in plate.mesh.sides_m)
+        n_x, n_y = wide_enough(plate.specimen, (plate.mesh.n_x, plate.mesh.n_y))
+        raise OutsideModel(
+            f"elements of {a:.3g} x {b:.3g} mm are too small for faces so thick, expected about {n_x} x "
+            f"{n_y} of them in [mesh], or fewer"
+        )
 
 
 def lowest_scale(plate: Plate) -> float:

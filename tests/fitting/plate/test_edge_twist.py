@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.sparse.linalg import splu
 
-from fitting.dynamics.real_modes import real_modes
-from fitting.plate.edge_twist import EDGE_WIDTH, EdgeTwist
+from fitting.dynamics.complex_modes import complex_modes
+from fitting.dynamics.real_modes import lowest_scale, real_modes
+from fitting.errors import OutsideModel
+from fitting.plate.edge_twist import EDGE_WIDTH, EdgeTwist, wide_enough
 from fitting.plate.element import face_plane_stress
 from fitting.plate.plate import Plate
 from fitting.stated.layers import Face, Orthotropy
@@ -84,3 +87,58 @@ def test_a_turned_ply_hung_free_is_near_a_solid_of_it(zn1, degrees, solid_hz):
     found = real_modes(Plate(plate), 0.0, 6).omega / (2 * np.pi)
     assert found == pytest.approx(solid_hz, rel=1.4e-2)
     assert (found > solid_hz).all()
+
+
+def small(zn1, length_mm, width_mm, **changes):
+    sides = {"length_m": length_mm * 1e-3, "width_m": width_mm * 1e-3, "pickup_m": None, "modal_ratios": ()}
+    plate = replace(zn1, **sides, **changes)
+    return replace(plate, elements=wide_enough(plate, plate.mesh))
+
+
+def negative(specimen, modulus_pa=5e5):
+    """How many values of the stiffness are: Sylvester's law, of its pivots. Rigid motions are given some."""
+    plate = Plate(specimen)
+    K = plate.K_0.real + modulus_pa * plate.K_1 + lowest_scale(plate) * plate.M
+    return int(
+        np.sum(splu(K.tocsc(), diag_pivot_thresh=0.0, options={"SymmetricMode": True}).U.diagonal() < 0)
+    )
+
+
+@pytest.mark.parametrize(
+    ("sides_mm", "changes"),
+    [
+        ((60, 40), {}),
+        ((45, 30), {}),
+        ((30.02, 19.99), {"boundary": "free"}),
+        ((120, 12), {}),
+        ((60, 40), {"both_sides": True}),
+        ((40, 30), {"faces_shear": True}),
+    ],
+)
+def test_no_element_is_so_narrow_that_its_edge_loses_more_than_it_holds(zn1, sides_mm, changes):
+    plate = small(zn1, *sides_mm, **changes)
+    assert negative(plate) == 0
+    assert negative(replace(plate, elements=tuple(2 * n for n in plate.elements))) > 0
+
+
+def test_a_plate_of_many_thicknesses_keeps_its_mesh(zn1):
+    assert wide_enough(zn1, zn1.mesh) == zn1.mesh
+    assert wide_enough(small(zn1, 60, 40).bare, (40, 26)) == (40, 26)
+
+
+def test_modes_of_a_small_plate_are_those_of_any_mesh_that_has_them(zn1):
+    plate = small(zn1, 60, 40)
+    found, coarser = (
+        [m.frequency_hz for m in complex_modes(Plate(p), p.core.law, 8)]
+        for p in (plate, replace(plate, elements=(16, 11)))
+    )
+    assert found == pytest.approx(coarser, rel=5e-3)
+    assert found[0] == pytest.approx(389.5, abs=0.1)
+
+
+def test_a_stated_mesh_too_fine_for_its_faces_is_refused_in_a_line(zn1):
+    plate = replace(small(zn1, 60, 40), elements=(39, 26))
+    with pytest.raises(OutsideModel, match=r"1\.54 x 1\.54 mm are too small .* about 21 x 14 of them"):
+        complex_modes(Plate(plate), plate.core.law, 3)
+    with pytest.raises(OutsideModel, match="too small"):
+        real_modes(Plate(plate), 5e5, 60)
