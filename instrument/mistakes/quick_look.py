@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fitting.arrays import Complex
+from fitting.arrays import Array, Complex
 from fitting.errors import FittingError
 from fitting.identification.result import LOST_PERCENT
 from fitting.specimen import PlateSpecimen, Reading
@@ -85,6 +85,11 @@ def remarks_on_reading(
 def _doubt(sweep: Sweep, specimen: AnySpecimen, progress: Progress) -> str:
     f = sweep.frequency_hz
     if f.max() < _LOWEST_HZ:
+        if _is_ordered(np.abs(sweep.velocity_m_s)) and not _is_ordered(f):
+            return (
+                f"{f.min():g} to {f.max():g} Hz, not in order, beside readings that are: it looks as if the "
+                "columns of frequency and reading are exchanged"
+            )
         return f"{f.min():g} to {f.max():g} Hz: the frequencies are in kHz, expected Hz"
     others = _other_spots(sweep, specimen)
     sweep, specimen = _one_spot(sweep, specimen)
@@ -224,7 +229,9 @@ def _of_data(look: _Look) -> str | None:
             if _explains(distance, found.distance):
                 return words
         slight = mistake.is_slight(found.factor) and not mistake.is_habit(found.factor)
-        return "" if slight else words_of(mistake, found.factor, drive)
+        # A factor of no name is less of an explanation than a name without a factor.
+        named = mistake.is_nameless(found.factor, drive) and (_frequencies(look) or _stated_wrongly(look))
+        return "" if slight else named or words_of(mistake, found.factor, drive)
     in_part = mistake_in_a_segment(sweep, model, as_is, drive)
     if in_part is not None:
         return in_part
@@ -335,6 +342,12 @@ def _most_likely(sweep: Sweep, model: AnyCore, some: Sequence[Mistake]) -> tuple
         for _, _, mistake, response in tried[:_LOOKED_AT]
     ]
     return min(refined, key=lambda one: one[1].distance)
+
+
+def _is_ordered(values: Array) -> bool:
+    """Whether all of them rise, or all fall, as frequencies of a sweep do. Shape (points,)."""
+    steps = np.diff(values)
+    return bool(np.all(steps > 0) or np.all(steps < 0))
 
 
 def _median(look: _Look) -> float:

@@ -93,6 +93,12 @@ class Mistake:
         alone = not (self.motion or self.conjugated or self.words)
         return alone and known and abs(np.log(size)) > _FAR and bool(abs(np.angle(factor)) < _SAME_TURN)
 
+    def is_nameless(self, factor: complex, drive: Drive) -> bool:
+        """Whether its size is no unit's, no habit's and no calibration's: words of it say a number."""
+        size = abs(factor)
+        known = any(_is_same(size, value) for value in {**_units(drive), **_HABITS})
+        return not (self.words or known or SLIGHT[0] < size < SLIGHT[1])
+
     def is_habit(self, factor: complex) -> bool:
         """Whether it is one of rms, amplitude and peak to peak."""
         return any(_is_same(abs(factor), value) for value in _HABITS)

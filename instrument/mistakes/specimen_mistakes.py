@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import TypeVar
 
 from fitting.specimen import PlateSpecimen
 from fitting.stated.edges import named
@@ -9,10 +10,12 @@ from fitting.structures import AnySpecimen, Beam
 
 _CM, _INCH = 10.0, 25.4
 """Times a length that was taken for mm."""
+_UNITS = (("cm", _CM), ("inches", _INCH))
 _MSI = 6.894757
 """GPa of a million psi."""
 
 Stated = tuple[str, AnySpecimen]
+Laminate = TypeVar("Laminate", PlateSpecimen, Beam)
 
 
 def specimen_mistakes(specimen: AnySpecimen) -> Iterator[Stated]:
@@ -21,10 +24,12 @@ def specimen_mistakes(specimen: AnySpecimen) -> Iterator[Stated]:
         yield from _spots(specimen)
         yield from _sides(specimen)
         yield from _faces(specimen)
+        yield from _thicknesses(specimen)
     elif isinstance(specimen, Beam):
         yield from _spot_of_beam(specimen)
         yield from _length_of_beam(specimen)
         yield from _faces(specimen)
+        yield from _thicknesses(specimen)
 
 
 def _spots(plate: PlateSpecimen) -> Iterator[Stated]:
@@ -52,9 +57,10 @@ def _sides(plate: PlateSpecimen) -> Iterator[Stated]:
     if x <= width and y <= length:
         yield f"plate.length_mm and plate.width_mm are exchanged{held if x == y else ''}", sides
     yield f"length and width are exchanged, and the pickup's with them{held}", _at(sides, y, x)
-    for unit, times in (("cm", _CM), ("inches", _INCH)):
-        other = replace(plate, length_m=times * length, width_m=times * width)
-        yield f"length, width and pickup are in {unit}, expected mm", _at(other, times * x, times * y)
+    for unit, times in _UNITS:
+        other = _at(replace(plate, length_m=times * length, width_m=times * width), times * x, times * y)
+        yield f"length, width and pickup are in {unit}, expected mm", other
+        yield f"all lengths and thicknesses are in {unit}, expected mm", _thicker(other, times)
 
 
 def _or_held_otherwise(plate: PlateSpecimen) -> str:
@@ -85,7 +91,7 @@ def _spot_of_beam(beam: Beam) -> Iterator[Stated]:
 
 
 def _length_of_beam(beam: Beam) -> Iterator[Stated]:
-    for unit, times in (("cm", _CM), ("inches", _INCH)):
+    for unit, times in _UNITS:
         other = replace(
             beam,
             length_m=times * beam.length_m,
@@ -94,6 +100,27 @@ def _length_of_beam(beam: Beam) -> Iterator[Stated]:
             force_m=None if beam.force_m is None else times * beam.force_m,
         )
         yield f"length, width and places are in {unit}, expected mm", other
+        yield f"all lengths and thicknesses are in {unit}, expected mm", _thicker(other, times)
+
+
+def _thicker(one: Laminate, times: float) -> Laminate:
+    """All its layers."""
+    upper, core = one.constraining, one.core
+    return replace(
+        one,
+        substrate=replace(one.substrate, thickness_m=times * one.substrate.thickness_m),
+        constraining=upper and replace(upper, thickness_m=times * upper.thickness_m),
+        core=core and replace(core, thickness_m=times * core.thickness_m),
+    )
+
+
+def _thicknesses(one: PlateSpecimen | Beam) -> Iterator[Stated]:
+    """One of its faces' with the decimal point in another place; a core's modulus makes up for its own."""
+    for name in ("substrate", "constraining"):
+        face = getattr(one, name)
+        for times, said in ((0.1, "large"), (10.0, "small")) if face is not None else ():
+            other: AnySpecimen = replace(one, **{name: replace(face, thickness_m=times * face.thickness_m)})
+            yield f"{name}.thickness_mm is ten times too {said}", other
 
 
 def _faces(one: PlateSpecimen | Beam) -> Iterator[Stated]:

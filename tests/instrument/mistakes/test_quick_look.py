@@ -197,6 +197,43 @@ def test_frequencies_in_radians_a_second_are_asked_about(plate, right):
     assert said == "it looks as if the frequencies are in rad/s, expected Hz"
 
 
+def amplitudes(right, **changes):
+    """Nine of them, as a table in a paper has them."""
+    some = right.take(np.linspace(0, len(F) - 1, 9).astype(int))
+    return replace(some, velocity_m_s=np.abs(some.velocity_m_s), base_m_s2=None, **changes)
+
+
+def test_columns_that_are_exchanged_are_told_from_kilohertz(right):
+    few = amplitudes(right)
+    swapped = replace(few, frequency_hz=few.velocity_m_s, velocity_m_s=few.frequency_hz)
+    assert not quick_look._is_ordered(swapped.frequency_hz)
+    assert "the columns of frequency and reading are exchanged" in data_doubt(swapped, None)
+    in_khz = replace(few, frequency_hz=few.frequency_hz / 1e3)
+    assert "the frequencies are in kHz" in data_doubt(in_khz, None)
+
+
+def test_a_few_amplitudes_in_radians_a_second_are_no_factor(plate, right):
+    few = amplitudes(right)
+    assert data_doubt(few, plate) == ""
+    said = data_doubt(replace(few, frequency_hz=2 * np.pi * few.frequency_hz), plate)
+    assert said == "it looks as if the frequencies are in rad/s, expected Hz"
+
+
+def test_a_few_amplitudes_of_a_plate_that_is_stated_otherwise_are_no_factor(plate, right):
+    thick = replace(plate, substrate=replace(plate.substrate, thickness_m=19e-3))
+    said = data_doubt(amplitudes(right), thick)
+    assert said == "it looks as if substrate.thickness_mm is ten times too large"
+    layers = {
+        name: replace(getattr(plate, name), thickness_m=getattr(plate, name).thickness_m / 25.4)
+        for name in ("substrate", "core", "constraining")
+    }
+    x, y = plate.pickup_m
+    sides = {"length_m": plate.length_m / 25.4, "width_m": plate.width_m / 25.4}
+    in_inches = replace(plate, **layers, **sides, pickup_m=(x / 25.4, y / 25.4))
+    said = data_doubt(amplitudes(right), in_inches)
+    assert said == "it looks as if all lengths and thicknesses are in inches, expected mm"
+
+
 @pytest.mark.parametrize(
     ("spoil", "said"),
     [

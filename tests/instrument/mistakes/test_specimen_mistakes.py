@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import beam_tables
+import pytest
 import shear_pair_cases
 
 from instrument.mistakes.specimen_mistakes import specimen_mistakes
@@ -18,6 +19,28 @@ def test_a_plate_may_be_read_from_elsewhere_or_be_in_another_unit(zn1):
     assert (exchanged.length_m, exchanged.width_m) == (zn1.width_m, zn1.length_m)
     thin = found["the thicknesses of core and constraining layer are exchanged"]
     assert thin.core.thickness_m == zn1.constraining.thickness_m
+
+
+def test_layers_may_be_in_another_unit_too_or_one_ten_times_off(zn1):
+    found = dict(specimen_mistakes(zn1))
+    whole = found["all lengths and thicknesses are in inches, expected mm"]
+    assert whole.length_m / zn1.length_m == pytest.approx(25.4)
+    assert whole.pickup_m[0] / zn1.pickup_m[0] == pytest.approx(25.4)
+    for name in ("substrate", "core", "constraining"):
+        assert getattr(whole, name).thickness_m / getattr(zn1, name).thickness_m == pytest.approx(25.4)
+    thinner = found["substrate.thickness_mm is ten times too large"]
+    assert thinner.substrate.thickness_m == pytest.approx(zn1.substrate.thickness_m / 10)
+    assert thinner.constraining == zn1.constraining
+    assert "constraining.thickness_mm is ten times too small" in found
+    beam = dict(specimen_mistakes(replace(beam_tables.BEAM, pickup_m=0.3)))
+    all_in_cm = beam["all lengths and thicknesses are in cm, expected mm"]
+    assert all_in_cm.substrate.thickness_m == pytest.approx(10 * beam_tables.BEAM.substrate.thickness_m)
+
+
+def test_a_bare_plate_has_one_thickness(zn1):
+    said = [words for words, _ in specimen_mistakes(zn1.bare)]
+    assert "substrate.thickness_mm is ten times too small" in said
+    assert not any("constraining" in words for words in said)
 
 
 def test_a_plate_whose_sides_seem_exchanged_may_be_held_at_another_edge(zn1):
