@@ -9,7 +9,7 @@ from fitting.specimen import Drive, PlacedMass, Reading
 from fitting.stated.layers import Core
 from fitting.structures.beam import Beam
 from fitting.structures.stated_beam import Ends
-from instrument.files.layer_tables import Poisson, StatedLayer
+from instrument.files.layer_tables import Poisson, StatedLayer, refuse_place
 from instrument.files.specimen_file import (
     MOST_MASSES,
     TolerancesSection,
@@ -122,9 +122,11 @@ class BeamDocument(TomlTable):
         if self.force_mm is not None and self.excitation is not None:
             placed.append(("excitation", self.force_mm, self.excitation.y_mm))
         for table, *place in placed:
-            for key, at, most in zip(("x_mm", "y_mm"), place, (reach, self.beam.width_mm), strict=True):
-                if at is not None and at > most:
-                    raise ValueError(f"{table}.{key} = {at:g} is off the beam, expected 0 to {most:g}")
+            sides = (("x_mm", "length_mm", reach), ("y_mm", "width_mm", self.beam.width_mm))
+            for (key, own, most), at in zip(sides, place, strict=True):
+                if at is not None:
+                    its = f"beam.{own} = {getattr(self.beam, own):g}"
+                    refuse_place(f"{table}.{key}", at, its, most, "beam")
         return self
 
     def _driven(self) -> None:

@@ -12,6 +12,8 @@ from fitting.stated.patches import Patch
 from instrument.files.toml import NotNegative, Positive, TomlTable
 
 Poisson = Annotated[float, Field(gt=-1, lt=0.5, allow_inf_nan=False)]
+_LEAST_SIDE_MM = 2.0
+"""What a structure's side is above: the shortest that is not asked about."""
 _OWN_AXES = ("young_x_gpa", "young_y_gpa", "shear_gpa")
 
 
@@ -99,6 +101,15 @@ class PatchPart(TomlTable):
         return Patch(*(1e-3 * v for v in (self.from_x_mm, self.to_x_mm, self.from_y_mm, self.to_y_mm)))
 
 
+def refuse_place(name: str, at_mm: float, side: str, side_mm: float, structure: str = "plate") -> None:
+    """Raises `ValueError` for a place off a structure whose `side` ends at so many mm."""
+    if at_mm <= side_mm:
+        return
+    # A side in m is a thousandth of what it is in mm, and no structure is as small.
+    in_m = f": {side}, is it in m?" if side_mm < _LEAST_SIDE_MM and at_mm <= 1e3 * side_mm else ""
+    raise ValueError(f"{name} = {at_mm:g} is off the {structure}, expected 0 to {side_mm:g}{in_m}")
+
+
 def refuse_patches(patches: Sequence[PatchPart], length_mm: float, width_mm: float) -> None:
     """Raises `ValueError` for patches that are none or slivers, off the plate or over each other."""
     for k, p in enumerate(patches):
@@ -114,10 +125,8 @@ def refuse_patches(patches: Sequence[PatchPart], length_mm: float, width_mm: flo
                 raise ValueError(
                     f"patch.{k} is {high - low:g} mm long along {axis}, expected {_SHORTEST_MM:g} mm at least"
                 )
-            if high > side:
-                raise ValueError(
-                    f"patch.{k}.to_{axis}_mm = {high:g} is off the plate, expected 0 to {side:g}"
-                )
+            its = f"plate.{'length' if axis == 'x' else 'width'}_mm = {side:g}"
+            refuse_place(f"patch.{k}.to_{axis}_mm", high, its, side)
     for (i, p), (k, q) in combinations(enumerate(patches), 2):
         if p.patch().common_m2(q.patch()) > _TOUCH_M2:
             raise ValueError(f"patch.{i} and patch.{k} overlap, expected patches beside each other")

@@ -17,7 +17,14 @@ from fitting.stated.tolerances import IN_FILES, OF_FEW, OF_TEMPERATURE, STATED
 from fitting.structures.shear_pair import TYPICAL as OF_PAIR
 from instrument.errors import BadInput
 from instrument.files.law_table import with_rows
-from instrument.files.layer_tables import GluePart, PatchPart, Poisson, StatedLayer, refuse_patches
+from instrument.files.layer_tables import (
+    GluePart,
+    PatchPart,
+    Poisson,
+    StatedLayer,
+    refuse_patches,
+    refuse_place,
+)
 from instrument.files.toml import NotNegative, Percent, Positive, TomlTable, one_line, read_document
 
 Elements = Annotated[int, Field(ge=2, le=400)]
@@ -215,10 +222,10 @@ class SpecimenDocument(TomlTable):
             raise ValueError("pickups that read relative and absolute, expected one of them")
         placed = [("pickup", p) for p in self.pickups] + [("mass", m) for m in self.mass or ()]
         for table, spot in (*placed, ("excitation", self.excitation)):
-            for name, side in (("x_mm", self.plate.length_mm), ("y_mm", self.plate.width_mm)):
-                at = getattr(spot, name, None)
-                if at is not None and at > side:
-                    raise ValueError(f"{table}.{name} = {at:g} is off the plate, expected 0 to {side:g}")
+            for name, own in (("x_mm", "length_mm"), ("y_mm", "width_mm")):
+                at, side = getattr(spot, name, None), getattr(self.plate, own)
+                if at is not None:
+                    refuse_place(f"{table}.{name}", at, f"plate.{own} = {side:g}", side)
         return self
 
 

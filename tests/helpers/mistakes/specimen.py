@@ -33,6 +33,7 @@ def tolerance(in_what: str, key: str, value: str, said: str) -> Mistake:
 
 
 SPECIMEN = [
+    stated("plate.length_mm", "0.3002", said="plate.length_mm = 0.3002, is it in m", sure=True),
     stated("substrate.young_gpa", "68900.0"),
     stated("substrate.young_gpa", "68.9e9", sure=True),
     stated("substrate.young_gpa", "0.0689"),
