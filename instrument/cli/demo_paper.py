@@ -3,40 +3,48 @@
 from pathlib import Path
 
 from instrument.cli.output import Output
-from instrument.cli.print_diagnosis import print_before_after, print_story
+from instrument.cli.print_diagnosis import print_before_after, print_law, print_story
 from instrument.cli.print_identification import print_identification
+from instrument.cli.print_run import print_result
+from instrument.facts.diagnosis import DiagnosisResult
 from instrument.paper_case import TABLE_5_THEORY_M_S
 from instrument.paper_case.demo import PaperRun, run_paper_case
 from instrument.paper_case.figures import save_figures
 from instrument.progress import bar
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
+from instrument.results.session_result import BEFORE_DIAGNOSIS, Conditions, result_of
 
 
 def show_paper_case(out: Output, folder: Path) -> None:
     """Identify ZN_1 from its published tables, diagnose what is left; save results and figures."""
     out.say("The published case: Table 3's damping and Table 5's nine measured responses.\n")
     run = run_paper_case(bar)
+    out.say(f"Identified, {BEFORE_DIAGNOSIS}:")
     print_identification(out, run.direct)
     out.say()
     _print_beside_paper(out, run)
     out.say()
-    _print_diagnosis(out, run)
+    diagnosed = diagnosis_from(run.diagnosis)
+    _print_diagnosis(out, diagnosed)
     Output(str(folder / "identify-direct.json")).result(identification_from(run.direct))
     Output(str(folder / "identify-paper.json")).result(identification_from(run.paper))
-    Output(str(folder / "diagnose-paper.json")).result(diagnosis_from(run.diagnosis))
+    Output(str(folder / "diagnose-paper.json")).result(diagnosed)
     out.say()
     for path in save_figures(run, folder, bar):
         out.say(f"saved {path}")
+    out.say()
+    print_result(out, result_of(None, diagnosed, Conditions.of_sweep(run.sweep)))
 
 
-def _print_diagnosis(out: Output, run: PaperRun) -> None:
-    """What the nine amplitudes say of the difference that four parameters leave."""
-    found = diagnosis_from(run.diagnosis)
+def _print_diagnosis(out: Output, found: DiagnosisResult) -> None:
+    """What the nine amplitudes say of the difference that four parameters leave, and the law with that."""
     out.say("What the nine points say of that:")
     print_story(out, found)
     out.say()
     print_before_after(out, found)
+    out.say()
+    print_law(out, found)
 
 
 def _print_beside_paper(out: Output, run: PaperRun) -> None:

@@ -37,7 +37,7 @@ def print_diagnosis(out: Output, found: DiagnosisResult) -> None:
     out.say()
     print_before_after(out, found)
     out.say()
-    _print_law(out, found)
+    print_law(out, found)
     for text in found.warnings:
         out.say(f"note: {text}")
     if found.seconds is not None and found.setup_seconds is not None:
@@ -125,7 +125,8 @@ def _print_candidates(out: Output, found: DiagnosisResult) -> None:
     out.table(f"candidates, likeliest first{more}", columns, rows)
 
 
-def _print_law(out: Output, found: DiagnosisResult) -> None:
+def print_law(out: Output, found: DiagnosisResult) -> None:
+    """The law without and with what was found, at the frequencies that are quoted."""
     rows = []
     for f in quoted_hz(row.frequency_hz for row in found.stages[0].law):
         pair = [row for stage in found.stages if (row := law_at(stage.law, f)) is not None]

@@ -174,6 +174,8 @@ def test_demo_identifies_and_draws(capsys, tmp_path):
     for path in (tmp_path / "out").glob("*.png"):
         assert path.stat().st_size > 1000
     assert "what was found beside the simulated plate's own law" in out
+    # The published case ends with the one result that `diagnose` prints of the same files.
+    assert out.splitlines()[-1].startswith("result: 20 Hz: G' 0.288 +- 0.044 MPa")
     (session,) = (tmp_path / "out").glob("*.h5")
     assert session.with_suffix(".html").exists()
     run = json.loads((tmp_path / "out" / "run.json").read_text())

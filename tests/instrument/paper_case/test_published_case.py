@@ -8,6 +8,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from fitting.identification.result import LawBand
+from fitting.numerics.chances import Z_95
 from instrument.cli import demo_paper
 from instrument.cli.output import Output
 from instrument.paper_case import TABLE_4, TABLE_5_THEORY_M_S, demo, figures
@@ -39,7 +40,10 @@ def found(table5, factor=1.0, method="direct"):
 @pytest.fixture
 def run(zn1, table5):
     each = found(table5), found(table5, method="paper"), found(table5, 1.2)
-    return PaperRun(zn1, table5, *each, SimpleNamespace())
+    G, eta = TABLE_4.storage_and_loss(2 * np.pi * F)
+    after = SimpleNamespace(band=LawBand(F, 0.9 * G, eta, 0.15 * G, 0.1 * eta))
+    diagnosis = SimpleNamespace(result=SimpleNamespace(after=after))
+    return PaperRun(zn1, table5, *each, diagnosis)
 
 
 def lines(ax):
@@ -62,7 +66,7 @@ def test_both_methods_one_without_viscous_damping_and_a_diagnosis_are_of_table_5
     assert made.diagnosis == (9, made.specimen)
 
 
-def test_the_law_is_drawn_with_and_without_the_viscous_damping_beside_the_printed_one(run, table5):
+def test_the_law_is_drawn_with_and_without_the_viscous_damping_in_the_band_of_the_result(run, table5):
     left, right = figures.figure_10(run).axes
     G, eta = TABLE_4.storage_and_loss(2 * np.pi * F)
     drawn = lines(left)
@@ -71,10 +75,12 @@ def test_the_law_is_drawn_with_and_without_the_viscous_damping_beside_the_printe
     np.testing.assert_allclose(drawn["Table 4"][1], G / 1e6)
     np.testing.assert_allclose(lines(right)["Table 4"][1], eta)
     # A tick at each of the nine frequencies.
-    ticks = [line.get_xdata()[0] for line in left.lines[3:]]
+    ticks = [line.get_xdata()[0] for line in left.lines[4:]]
     np.testing.assert_allclose(ticks, table5.frequency_hz)
-    band = left.collections[0].get_paths()[0].vertices[:, 1]
-    assert band.max() == pytest.approx((G * (1 + 1.96 * 0.02)).max() / 1e6)
+    np.testing.assert_allclose(drawn["result, after the diagnosis"], [F, 0.9 * G / 1e6])
+    # The one band is the diagnosis's, not that of a fit alone.
+    (band,) = [c.get_paths()[0].vertices[:, 1] for c in left.collections]
+    assert band.max() == pytest.approx((G * (0.9 + Z_95 * 0.15)).max() / 1e6)
 
 
 def test_each_resonance_has_its_measured_points_among_three_models(monkeypatch, run, table5):
@@ -130,6 +136,12 @@ def test_the_case_is_told_beside_the_published_theory_and_kept_as_results(monkey
     monkeypatch.setattr(demo_paper, "print_identification", lambda out, *_: out.say("<identified>"))
     monkeypatch.setattr(demo_paper, "print_story", lambda out, found: out.say("<story>"))
     monkeypatch.setattr(demo_paper, "print_before_after", lambda out, found: out.say("<before and after>"))
+    monkeypatch.setattr(demo_paper, "print_law", lambda out, found: out.say(f"<law of the {found.of}>"))
+    monkeypatch.setattr(
+        demo_paper,
+        "result_of",
+        lambda fit, found, at: SimpleNamespace(words=f"{fit}, {found.of}, {at.points}"),
+    )
     monkeypatch.setattr(demo_paper, "save_figures", lambda run, folder, progress: [folder / "fig10.png"])
 
     class Result:
@@ -146,11 +158,14 @@ def test_the_case_is_told_beside_the_published_theory_and_kept_as_results(monkey
     demo_paper.show_paper_case(Output(None), tmp_path)
     said = capsys.readouterr().out
     order = [
+        "Identified, before the diagnosis:",
         "<identified>",
         "Table 5 beside",
         "<story>",
         "<before and after>",
+        "<law of the diagnosis>",
         f"saved {tmp_path / 'fig10.png'}",
+        "result: None, diagnosis, 9",
     ]
     assert sorted(order, key=said.index) == order
     # Every measured amplitude beside the printed and both fitted ones.
