@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from instrument.facts.doubts import doubts_of
 from instrument.facts.identification import IdentificationResult
 from instrument.results.fit_file import found_law
-from instrument.results.law_words import LAW_COLUMNS, a_few, aligned, law_cells
+from instrument.results.law_words import LAW_COLUMNS, a_few, aligned, law_cells, sources_words
 from instrument.results.numbers import with_error
 from viscorig.facts import Facts
 from viscorig.shown import Columns, columns
@@ -94,7 +94,8 @@ class Identification(Facts[IdentificationResult]):
         """As the command prints it: with G' and the loss factor at a few frequencies of the band."""
         heading, *rest = self.lines()
         rows = law_cells(a_few(self.result.law), sign="±")
-        title = "the law in the measured band, ± one standard error (noise, model error, tolerances)"
+        sources = sources_words(self.result.method, self.result.noise)
+        title = f"the law in the measured band, ± one standard error ({sources})"
         return "\n".join([heading, title, *aligned(LAW_COLUMNS, rows), *rest])
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":

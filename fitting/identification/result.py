@@ -181,9 +181,8 @@ def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: 
     if noise_is_known and uncertainty.chi2_per_dof > _MISFIT:
         said.append(
             Doubt(
-                f"the residual is {written_out(uncertainty.chi2_per_dof, 3)} times what the noise explains "
-                "(chi-square per degree of freedom): the model lacks something, "
-                f"and {BIASED}"
+                f"chi-square per degree of freedom is {written_out(uncertainty.chi2_per_dof, 3)} where noise "
+                f"and model error leave 1: the model lacks something, and {BIASED}"
             )
         )
     return [*said, *_law_warnings(fit.law, uncertainty)]

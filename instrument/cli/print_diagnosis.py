@@ -87,7 +87,7 @@ def print_before_after(out: Output, found: DiagnosisResult) -> None:
     rows = [
         [f"rms difference in {percent_of(found)}/%", *(_two(s.rms_percent) for s in found.stages), ""],
         ["largest difference/%", *(_two(s.max_percent) for s in found.stages), ""],
-        ["chi-square per degree", *(_two(s.chi2_per_dof) for s in found.stages), "1"],
+        ["chi-square per degree of freedom", *(_two(s.chi2_per_dof) for s in found.stages), "1"],
     ]
     for b, a in zip(found.before.held_out, found.after.held_out, strict=False):
         rows.append(

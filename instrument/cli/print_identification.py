@@ -10,7 +10,7 @@ from instrument.cli.output import Output
 from instrument.finding.identification import Identified
 from instrument.results.adjusted_words import COLUMNS, adjusted_rows, more_adjusted
 from instrument.results.error_words import is_below_floor, percent_words
-from instrument.results.law_words import LAW_COLUMNS, a_few, law_cells
+from instrument.results.law_words import LAW_COLUMNS, a_few, law_cells, sources_words
 from instrument.results.numbers import error_beside, to_error
 from instrument.results.rows_from import law_rows_from
 
@@ -66,7 +66,7 @@ def _relative(error: float, value: float) -> str:
 
 def _print_band(out: Output, r: Identification) -> None:
     out.table(
-        "the law in the measured band, +- one standard error (noise, model error, tolerances)",
+        f"the law in the measured band, +- one standard error ({sources_words(r.method, r.noise.source)})",
         list(LAW_COLUMNS),
         law_cells(a_few(law_rows_from(r.band))),
     )

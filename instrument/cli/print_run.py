@@ -133,7 +133,7 @@ def print_fit(out: Output, fit: FitUpdated, which: str = "") -> None:
     out.say(
         f"residual {result.rms_percent:.2f} % rms"
         + (f", each segment from the others {held:.2f} %" if held is not None else "")
-        + (f", chi2 per degree {chi2:.2f}" if chi2 is not None else "")
+        + (f", chi-square per degree of freedom {chi2:.2f}" if chi2 is not None else "")
     )
     for warning in result.warnings:
         out.say(f"note: {warning}")

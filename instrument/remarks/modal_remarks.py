@@ -51,10 +51,10 @@ def remark_on_fit(fit: ModalFit, tables: Sequence[ModalTable]) -> tuple[Doubt, .
     chi2 = fit.uncertainty.chi2_per_dof
     if not chi2 > _MISFIT:
         return ()
-    whose = "their" if all(t.states_its_noise for t in tables) else "the assumed"
+    whose = "the modes'" if all(t.states_its_noise for t in tables) else "the assumed"
     return (
         Doubt(
-            f"the modes are off by {chi2:.3g} times what {whose} errors explain (chi-square per degree), by "
+            f"chi-square per degree of freedom is {chi2:.3g} where {whose} errors leave 1: modes are off by "
             f"up to {two_digits(100 * np.abs(off_f).max())} % in frequency and "
             f"{two_digits(100 * np.abs(off_eta).max())} % in loss factor: check mode numbers, "
             "and that loss factors are no damping ratios (half of them); else the model lacks something, and "

@@ -20,6 +20,7 @@ from instrument.report.law_to_use import TITLE, found_with_effect
 from instrument.report.measured import Measured, segments_of
 from instrument.results.adjusted_words import COLUMNS, adjusted_rows
 from instrument.results.diagnosis_words import UNKNOWN, with_verdict
+from instrument.results.law_words import sources_words
 from instrument.results.numbers import format_number, with_error
 from instrument.results.session_result import (
     BEFORE_DIAGNOSIS,
@@ -197,7 +198,7 @@ def _band(r: Identification, contents: Contents) -> TableBlock:
         b.loss_factor_standard_error,
     )
     law = [LawAt(*map(float, row)) for row in zip(*columns, strict=True)]
-    title = "The law in the band, ± one standard error (noise, model error, tolerances)"
+    title = f"The law in the band, ± one standard error ({sources_words(r.method, r.noise.source)})"
     return band_table(_titled(title, contents), law)
 
 

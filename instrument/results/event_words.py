@@ -122,5 +122,7 @@ def _doubt(fit: IdentificationResult) -> str:
     """Said where the error stated beside a law is not all that is wrong with it."""
     if not doubts_of(fit):
         return ""
-    left = f", chi-square per degree {fit.chi2_per_dof:.3g}" if fit.chi2_per_dof is not None else ""
+    left = (
+        f", chi-square per degree of freedom {fit.chi2_per_dof:.3g}" if fit.chi2_per_dof is not None else ""
+    )
     return f"; {DOUBTED}{left}"

@@ -10,6 +10,14 @@ _ROWS = 6
 LAW_COLUMNS = ("frequency/Hz", "G'/MPa", "loss factor")
 
 
+def sources_words(method: str, noise: str) -> str:
+    """What is in a fit's standard errors, by its method and where it has its noise from (`Noise.source`)."""
+    if method != "direct":
+        return "what the fit leaves"
+    known = noise not in ("unknown", "misfit")
+    return "noise, model error, tolerances" if known else "what the fit leaves, tolerances"
+
+
 def a_few(law: Sequence[LawRow]) -> list[LawRow]:
     """Rows spread over the band, its ends among them."""
     every = max(1, len(law) // _ROWS)

@@ -171,7 +171,8 @@ def _explanation(
     if diagnosed.misread:
         return (*said, f"{diagnosed.misread[0].upper()}{diagnosed.misread[1:]}.")
     if judgement.verdict == "none":
-        return (*said, "That is what the modes' errors leave: no effect is called for.")
+        whose = "the modes'" if before.chi2_per_dof is not None else "the usual"
+        return (*said, f"That is what {whose} errors leave: no effect is called for.")
     if judgement.accepted is None:
         nearest = f" What comes nearest, {' with '.join(judgement.refused)}, {judgement.why}." * bool(
             judgement.why

@@ -240,7 +240,7 @@ def remarked(warnings: tuple[str, ...]) -> str:
     known = {
         "further than": "pulled",
         "together": "together",
-        "what the noise explains": "misfit",
+        "chi-square per degree": "misfit",
         "not follow the data": "lost",
         "cores have": "no core",
         "negative": "gains energy",

@@ -40,7 +40,8 @@ def structure(
     said = []
     if chi2_per_dof > VERDICT.size:
         said.append(
-            f"the residual is {written_out(chi2_per_dof, 3)} times what noise and model error explain"
+            f"chi-square per degree of freedom is {written_out(chi2_per_dof, 3)} where noise and model error "
+            "leave 1"
         )
     runs, memory = along_frequency(sweep, whitened, 2 if evidence.has_phase else 1, struck=struck)
     if runs > VERDICT.runs_sigma:

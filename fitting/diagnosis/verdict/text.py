@@ -47,7 +47,7 @@ def explain(
     said = [_left(problem, before)]
     scored = judgement.accepted
     if judgement.verdict == "none":
-        said += _without_effect(problem, judgement)
+        said += _without_effect(problem, judgement, noise_known=bool(np.isfinite(before.chi2_per_dof)))
     elif scored is None:
         said += _unexplained(problem, judgement, before)
     elif judgement.verdict == "ambiguous" and judgement.note:
@@ -56,16 +56,18 @@ def explain(
         said += _what_it_is(problem, judgement, scored, found)
         said += _what_it_may_stand_for(judgement, scored)
         said += _what_it_may_be_besides(judgement)
-        said += _what_it_leaves(before, after, found)
+        said += what_it_leaves(before, after, found)
     return tuple(said)
 
 
-def _without_effect(problem: DiagnosisProblem, judgement: Judgement) -> list[str]:
+def _without_effect(problem: DiagnosisProblem, judgement: Judgement, *, noise_known: bool) -> list[str]:
     """Where no effect is called for, or none wanted."""
     if judgement.by_hand:
         return ["No effect is accepted, by your word."]
     model = "a layer-wise plate" if problem.specimen.kind == "plate" else "the model"
-    said = [f"That is what noise and {model}'s own error leave: no effect is called for."]
+    said = ["How much of that is noise these points do not show: they call for no effect."]
+    if noise_known:
+        said = [f"That is what noise and {model}'s own error leave: no effect is called for."]
     said += _beside_none(judgement)
     if judgement.refused:
         said.append(f"The nearest, {' with '.join(judgement.refused)}, {judgement.why}.")
@@ -127,7 +129,7 @@ def _what_it_may_be_besides(judgement: Judgement) -> list[str]:
     return said + beside_kin(judgement)
 
 
-def _what_it_leaves(before: Stage, after: Stage, found: tuple[FoundEffect, ...]) -> list[str]:
+def what_it_leaves(before: Stage, after: Stage, found: tuple[FoundEffect, ...]) -> list[str]:
     """The fit and the core's law without and with it."""
     said = [
         f"With it the fit leaves {two_digits(after.rms_percent)} % rms instead of "
@@ -217,8 +219,8 @@ def _left(problem: DiagnosisProblem, before: Stage) -> str:
     kind = in_words(problem.specimen.kind)
     text = f"The stated {kind} with its best law leaves {two_digits(before.rms_percent)} % rms in amplitude"
     if np.isfinite(before.chi2_per_dof):
-        times = written_out(before.chi2_per_dof, 3)
-        text += f", {times} times what noise and model error explain (chi-square per degree)"
+        chi2 = written_out(before.chi2_per_dof, 3)
+        text += f", chi-square per degree of freedom {chi2} where noise and model error leave 1"
     return text + "."
 
 
@@ -267,9 +269,8 @@ def _whose(problem: DiagnosisProblem, point: int) -> str:
 def _chi2(before: Stage, after: Stage) -> str:
     if not np.isfinite(after.chi2_per_dof):
         return ""
-    return (
-        f", {written_out(after.chi2_per_dof, 3)} instead of {written_out(before.chi2_per_dof, 3)} times noise"
-    )
+    chi2 = [written_out(stage.chi2_per_dof, 3) for stage in (after, before)]
+    return f", chi-square per degree of freedom {chi2[0]} instead of {chi2[1]}"
 
 
 def _held_out(before: Stage, after: Stage, found: tuple[FoundEffect, ...]) -> str:

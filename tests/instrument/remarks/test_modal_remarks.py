@@ -25,11 +25,11 @@ def test_a_fit_that_leaves_the_modes_says_so():
     (said,) = remark_on_fit(fit(240.0, 0.2, 90.0), tables)
     assert said.startswith("the fit does not follow the modes (rms 14.1 % in frequency)")
     (said,) = remark_on_fit(fit(202.0, 0.1, 5.6), tables)
-    assert said.startswith("the modes are off by 5.6 times what their errors explain")
+    assert said.startswith("chi-square per degree of freedom is 5.6 where the modes' errors leave 1")
     assert "1 % in frequency and 50 % in loss factor" in said
     assert "no damping ratios" in said
     (said,) = remark_on_fit(fit(202.0, 0.1, 5.6), [assumed])
-    assert said.startswith("the modes are off by 5.6 times what the assumed errors explain")
+    assert said.startswith("chi-square per degree of freedom is 5.6 where the assumed errors leave 1")
 
 
 def test_the_row_that_does_not_go_with_the_others_is_named_with_its_file_and_where_they_have_it():

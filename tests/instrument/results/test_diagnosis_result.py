@@ -111,7 +111,7 @@ def test_a_person_reads_verdict_reasons_and_numbers(capsys, how):
         "a mass of 8 g",
         "Next measurement",
         "spot_offset",
-        "chi-square per degree",
+        "chi-square per degree of freedom",
         "note: the points carry no time",
         "set-up 1.50 s, diagnosis 0.25 s",
     ):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from instrument.facts.rows import LawRow
-from instrument.results.law_words import LAW_COLUMNS, a_few, aligned, law_cells
+from instrument.results.law_words import LAW_COLUMNS, a_few, aligned, law_cells, sources_words
 
 
 def rows(count):
@@ -37,3 +37,12 @@ def test_a_table_stands_in_columns_whatever_is_longest():
     lines = aligned(LAW_COLUMNS, [["1.0", "2 ± 3", "a long cell indeed"], ["10.0", "2.25 ± 0.25", "4"]])
     assert len({len(line) for line in lines}) == 1
     assert lines[1].startswith("         1.0        2 ± 3  a long")
+
+
+def test_what_is_in_an_error_goes_by_whether_the_noise_is_known():
+    assert sources_words("direct", "stated") == "noise, model error, tolerances"
+    assert sources_words("direct", "local scatter") == "noise, model error, tolerances"
+    # The model's own error is of what is known besides the noise.
+    assert sources_words("direct", "unknown") == "what the fit leaves, tolerances"
+    assert sources_words("direct", "misfit") == "what the fit leaves, tolerances"
+    assert sources_words("paper", "stated") == "what the fit leaves"

@@ -14,14 +14,17 @@ from fitting.diagnosis.verdict.kin import UNLISTED
 from fitting.diagnosis.verdict.result import FoundEffect, ParameterEstimate
 from fitting.diagnosis.verdict.text import (
     beside_kin,
+    explain,
     how_likely,
     moved_words,
     next_measurement,
     story,
+    what_it_leaves,
     where_nothing_explains,
 )
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
+from fitting.identification.result import LawBand
 
 
 @pytest.mark.parametrize(("none", "words"), [(0.52, "If anything,"), (0.3, "Most likely")])
@@ -109,4 +112,44 @@ def test_sizes_that_are_hardly_known_are_said_with_their_errors():
     assert warmed(np.nan, np.nan) == plain
     assert warmed(28.0, 3060.0) == (
         f"{plain} (known roughly: warming 9.5 +- 28 K, time_constant 1000 +- 3100 s)"
+    )
+
+
+def stage(chi2, rms_percent, held_out=None):
+    said = SimpleNamespace(leave_one_out_rms_percent=None, held_out_rms_percent=held_out)
+    band = LawBand(np.array([100.0]), np.array([3e5]), np.array([0.3]), np.zeros(1), np.zeros(1))
+    return SimpleNamespace(chi2_per_dof=chi2, rms_percent=rms_percent, validation=said, band=band)
+
+
+def told(judgement, before, after, found=()):
+    plate = SimpleNamespace(specimen=SimpleNamespace(kind="plate"))
+    return explain(plate, judgement, before, after, found)
+
+
+@pytest.mark.parametrize(
+    ("chi2", "left", "words"),
+    [
+        (
+            1.02,
+            ", chi-square per degree of freedom 1.02 where noise and model error leave 1.",
+            "That is what",
+        ),
+        # Nobody knows what noise leaves of points that do not show theirs.
+        (np.nan, ".", "How much of that is noise these points do not show: they call for no effect."),
+    ],
+)
+def test_that_noise_leaves_as_much_is_said_only_of_a_noise_that_is_known(chi2, left, words):
+    before = stage(chi2, 5.2)
+    first, second = told(Judgement("none", None, {}), before, before)
+    assert first == f"The stated plate with its best law leaves 5.2 % rms in amplitude{left}"
+    assert second.startswith(words)
+
+
+def test_chi_square_is_called_what_it_is_wherever_it_is_said():
+    """It is of squares, with the model's own error in it: not so many times the noise."""
+    before, after = stage(41.0, 3.0, 3.1), stage(0.59, 0.35, 0.36)
+    left, *_ = what_it_leaves(before, after, ())
+    assert left == (
+        "With it the fit leaves 0.35 % rms instead of 3 %, chi-square per degree of freedom 0.59 instead of "
+        "41; on segments held out 0.36 % instead of 3.1 %."
     )
