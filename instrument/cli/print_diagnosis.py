@@ -19,9 +19,16 @@ from instrument.results.diagnosis_words import (
     with_verdict,
 )
 from instrument.results.foretelling import is_foretold
-from instrument.results.next_words import NEXT_COLUMNS, NEXT_TITLE, kind_words, next_row, separated_words
+from instrument.results.next_words import (
+    NEXT_COLUMNS,
+    NEXT_TITLE,
+    beyond_words,
+    kind_words,
+    next_row,
+    separated_words,
+)
 from instrument.results.numbers import with_error
-from instrument.results.unseen_words import UNSEEN_COLUMNS, UNSEEN_TITLE, unseen_row
+from instrument.results.unseen_words import UNSEEN_COLUMNS, unseen_row, unseen_title
 
 _MOST_CANDIDATES = 8
 _WIDTH = 100
@@ -54,7 +61,8 @@ def print_story(out: Output, found: DiagnosisResult) -> None:
     if found.set_aside_hz:
         out.say(textwrap.fill(set_aside_words(found), _WIDTH))
     if found.next_measurement:
-        out.say(textwrap.fill(f"Next measurement: {found.next_measurement}", _WIDTH))
+        said = " ".join(filter(None, (found.next_measurement, beyond_words(found))))
+        out.say(textwrap.fill(f"Next measurement: {said}", _WIDTH))
     _print_next(out, found)
     _print_unseen(out, found)
 
@@ -79,7 +87,9 @@ def _print_unseen(out: Output, found: DiagnosisResult) -> None:
     if shown:
         out.say()
         more = f", {len(shown)} of {len(found.unseen)}" if len(shown) < len(found.unseen) else ""
-        out.table(f"{UNSEEN_TITLE}{more}", list(UNSEEN_COLUMNS), [list(unseen_row(one)) for one in shown])
+        out.table(
+            f"{unseen_title(found)}{more}", list(UNSEEN_COLUMNS), [list(unseen_row(one)) for one in shown]
+        )
 
 
 def print_before_after(out: Output, found: DiagnosisResult) -> None:

@@ -6,6 +6,7 @@ from fitting.identification.quoted import quoted_hz
 from fitting.structures import AnySpecimen
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.report.blocks import Block, FigureBlock, ReportSection, Sentence, TableBlock
+from instrument.report.law_to_use import found_with_effect
 from instrument.results.diagnosis_figures import evidence_figure, law_figure, residual_figure
 from instrument.results.diagnosis_words import (
     candidate_words,
@@ -20,13 +21,13 @@ from instrument.results.diagnosis_words import (
 )
 from instrument.results.followed import followed_of, measured_words
 from instrument.results.foretelling import is_foretold
-from instrument.results.next_words import NEXT_COLUMNS, NEXT_TITLE, next_row, separated_words
+from instrument.results.next_words import NEXT_COLUMNS, NEXT_TITLE, beyond_words, next_row, separated_words
 from instrument.results.numbers import format_number, with_error
 from instrument.results.offer_sketch import offer_view
 from instrument.results.sketch_figure import sketch_figure
 from instrument.results.standing import laws_apart, one_fit_words, stage_before
 from instrument.results.typeset import capitalised, heading, note
-from instrument.results.unseen_words import UNSEEN_COLUMNS, UNSEEN_TITLE, unseen_row
+from instrument.results.unseen_words import UNSEEN_COLUMNS, unseen_row, unseen_title
 from instrument.session.contents import Contents
 
 _TITLE = "Diagnosis"
@@ -49,7 +50,8 @@ def diagnosis_sections(contents: Contents) -> list[ReportSection]:
     if found.set_aside_hz:
         blocks.append(Sentence(set_aside_words(found), "note"))
     if found.next_measurement:
-        blocks.append(Sentence(f"Next measurement: {found.next_measurement}", "note"))
+        said = " ".join(filter(None, (found.next_measurement, beyond_words(found))))
+        blocks.append(Sentence(f"Next measurement: {said}", "note"))
     blocks += _next(found, contents.specimen)
     blocks += _unseen(found)
     blocks += [Sentence(note(text), "note") for text in found.warnings]
@@ -61,8 +63,10 @@ def diagnosis_sections(contents: Contents) -> list[ReportSection]:
         _candidates(found),
         FigureBlock(evidence_figure(found), "Evidence for each candidate"),
         _law(found),
-        FigureBlock(law_figure(found), with_verdict(f"The core's law {when}; with 95 % bands", found)),
     ]
+    if found_with_effect(contents) is None:
+        drawn = with_verdict(f"The core's law {when}; with 95 % bands", found)
+        blocks.append(FigureBlock(law_figure(found), drawn))
     return [ReportSection(_TITLE, tuple(blocks))]
 
 
@@ -92,7 +96,7 @@ def _next(found: DiagnosisResult, specimen: AnySpecimen) -> list[Block]:
 
 def _unseen(found: DiagnosisResult) -> list[Block]:
     """What may be there all the same."""
-    title = capitalised(UNSEEN_TITLE)
+    title = capitalised(unseen_title(found))
     rows = tuple(unseen_row(one) for one in found.unseen)
     columns = tuple(map(heading, UNSEEN_COLUMNS))
     return [TableBlock(title, columns, rows, words=UNSEEN_COLUMNS[:2])] if rows else []

@@ -28,17 +28,19 @@ from instrument.results.session_result import (
     recorded_result,
     result_of,
 )
-from instrument.results.standing import none_is_likelier
-from instrument.results.typeset import note, typeset
+from instrument.results.standing import is_one_of_several, law_words, none_is_likelier
+from instrument.results.typeset import capitalised, note, typeset
 from instrument.session.contents import Contents
 
 _SAME = 1e-6
 """Relative difference to the run's own fit that is rounding."""
-_WITHOUT = "Without the effect found, not to be used"
+_WITHOUT = f"{capitalised(BEFORE_DIAGNOSIS)}, not to be used"
 _BEFORE = (
-    "This is the law before the diagnosis, which found an effect that the model lacked. The law to use is "
-    f"the one after it: at the head of the page and in the section {TITLE}."
+    "This is the law before the diagnosis, which found {}. The law to use is the one after it: at the head "
+    f"of the page and in the section {TITLE}."
 )
+_FOUND = "an effect that the model lacked"
+_FOUND_ONE_OF = "that the model lacked something, and cannot tell what of several: {}"
 
 _NOT_EXCLUDED = (
     "The diagnosis found no effect likelier than none: what it could not rule out is in its section."
@@ -57,10 +59,7 @@ def identification_section(contents: Contents, fitted: ReportedFit) -> ReportSec
         Sentence(f"{r.law.kind} law from {_points(fit)} by {r.method} least squares, {_hammer(fit)}."),
         *_doubt(contents),
         *(Sentence(note(warning), "note") for warning in r.warnings),
-        FigureBlock(
-            law_figure(fit, _named(contents)),
-            _titled(f"Shear modulus and loss factor in the measured band, {_banded(r)}", contents),
-        ),
+        *_drawn(fit, contents),
         _band(r, contents),
         _parameters(r, contents),
         _correlations(r, contents),
@@ -167,14 +166,16 @@ def _doubt(contents: Contents) -> list[Block]:
         return [Sentence(f"Diagnosis: {UNKNOWN}. The law may be far off its band.", "warning")]
     if none_is_likelier(found):
         return [Sentence(_NOT_EXCLUDED, "note")]
-    return [Sentence(_BEFORE, "warning")]
+    what = _FOUND_ONE_OF.format(law_words(found)) if is_one_of_several(found) else _FOUND
+    return [Sentence(_BEFORE.format(what), "warning")]
 
 
-def _named(contents: Contents) -> str:
-    """The law in the legend."""
+def _drawn(fit: Identified, contents: Contents) -> list[Block]:
+    """The law; nothing where the section of the law to use draws it beside that."""
     if found_with_effect(contents) is not None:
-        return "without the effect found"
-    return doubted("identified", contents)
+        return []
+    title = doubted(f"Shear modulus and loss factor in the measured band, {_banded(fit.result)}", contents)
+    return [FigureBlock(law_figure(fit, doubted("identified", contents)), title)]
 
 
 def _banded(r: Identification) -> str:

@@ -1,11 +1,12 @@
-"""The law to use where a diagnosis has found an effect: the one after it, before any other law."""
+"""The law to use where a diagnosis moves it: the one after it, before any other law."""
 
 from instrument.facts.diagnosis import DiagnosisResult
-from instrument.report.blocks import Block, ReportSection, Sentence
+from instrument.report.blocks import Block, FigureBlock, ReportSection, Sentence
 from instrument.report.law_tables import LawAt, band_table, correlation_table, parameter_table
+from instrument.results.diagnosis_figures import law_figure
 from instrument.results.diagnosis_words import with_verdict
 from instrument.results.numbers import format_number
-from instrument.results.standing import law_words, stage_before
+from instrument.results.standing import is_one_of_several, law_words, stage_before
 from instrument.session.contents import Contents
 
 TITLE = "Law to use, after the diagnosis"
@@ -30,7 +31,14 @@ def law_to_use_sections(contents: Contents) -> list[ReportSection]:
     after, effects = found.after, law_words(found)
     kind = f"{after.law_kind} law" if after.law_kind else "The law"
     rms = format_number(after.rms_percent, 3)
-    said = f"{kind} found with {effects}, which leaves {rms} % rms of the amplitudes. This is the law to use."
+    likeliest = " and ".join(found.equivalent)
+    said = f"{kind} found with {effects}, which leaves {rms} % rms of the amplitudes."
+    if is_one_of_several(found):
+        said = (
+            f"{kind} over all explanations that these data cannot tell apart, {effects}: where they differ, "
+            f"its errors are wider. With {likeliest} the fit leaves {rms} % rms of the amplitudes."
+        )
+    said += " This is the law to use."
     law = [
         LawAt(
             row.frequency_hz,
@@ -42,12 +50,18 @@ def law_to_use_sections(contents: Contents) -> list[ReportSection]:
         for row in after.law
     ]
     in_band = f"The law after the diagnosis, with {effects}, in the band, ± one standard error"
-    blocks: list[Block] = [Sentence(said), band_table(with_verdict(in_band, found), law)]
+    drawn = with_verdict("The core's law before and after the diagnosis; with 95 % bands", found)
+    blocks: list[Block] = [
+        Sentence(said),
+        FigureBlock(law_figure(found), drawn),
+        band_table(with_verdict(in_band, found), law),
+    ]
     # Sessions of older versions have the law alone.
     if after.parameters and after.parameters.keys() <= after.standard_errors.keys():
-        title = with_verdict("Parameters after the diagnosis, ± one standard error", found)
+        alone = f", with {likeliest} alone" if is_one_of_several(found) else ""
+        title = with_verdict(f"Parameters after the diagnosis{alone}, ± one standard error", found)
         blocks.append(parameter_table(title, after.parameters, after.standard_errors, {}))
         if after.correlations:
-            title = "Correlations of the logarithms of the parameters after the diagnosis"
+            title = f"Correlations of the logarithms of the parameters after the diagnosis{alone}"
             blocks.append(correlation_table(with_verdict(title, found), after.correlations))
     return [ReportSection(TITLE, tuple(blocks))]

@@ -27,7 +27,14 @@ from instrument.results.drawing import (
     legend_above,
     mark_set_aside,
 )
-from instrument.results.standing import Standing, laws_apart, one_fit_words, stages_apart, standing
+from instrument.results.standing import (
+    Standing,
+    is_one_of_several,
+    laws_apart,
+    one_fit_words,
+    stages_apart,
+    standing,
+)
 
 _MOST_BARS = 12
 _PARTS = (
@@ -38,7 +45,7 @@ _PARTS = (
 _MOST_SEGMENTS = 5
 _OTHER = "#9bb8d3"
 _BAR_COLOURS: dict[Standing, str] = {"found": MARK, "equal": MODEL, "none": "#444444", "other": _OTHER}
-_BAR_NAMES = {MARK: "accepted", MODEL: "not to be told apart", _OTHER: "others"}
+_BAR_NAMES = {MARK: "found", MODEL: "not to be told apart", _OTHER: "others"}
 
 
 def save_diagnosis_figures(found: DiagnosisResult, folder: Path) -> list[Path]:
@@ -145,7 +152,8 @@ def evidence_figure(found: DiagnosisResult) -> Figure:
         x="times as likely as no effect, in powers of e: 3 is 20 times "
         "(labels: probability, chi² per degree of freedom)",
     )
-    handles = [Patch(color=colour, label=name) for colour, name in _BAR_NAMES.items() if colour in colours]
+    names = _BAR_NAMES | ({MARK: "the likeliest"} if is_one_of_several(found) else {})
+    handles = [Patch(color=colour, label=name) for colour, name in names.items() if colour in colours]
     figure.legend(handles=handles, loc="outside upper center", ncols=4, fontsize=8, frameon=False)
     return figure
 

@@ -1,10 +1,12 @@
 """What would tell explanations apart, as people read it: one sentence for the best, a row for each."""
 
 from collections.abc import Sequence
-from math import log
+from math import isnan, log, nan
 
-from fitting.digits import times
+from fitting.digits import times, two_digits
+from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.follow_up import FollowUp, FollowUpKind
+from instrument.results.standing import standing
 
 NEXT_TITLE = "what would tell the explanations apart if one of them is true, best first"
 NEXT_COLUMNS = ("what to measure", "s of rig and hands", "settles it", "likelier by")
@@ -48,6 +50,22 @@ def next_row(offer: FollowUp) -> tuple[str, ...]:
 def apart_words(between: Sequence[str]) -> str:
     """What a measurement is for."""
     return f"to tell {separated_words(between)} apart"
+
+
+def beyond_words(found: DiagnosisResult) -> str:
+    """Which explanations a measurement tells apart that the verdict does not name; empty for none.
+
+    The verdict names what has 95 % together. What comes next takes its place once that is ruled out.
+    """
+    between = dict.fromkeys(name for offer in found.next_measurements[:1] for name in offer.between)
+    named = {name for group in found.equivalent.values() for name in group}
+    beyond = [n for n in between if n not in named and standing(n, found) in ("other", "none")]
+    if not found.equivalent or not beyond:
+        return ""
+    shares = [c.probability for c in found.candidates if c.name in beyond]
+    share = sum(shares) if len(shares) == len(beyond) else nan
+    has = "" if isnan(share) else f" ({two_digits(100 * share)} %{' together' * (len(beyond) > 1)})"
+    return f"Less likely than what the verdict names, and told apart too: {separated_words(beyond)}{has}."
 
 
 def separated_words(between: Sequence[str], most: int = _MOST_NAMED) -> str:

@@ -53,9 +53,29 @@ def none_leads(equivalent: Mapping[str, Sequence[str]], probability: Mapping[str
 
 
 def law_words(found: DiagnosisResult) -> str:
-    """What the law is with, after "with"; empty where no effect is at issue."""
+    """What the law is with, after "with": the likeliest, and what cannot be told from it.
+
+    Empty where no effect is at issue.
+    """
+    if none_is_likelier(found):
+        return fit_words(found)
+    several = len(found.equivalent) > 1
+    each = [_or_others(name, group) for name, group in found.equivalent.items()]
+    return " and ".join(f"({one})" if several and " or " in one else one for one in each)
+
+
+def fit_words(found: DiagnosisResult) -> str:
+    """What the fit after is with, whose residual and response are shown: of a group the likeliest.
+
+    Empty where no effect is at issue.
+    """
     effects = " and ".join(found.equivalent)
     return f"no effect, or {effects}" if none_is_likelier(found) else effects
+
+
+def is_one_of_several(found: DiagnosisResult) -> bool:
+    """Whether the law that stands is over explanations that the data cannot tell apart."""
+    return any(set(group) - {name} for name, group in found.equivalent.items())
 
 
 def stage_before(found: DiagnosisResult) -> StageFitted | None:
@@ -78,6 +98,14 @@ def laws_apart(found: DiagnosisResult) -> tuple[StageName, ...]:
 def one_fit_words(found: DiagnosisResult) -> str:
     """Why there is one fit where nothing comes after it."""
     return "no effect is the likeliest" if found.equivalent else "no effect is accepted"
+
+
+def _or_others(name: str, group: Sequence[str]) -> str:
+    others = [n for n in group if n != name]
+    if len(others) > 1:
+        return f"{name} or {len(others)} others"
+    said = {"none": "no effect", UNLISTED: "another of its kind"}
+    return " or ".join([name, *(said.get(n, n) for n in others)])
 
 
 def _group(found: DiagnosisResult) -> set[str] | None:

@@ -11,6 +11,7 @@ from gui.style.theme import Role, current_theme
 from gui.widgets.mark import Mark
 from instrument.facts.doubts import doubts_of
 from instrument.results.diagnosis_words import verdict_line
+from instrument.results.next_words import beyond_words
 from instrument.results.typeset import capitalised, note, typeset
 
 _EDGE_PX = 5
@@ -67,7 +68,7 @@ class Finding(QWidget):
         said = f"● {shown.origin}" if made_here else shown.origin
         self.origin.say(said, "fair" if made_here else "faint", bold=made_here)
         self.origin.setToolTip(str(shown.asked.data) if shown.asked is not None else "")
-        self.next.say(shown.found.next_measurement)
+        self.next.say(shown.found.next_measurement, beyond_words(shown.found))
 
     def show_none(self, said: str) -> None:
         """There is no diagnosis."""
@@ -106,9 +107,10 @@ class Advice(QFrame):
         """The text that is shown."""
         return self._label.text()
 
-    def say(self, next_measurement: str) -> None:
-        """Show what to measure next; hidden where there is nothing."""
-        self._label.setText(f"Measure next. {next_measurement}" if next_measurement else "")
+    def say(self, next_measurement: str, beside: str = "") -> None:
+        """Show what to measure next, and what is said beside; hidden where there is nothing."""
+        said = f"Measure next. {next_measurement} {beside}".rstrip()
+        self._label.setText(said if next_measurement else "")
         self.setVisible(bool(next_measurement))
         self._tint()
 

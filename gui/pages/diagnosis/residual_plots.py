@@ -27,7 +27,7 @@ from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageName
 from instrument.results.diagnosis_words import percent_of, segment_place
 from instrument.results.numbers import format_number
 from instrument.results.set_aside import NAME
-from instrument.results.standing import law_words, one_fit_words, stages_apart
+from instrument.results.standing import fit_words, one_fit_words, stages_apart
 from instrument.results.typeset import capitalised
 
 _ROOM = 1.12
@@ -237,7 +237,7 @@ def _name_series(plot: Plot, names: Collection[str]) -> None:
 
 
 def _title(found: DiagnosisResult, stage: StageName) -> str:
-    accepted = law_words(found) or "any effect"
+    accepted = fit_words(found) or "any effect"
     said = (
         f"before: without {' and '.join(found.equivalent) or 'any effect'}"
         if stage == "before"

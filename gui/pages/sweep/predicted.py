@@ -11,7 +11,7 @@ from gui.actions.rediagnosis import ShownDiagnosis
 from gui.pages.sweep.points import Index, PointsMeasured
 from instrument.facts.diagnosis import PointLeft, Residual
 from instrument.facts.identification import PointFitted
-from instrument.results.standing import law_words, stage_before
+from instrument.results.standing import fit_words, stage_before
 from instrument.stream.derived import FitUpdated, PointMeasured
 
 
@@ -68,7 +68,7 @@ class Predicted:
         off = np.array([row.after.amplitude_percent for row in rows], dtype=float)
         measured = np.abs(points.over_base_s[taken]) * points.level_m_s2[taken]
         turn = np.array([_turn_deg(row.after) for row in rows], dtype=float)
-        name = shown.in_legend(f"with {law_words(shown.found)}")
+        name = shown.in_legend(f"with {fit_words(shown.found)}")
         return cls(taken, measured * (1 + off / 100), turn, name)
 
     def of(self, point: int) -> float | None:

@@ -173,7 +173,17 @@ def test_a_run_that_struck_the_plate_fitted_without_these_spectra():
 
 @pytest.mark.parametrize(
     ("verdict", "said"),
-    [("unknown", "The law may be far off its band"), ("effect", "This is the law before the diagnosis")],
+    [
+        ("unknown", "The law may be far off its band"),
+        (
+            "effect",
+            "the law before the diagnosis, which found an effect that the model lacked. The law to use",
+        ),
+        (
+            "ambiguous",
+            "lacked something, and cannot tell what of several: added_mass or spot_offset. The law",
+        ),
+    ],
 )
 def test_after_a_diagnosis_the_law_is_called_what_it_is(verdict, said):
     diagnosis = SimpleNamespace(result=diagnosed(verdict=verdict))

@@ -15,7 +15,8 @@ def test_a_law_found_with_an_effect_comes_first_with_its_errors():
     found = diagnosis()
     (section,) = law_to_use_sections(contents(found))
     assert section.title == TITLE
-    said, band, parameters, correlations = section.blocks
+    said, drawn, band, parameters, correlations = section.blocks
+    assert drawn.title == "The core's law before and after the diagnosis; with 95 % bands"
     assert said.text.endswith("This is the law to use.")
     assert len(band.rows) >= min(9, len(found.after.law))
     assert len(parameters.rows) == len(found.after.parameters)
@@ -23,11 +24,24 @@ def test_a_law_found_with_an_effect_comes_first_with_its_errors():
     assert [row[1 + k] for k, row in enumerate(correlations.rows)] == ["+1.000"] * len(parameters.rows)
 
 
+def test_where_several_are_left_the_law_is_that_over_all_of_them_and_parameters_are_of_one():
+    found = diagnosis(verdict="ambiguous")
+    (section,) = law_to_use_sections(contents(found))
+    said, _, band, parameters, correlations = section.blocks
+    assert (
+        "law over all explanations that these data cannot tell apart, added_mass or spot_offset:" in said.text
+    )
+    assert said.text.endswith("This is the law to use.")
+    assert "with added_mass or spot_offset" in band.title
+    assert "with added_mass alone" in parameters.title
+    assert "with added_mass alone" in correlations.title
+
+
 def test_a_session_that_kept_no_correlations_shows_the_parameters_alone():
     found = diagnosis()
     older = found.but(after=found.after.without("correlations"))
     (section,) = law_to_use_sections(contents(older))
-    assert len(section.blocks) == 3
+    assert len(section.blocks) == 4
 
 
 def test_without_an_effect_the_identifications_law_is_the_one_to_use():
@@ -40,4 +54,4 @@ def test_a_session_that_kept_no_parameters_shows_the_law_alone():
     found = diagnosis()
     bare = found.after.model_copy(update={"parameters": {}, "standard_errors": {}})
     (section,) = law_to_use_sections(contents(found.model_copy(update={"after": bare})))
-    assert len(section.blocks) == 2
+    assert len(section.blocks) == 3

@@ -216,8 +216,14 @@ def test_the_law_to_use_has_its_table_and_parameters_before_the_law_without_the_
     assert "The law after the diagnosis, with" in use
     parameters = use.split("Parameters after the diagnosis", 1)[1]
     assert all(quantity(name) in parameters for name in found.after.parameters)
-    for title in ("the law in the band", "parameters", "correlations of", "shear modulus and", "residual:"):
-        assert f"Without the effect found, not to be used: {title}" in before
+    for title in ("the law in the band", "parameters", "correlations of", "residual:"):
+        assert f"Before the diagnosis, not to be used: {title}" in before
+    # One picture has both laws, where the one to use is.
+    drawn = "law before and after the diagnosis; with 95 % bands"
+    assert drawn in use
+    assert text_of(page).count(drawn) == 1
+    assert "Shear modulus and loss factor in the measured band" not in page
+    assert "law before and after; " not in page
 
 
 def test_a_diagnosis_without_an_effect_leaves_one_law_and_marks_none(page):

@@ -3,10 +3,11 @@
 from typing import get_args
 
 import pytest
+from diagnosis_cases import diagnosis
 from following_cases import SPOT
 
 from instrument.facts.follow_up import FollowUp, FollowUpKind
-from instrument.results.next_words import NEXT_COLUMNS, advice, next_row, separated_words
+from instrument.results.next_words import NEXT_COLUMNS, advice, beyond_words, next_row, separated_words
 
 OFFER = FollowUp.model_validate(SPOT)
 
@@ -49,3 +50,24 @@ def test_explanations_are_listed_as_one_would_say_them(names, said):
 
 def test_all_are_listed_where_there_is_room():
     assert separated_words("abcdef", most=6) == "a, b, c, d, e and f"
+
+
+def test_what_a_measurement_tells_apart_beyond_the_verdict_is_said_with_its_share():
+    found = diagnosis(verdict="ambiguous")
+
+    def said(*between):
+        return beyond_words(found.but(next_measurements=(OFFER.but(between=between),)))
+
+    named = ("added_mass", "spot_offset")
+    assert said(*named) == ""
+    assert beyond_words(found) == ""
+    # What was fitted in no form has no share.
+    assert said(*named, "gain_error").endswith("told apart too: gain_error.")
+    first, *rest = found.candidates
+    likely = found.but(candidates=(first, *rest, first.but(name="clamp_line", probability=0.013)))
+    (offer,) = (OFFER.but(between=(*named, "clamp_line", "none")),)
+    assert beyond_words(likely.but(next_measurements=(offer,))) == (
+        "Less likely than what the verdict names, and told apart too: "
+        "clamp_line and no effect (1.3 % together)."
+    )
+    assert beyond_words(likely.but(next_measurements=(offer,), equivalent={})) == ""

@@ -1,4 +1,5 @@
 import numpy as np
+import pytest
 from diagnosis_cases import diagnosis
 
 from fitting.diagnosis.verdict.kin import UNLISTED
@@ -6,6 +7,8 @@ from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_figures import law_figure
 from instrument.results.diagnosis_words import candidate_words, probability_words, verdict_line
 from instrument.results.standing import (
+    fit_words,
+    is_one_of_several,
     law_words,
     laws_apart,
     none_is_likelier,
@@ -81,8 +84,28 @@ def test_what_is_likelier_than_no_effect_is_found():
     assert not none_is_likelier(found)
     assert stand(found)["added_mass"] == "found"
     assert stage_before(found) is found.before
-    assert law_words(found) == "added_mass"
+    assert law_words(found) == "added_mass or no effect"
     assert "likelier" not in verdict_line(found)
+
+
+@pytest.mark.parametrize(
+    ("groups", "said"),
+    [
+        ({"a": ("a",)}, "a"),
+        ({"a": ("a", "b")}, "a or b"),
+        ({"a": ("a", UNLISTED)}, "a or another of its kind"),
+        ({"a": ("a", "b", "c", "none")}, "a or 3 others"),
+        ({"a": ("a",), "b": ("b",)}, "a and b"),
+        ({"a": ("a", "c"), "b": ("b",)}, "(a or c) and b"),
+        ({}, ""),
+    ],
+)
+def test_a_law_over_several_explanations_is_not_called_that_of_the_likeliest(groups, said):
+    found = diagnosis().but(equivalent=groups)
+    assert law_words(found) == said
+    assert is_one_of_several(found) == ("or" in said)
+    # What a fit leaves is of one explanation.
+    assert fit_words(found) == " and ".join(groups)
 
 
 def test_where_nothing_is_accepted_there_is_one_fit():

@@ -1,6 +1,6 @@
-from diagnosis_cases import UNSEEN
+from diagnosis_cases import UNSEEN, diagnosis
 
-from instrument.results.unseen_words import UNSEEN_COLUMNS, unseen_row
+from instrument.results.unseen_words import UNSEEN_COLUMNS, unseen_row, unseen_title
 
 
 def test_a_row_says_how_large_it_may_be_and_what_it_would_do():
@@ -23,3 +23,9 @@ def test_a_number_without_unit_that_is_no_factor_has_three_digits():
 def test_a_length_is_in_millimetres_and_a_mass_in_grams():
     assert unseen_row(UNSEEN[0].but(parameter="dx", size=0.0002175, unit="m"))[1] == "dx 0.217 mm"
     assert unseen_row(UNSEEN[0].but(parameter="mass", size=0.00047, unit="kg"))[1] == "mass 0.47 g"
+
+
+def test_the_title_says_beside_what_it_would_not_be_seen():
+    """A candidate in the place of what was found has another size than one beside it."""
+    assert "if it were there beside added_mass: how far" in unseen_title(diagnosis())
+    assert "if it were there: how far" in unseen_title(diagnosis(verdict="none").but(equivalent={}))
