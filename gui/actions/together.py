@@ -63,6 +63,8 @@ class Together(QObject):
         self.diagnosed: ShownDiagnosis | None = None
         self.leads = False
         """Whether Material and Diagnosis show this."""
+        self.failure = ""
+        """Why the last identification of these files came to nothing."""
         self._leads_then = False
         """Whether what is being identified is to."""
         self._stamps: dict[Path, Stamp | None] = {}
@@ -221,7 +223,7 @@ class Together(QObject):
     def _let_go_of_found(self) -> None:
         self.cancel()
         led = self.leads
-        self.identified, self.diagnosed, self.leads = None, None, False
+        self.identified, self.diagnosed, self.leads, self.failure = None, None, False, ""
         if led:
             self._rediagnosis.forget()
         self.changed.emit()
@@ -234,6 +236,7 @@ class Together(QObject):
         if fault_of(self.files):
             return
         self.cancel()
+        self.failure = ""
         self._then_diagnose, self._leads_then = then_diagnose, True
         # That of modes first: all it must have, its modes, a sweep's has not; the other way it would do.
         results = (ModalResult, IdentificationResult)
@@ -256,7 +259,7 @@ class Together(QObject):
         self.changed.emit()
 
     def _failed(self, message: str) -> None:
-        self._then_diagnose = False
+        self._then_diagnose, self.failure = False, message
         self.changed.emit()
         self.failed.emit(message)
 

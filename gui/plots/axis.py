@@ -27,7 +27,7 @@ class Axis:
         """As it may stand beside the axis, the longest first."""
         if not self.titled:
             return ("",)
-        short = (f"{self.symbol} / {self.unit}",) if self.symbol else ()
+        short = (f"{self.symbol} / {self.unit}" if self.unit else self.symbol,) if self.symbol else ()
         return (self.title, *short, self.unit)
 
     @property

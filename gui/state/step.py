@@ -90,6 +90,11 @@ class Step:
         return self.point is not None or self.checked is not None or self.held
 
     @property
+    def broken_off(self) -> bool:
+        """Whether a hold came before it was measured: what was heard of it is past."""
+        return self.held and self.point is None and self.checked is None
+
+    @property
     def drive_v(self) -> float:
         """As last accepted by the shaker; 0 before."""
         return self.commands[-1].drive_v if self.commands and not self.held else 0.0

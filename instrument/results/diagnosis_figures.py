@@ -179,7 +179,7 @@ def law_figure(found: DiagnosisResult) -> Figure:
     for ax, y in ((left, "Storage modulus G' / MPa"), (right, "Loss factor η")):
         label(ax, x="Frequency / Hz", y=y)
         ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
-    which = " without and with the effects found" if len(apart) > 1 else ""
+    which = " before and after the diagnosis" if len(apart) > 1 else ""
     title = with_verdict(f"The core's law{which}, 95 % bands", found)
     left.set_title(title, fontsize=10, loc="left")
     left.legend(fontsize=8, frameon=False)

@@ -4,7 +4,7 @@ The stated numbers of all members are the unknowns, those of the same thing once
 for all files or for one of them (`OfFiles`).
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Self
 
@@ -33,6 +33,12 @@ from fitting.laws import CoreLaw
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.specimen import PlateSpecimen
 from fitting.sweep import Sweep
+
+
+def _by_what(files: Mapping[int, str]) -> str:
+    """Which files have which, by their numbers: `absolute: file 1, 3; relative: file 2`."""
+    each = {what: [str(n) for n, one in files.items() if one == what] for what in files.values()}
+    return "; ".join(f"{what}: file {', '.join(numbers)}" for what, numbers in each.items())
 
 
 @dataclass(frozen=True)
@@ -70,10 +76,18 @@ class SeveralProblem(DiagnosisProblem):
         Raises `OutsideModel` where they cannot be fitted together.
         """
         of = tuple(of) or tuple(Place(k + 1) for k in range(len(members)))
-        if len({m.points.reads for m in members if m.points.drive == "base"}) > 1:
-            raise OutsideModel("some files read absolute, others relative to the base, expected one of them")
-        if len({m.sweep.has_phase for m in members}) > 1:
-            raise OutsideModel("some files hold phasors, others amplitudes, expected one of them")
+        reads = {of[k].file: m.points.reads for k, m in enumerate(members) if m.points.drive == "base"}
+        if len(set(reads.values())) > 1:
+            raise OutsideModel(
+                f"some files read absolute, others relative to the base ({_by_what(reads)}), expected one of "
+                "them: correct reads of [pickup] in their specimen files, or leave one kind out"
+            )
+        parts = {of[k].file: "phasors" if m.sweep.has_phase else "amplitudes" for k, m in enumerate(members)}
+        if len(set(parts.values())) > 1:
+            raise OutsideModel(
+                f"some files hold phasors, others amplitudes ({_by_what(parts)}), expected one of them: give "
+                "amplitudes alone in all of them, or leave one kind out"
+            )
         if len({m.specimen.exact for m in members}) > 1:
             raise OutsideModel("some specimens are exact, others not, expected one of them")
         plates = one_plate.plates_of(members)

@@ -138,7 +138,9 @@ class ResidualPlots(QWidget):
         plot = self._plot(number, stage)
         plot.setToolTip(f"Segment {number}{self._place(number)}, {stage}")
         titled, unit = number == self._numbers[-1], "" if quantity == "whitened" else "%"
-        plot.show_axes(Axis("Frequency", "Hz", titled=titled), Axis(self._titled(number), unit))
+        plot.show_axes(
+            Axis("Frequency", "Hz", titled=titled), Axis(self._titled(number), unit, symbol=f"Seg. {number}")
+        )
         shown = panel(self._found, number, stage, quantity)
         height = _ROOM * limit(self._found, number, stage, quantity)
         _draw_panel(plot, shown, _FOOT * height)
@@ -246,7 +248,8 @@ def _title(found: DiagnosisResult, stage: StageName) -> str:
     if len(stages_apart(found)) == 1:
         said = f"without any effect: {one_fit_words(found)}"
     chi2, rms = found.stage(stage).chi2_per_dof, found.stage(stage).rms_percent
-    noise = "" if chi2 is None else f", chi² per degree {format_number(chi2, 3)}"
+    # The grey is of noise alone: what is left may be larger.
+    noise = "" if chi2 is None else f", chi² per degree {format_number(chi2, 3)} of noise and model error"
     return f"<b>{said}</b><br>{two_digits(rms)} % rms in {percent_of(found)}{noise}"
 
 

@@ -47,7 +47,7 @@ def said_of_model(state: SessionState, curve: Computed, aside: int, doubt: str) 
         said += f", {UNKNOWN}"
     if curve.failure:
         return f"{said}; no curve: {curve.failure}"
-    return f"{said}; its curve is computed" if curve.busy else said
+    return f"{said}; its curve is being computed" if curve.busy else said
 
 
 def doubt_of(state: SessionState, shown: ShownDiagnosis | None) -> str:

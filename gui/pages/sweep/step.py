@@ -1,5 +1,7 @@
 """The step in progress: what drives it, its time signal, how it comes to rest."""
 
+from dataclasses import replace
+
 import numpy as np
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSplitter, QVBoxLayout, QWidget
@@ -21,6 +23,7 @@ _NONE = (
     "Start a run, or play a recorded session."
 )
 _TIME = Axis("Time before the latest sample", "ms", symbol="t")
+_BROKEN_OFF = Axis("Time before the hold", "ms", symbol="t")
 _KEY: tuple[tuple[str, Role, str], ...] = (
     ("left of the transient", "data", "\u2500"),
     ("noise alone", "faint", "- -"),
@@ -103,10 +106,14 @@ class StepPane(QWidget):
     def _draw_signal(self, state: SessionState, step: Step) -> None:
         trace = latest_cycles(step)
         milliseconds = 1e3 * trace.time_s
-        shown = acceleration_unit()
-        self.base.show_axes(self.base.x, Axis("Base", shown.symbol, symbol="a"))
-        self.base.trace("base acceleration", milliseconds, shown.of(trace.base_m_s2), "second")
-        self.velocity.trace("velocity", milliseconds, 1e3 * trace.velocity_m_s, "data")
+        shown, past = acceleration_unit(), step.broken_off
+        time = _BROKEN_OFF if past else _TIME
+        self.base.show_axes(replace(time, titled=False), Axis("Base", shown.symbol, symbol="a"))
+        self.velocity.show_axes(time, self.velocity.y)
+        # What was so is not what is: the shaker is silent.
+        base, velocity = shown.of(trace.base_m_s2), 1e3 * trace.velocity_m_s
+        self.base.trace("base acceleration", milliseconds, base, "faint" if past else "second")
+        self.velocity.trace("velocity", milliseconds, velocity, "faint" if past else "data")
         limits = state.limits.limits
         for plot, most in (
             (self.base, shown.of(limits.base_m_s2)),
@@ -122,7 +129,8 @@ class StepPane(QWidget):
         seconds, percent, noise = following.remaining()
         limit = 100 * settings.settle.tolerance
         # A steady response moves by nothing but noise; the axis has no zero.
-        self.settling.line("left", seconds, np.maximum(percent, 1e-3 * limit), "data")
+        role: Role = "faint" if step.broken_off else "data"
+        self.settling.line("left", seconds, np.maximum(percent, 1e-3 * limit), role)
         self.settling.line("noise", seconds, np.maximum(noise, 1e-3 * limit), "faint", dashed=True)
         end = float(seconds[-1]) if seconds.size else settings.block_s(step.began.frequency_hz)
         self.settling.line("limit", np.array([0, end]), np.full(2, limit), "bad", dashed=True)
@@ -140,8 +148,10 @@ class StepPane(QWidget):
             shown = acceleration_unit()
             # Where there is no room for all of it the error stays.
             said["Level"] = f"{off:+z.2f} %, {shown.of(base):.4g} of {shown.said(began.level_m_s2)}"
+        if step.broken_off and began.level_m_s2 is not None:
+            said["Level"] = f"none while held, of {acceleration_unit().said(began.level_m_s2)}"
         _, percent, noise = following.remaining()
-        if percent.size:
+        if percent.size and not step.broken_off:
             limit = f"{100 * limits.settle.tolerance:g}, noise {_little(noise[-1])}"
             said["Transient"] = f"{_little(percent[-1])} % of {limit}"
         if state.range is not None:

@@ -123,7 +123,10 @@ class TogetherPage(Page):
         self.law.setVisible(found is not None)
         for one in (self.finding, self.candidates):
             one.setVisible(shown is not None)
-        self.doubt.hide()
+        # The notice over the tabs goes away.
+        failure = f"No result: {self.together.failure}" if self.together.failure else ""
+        self.doubt.say(failure, "bad", bold=True)
+        self.doubt.setVisible(bool(failure))
         if shown is not None:
             self.finding.show_diagnosis(shown)
             self.finding.show_followed(owner_lines(shown.found))
@@ -132,8 +135,9 @@ class TogetherPage(Page):
             return
         self.law.setText(headline(found))
         doubts = doubts_of(found) if shown is None else ()
-        self.doubt.say(" ".join(map(note, doubts)), "bad", bold=True)
-        self.doubt.setVisible(bool(doubts))
+        said = " ".join(filter(None, (failure, *map(note, doubts))))
+        self.doubt.say(said, "bad", bold=True)
+        self.doubt.setVisible(bool(said))
         self._offer_stages(diagnosed)
         notes = list(dict.fromkeys((*found.warnings, *(diagnosed.warnings if diagnosed is not None else ()))))
         self.notes.setPlainText("\n\n".join(map(note, notes)) or "Nothing to note.")

@@ -118,6 +118,10 @@ def test_a_damaged_file_is_said_in_a_line(qtbot, together, masses, tmp_path):
     assert told.args[0].startswith(f"{bad}")
     assert "\n" not in told.args[0]
     assert not together.running
+    assert together.failure == told.args[0]
+    # Without that file it is the reason of nothing.
+    together.remove(len(masses))
+    assert together.failure == ""
 
 
 def test_what_is_paired_wrongly_is_refused_as_the_command_does(qtbot, together, masses, tmp_path):

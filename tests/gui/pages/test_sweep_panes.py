@@ -1,8 +1,10 @@
 """The panes of the sweep's page, each alone: what of some points they draw."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
-from sessions import point
+from sessions import block, point
 
 from gui.pages.sweep.chooser import Chooser
 from gui.pages.sweep.curve import Curve, CurveStretch
@@ -20,8 +22,10 @@ from gui.pages.sweep.seen import PaneContents, Predicted
 from gui.pages.sweep.segments import SegmentStatus
 from gui.pages.sweep.step import StepPane
 from gui.plots import Axis
+from gui.state.step import Step
 from instrument.session.contents import TimedPoint
 from instrument.stepped_sine.settings import SweepSettings
+from instrument.stream.raw import AcquisitionBegan, Held, StepBegan
 
 SETTINGS = SweepSettings()
 TIMED = [
@@ -224,3 +228,34 @@ def test_without_a_step_its_pane_says_what_will_be_there(made):
     pane = made(StepPane())
     assert not pane.none.isHidden()
     assert {label.said for label in pane.facts.values()} == {"\u2013"}
+
+
+class Units:
+    """Volts as they come."""
+
+    def motion(self, volts, scale_m_s_v):
+        return volts
+
+
+def roles(pane):
+    """Of the traces."""
+    return [pane.base._curves["base acceleration"].role, pane.velocity._curves["velocity"].role]
+
+
+def test_a_step_that_was_held_is_drawn_as_past_and_has_no_level(made):
+    pane = made(StepPane())
+    pane.show()
+    acquired = AcquisitionBegan(1, "sweep", 8192.0, ("base", "velocity"))
+    step = Step(StepBegan(1, "step", 1, 1, 2048.0, 9.81, 0.1, 0.1), acquired, Units())
+    state = SimpleNamespace(step=step, limits=SETTINGS, range=None, signal_level=None)
+    step.take(block(0), None)
+    pane.show_step(state)
+    assert roles(pane) == ["second", "data"]
+    assert pane.velocity.x.label == "Time before the latest sample"
+    step.take(Held(), None)
+    pane.show_step(state)
+    assert roles(pane) == ["faint", "faint"]
+    assert pane.velocity.x.label == "Time before the hold"
+    assert not pane.base.x.titled
+    assert pane.facts["Level"].said == "none while held, of 9.81 m/s\u00b2"
+    assert pane.facts["Transient"].said == "\u2013"

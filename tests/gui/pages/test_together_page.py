@@ -90,6 +90,15 @@ def test_identified_by_the_button_it_shows_points_lines_and_the_law(qtbot, chose
     assert "identified here of 2 files" in material.origin.said
 
 
+def test_why_there_is_no_result_stays_on_the_page(page, masses):
+    page.together.add(masses)
+    page.together._command.failed.emit("heavy.csv: the file is empty")
+    assert not page.doubt.isHidden()
+    assert page.doubt.said == "No result: heavy.csv: the file is empty"
+    page.together.remove(1)
+    assert page.doubt.isHidden()
+
+
 def test_one_file_alone_is_identified_too(qtbot, page, masses):
     page.together.add(masses[:1])
     qtbot.waitUntil(lambda: "..." not in page.chosen.table.texts(3))

@@ -8,7 +8,7 @@ from sessions import block, configuration, point
 
 from gui.state.plan import Plan
 from gui.state.step import Step
-from instrument.stream.raw import AcquisitionBegan, RangeSet, SegmentBegan, SegmentEnded, StepBegan
+from instrument.stream.raw import AcquisitionBegan, Held, RangeSet, SegmentBegan, SegmentEnded, StepBegan
 
 RATE_HZ = 8192.0
 
@@ -61,6 +61,16 @@ def test_a_measured_step_hears_no_more(step):
     assert step.over
     step.take(block(8), None)
     assert step.samples == 8
+
+
+def test_a_step_that_a_hold_broke_off_is_past(step):
+    step.take(block(0), None)
+    assert not step.broken_off
+    step.take(Held(), None)
+    assert step.broken_off
+    # A hold after the point took nothing from it.
+    step.take(point(1), None)
+    assert not step.broken_off
 
 
 def test_the_last_change_is_known_with_its_sample(step):

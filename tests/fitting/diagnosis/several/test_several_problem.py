@@ -10,6 +10,7 @@ from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.diagnosis.several.errors_between_files import alike
 from fitting.diagnosis.several.of_files import Place
 from fitting.diagnosis.several.several_problem import SeveralProblem
+from fitting.errors import OutsideModel
 
 MASSES_KG = (0.3, 0.6)
 
@@ -56,3 +57,16 @@ def test_no_misfit_is_shared_where_noise_explains_the_files_or_there_is_one(misf
     problem = of(misfits, files)
     assert alike(problem.members, problem.belongs) == 0.0
     assert len(common_rows(problem)) == (2 if len(set(files)) > 1 else 0)
+
+
+def test_files_that_do_not_go_together_are_named_with_what_to_do():
+    one, other = members((0.0, 0.0))
+    amplitudes = replace(other, sweep=replace(other.sweep, velocity_m_s=np.abs(other.sweep.velocity_m_s)))
+    places = [Place(1), Place(2), Place(3)]
+    with pytest.raises(OutsideModel, match=r"\(phasors: file 1, 3; amplitudes: file 2\), expected .*leave"):
+        SeveralProblem.of_members([one, amplitudes, one], 3 * [None], places)
+    relative = replace(other, points=replace(other.points, reads="relative"))
+    with pytest.raises(
+        OutsideModel, match=r"\(absolute: file 1; relative: file 2\), expected .*correct reads"
+    ):
+        SeveralProblem.of_members([one, relative], 2 * [None], places[:2])
