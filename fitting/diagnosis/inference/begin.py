@@ -27,6 +27,7 @@ from fitting.identification.model import SweepModel
 from fitting.identification.residuals import Residuals
 from fitting.laws import CoreLaw
 from fitting.laws.bent_law import BentLaw
+from fitting.numerics.chances import chi2_above
 from fitting.reduced.reduced_plate import ReducedPlate
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 
@@ -35,8 +36,13 @@ _FAR = 0.1
 _THE_SAME = 1.0
 """Rough fits from two starts count as the same minimum below this difference in chi-square: one standard
 error is worth as much."""
-_ROUNDS = 3
-"""A bound on time."""
+_ROUNDS, _SETTLING = 3, 4
+"""Bounds on time: rounds in all, and those that a law that swings may have beside them."""
+_BY_CHANCE, _MUCH = 1e-4, 3.0
+"""Probability below which noise alone does not leave as much; chi-square per degree of freedom above which it
+is a cause to be found that moves the law, not how readings are weighed. Choices."""
+_SETTLED = 0.5
+"""In standard errors: a law that a round moves by less has settled. A choice."""
 
 
 @dataclass(frozen=True)
@@ -125,13 +131,36 @@ class _Beginning:
                 stated = _free_to_bend(problem, self.start)
                 none = _from_elsewhere(here, evidence, stated, none, self.executor)
             moved = _moved(problem, law, none.law)
-            law, u = none.law, none.u
+            about, law, u = law, none.law, none.u
             if moved < _FAR and not (problem.errs_as_found and round == 0):
                 break
             v = self.model.velocity(law)
             if problem.errs_as_found:
                 problem, v = problem.as_found(none.z), none.velocity_m_s
-        return Begun(here, problem.plate, evidence, none, self.first, is_clear)
+        begun = Begun(here, problem.plate, evidence, none, self.first, is_clear)
+        return self._settled(problem, begun, about) if _leaves_somewhat_more(none) else begun
+
+    def _settled(self, problem: DiagnosisProblem, begun: Begun, about: CoreLaw) -> Begun:
+        """Where the law no longer depends on which law the model's error is that of.
+
+        Where the model leaves more than chance does, the law goes by how readings are weighed, and may swing
+        from round to round by many of its standard errors: the error is then that of all laws on the way,
+        their mean covariance. `about`: the law that it is of so far.
+        """
+        known = [begun.evidence]
+        for _ in range(_SETTLING):
+            none = begun.none
+            if _off_in_errors(problem, about, none) < _SETTLED:
+                break
+            about, v = none.law, self.model.velocity(none.law)
+            if problem.errs_as_found:
+                problem, v = problem.as_found(none.z), none.velocity_m_s
+            here = problem.condensed(about).around(about)
+            known.append(self._evidence(here, about, none.u, v))
+            evidence = known[-1].with_errors_of(known)
+            found = polished(here, (), evidence, about, none.u)
+            begun = replace(begun, problem=here, evidence=evidence, none=found)
+        return begun
 
     def _evidence(self, here: DiagnosisProblem, law: CoreLaw, u: Array, v: Complex) -> Evidence:
         """With the model's error about a law and what it gives, shape (points,), in m/s."""
@@ -155,6 +184,29 @@ def _moved(problem: DiagnosisProblem, law: CoreLaw, to: CoreLaw) -> float:
     """The largest relative change of the modulus, at the frequencies of the coarse grid."""
     omega = problem.coarse.nodes.omega
     return float(np.max(np.abs(to.modulus(omega) / law.modulus(omega) - 1)))
+
+
+def _off_in_errors(problem: DiagnosisProblem, law: CoreLaw, none: Refitted) -> float:
+    """How far a law is from the one that was found, at the most, in standard errors of the latter's.
+
+    Of ln |G*| and of its phase, at the frequencies of the coarse grid.
+    """
+    omega, found = problem.coarse.nodes.omega, none.law
+    ratio = np.log(law.modulus(omega) / found.modulus(omega))
+    slopes = found.jacobian(omega) * found.values[:, None] / found.modulus(omega)
+    off, by = np.concatenate([ratio.real, ratio.imag]), np.hstack([slopes.real, slopes.imag])
+    of_law = slice(len(found.names))
+    variance = np.einsum("kp,kl,lp->p", by, none.covariance[of_law, of_law], by)
+    known = variance > 0
+    return float(np.max(np.abs(off[known]) / np.sqrt(variance[known]), initial=0.0))
+
+
+def _leaves_somewhat_more(none: Refitted) -> bool:
+    """Whether it leaves more than noise does by itself, and yet no more than instruments that wander do."""
+    dof = none.data - none.parameter_count
+    if not none.noise_known or dof < 1 or none.chi2_per_dof > _MUCH:
+        return False
+    return chi2_above(none.chi2_per_dof * dof, dof) < _BY_CHANCE
 
 
 def _free_to_bend(problem: DiagnosisProblem, law: CoreLaw) -> CoreLaw:

@@ -1,5 +1,6 @@
 """Data a candidate is judged by: the sweep, whitened, and the bare plate's frequencies beside it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -17,6 +18,8 @@ from fitting.sweep import Sweep
 
 _BLUNT = 0.03
 """Of a reading, as its noise: ten times what a sweep has, so that far starts still feel the bottom."""
+_NO_ERROR = 0.02
+"""Of the noise: directions of the model's error that are smaller are left out of a mean. A choice."""
 _STEP = 1e-3
 """Of a stated number, in standard deviations, to either side: for derivatives. A choice."""
 
@@ -191,6 +194,13 @@ class Evidence:
         times = np.hypot(noise_m_s, white) / np.hypot(self.noise_m_s, white)
         B = self.B / self.readings.each(times)[:, None]
         return replace(self, sigma_m_s=self.sigma_m_s * times, noise_m_s=noise_m_s, B=B)
+
+    def with_errors_of(self, others: Sequence["Evidence"]) -> "Evidence":
+        """The same readings; its model error has the mean covariance of all `others`, itself among them."""
+        each = [one.B * self.readings.each(one.sigma_m_s / self.sigma_m_s)[:, None] for one in others]
+        U, size, _ = np.linalg.svd(np.hstack(each) / np.sqrt(len(others)), full_matrices=False)
+        kept = size > _NO_ERROR
+        return replace(self, B=U[:, kept] * size[kept])
 
     def parts(self, points: Mask) -> Mask:
         """Which data belong to some points. Shape (data,), from (points,)."""

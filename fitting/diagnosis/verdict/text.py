@@ -204,8 +204,11 @@ def where_nothing_explains(kind: str, levels: int) -> str:
     """What to measure next on a kind of specimen that was driven at so many levels."""
     level = "a second level" if levels == 1 else "its lowest level by itself"
     if kind == "shear-pair":
-        return f"Another mass and {level}: they show whether the rest belongs to the rig or to the strain."
-    return f"A second spot and {level}: they show whether the rest belongs to the place or the drive."
+        what, whose = "Another mass", "the rig or to the strain"
+    else:
+        what, whose = "A second spot", "the place or the drive"
+    asked = f"{what} and {level}: they show whether the rest belongs to {whose}."
+    return f"{asked} The same once more: it shows whether the instruments wander."
 
 
 WHERE_NOTHING_EXPLAINS_MODES = (

@@ -13,6 +13,7 @@ V = (1.0 + 0.5j) * np.linspace(1.0, 2.0, 8)
 ONE = np.ones(8, dtype=np.intp)
 SWEEP = Sweep(F, V, np.full(8, 9.81), ONE, ONE)
 MODEL_ERROR = np.array([0.01 * V, 0.002j * V])
+ALONE = np.array([0.02 * V * np.cos(F)])
 
 
 def evidence(noise_m_s):
@@ -46,3 +47,21 @@ def test_ten_times_the_noise_makes_readings_worth_a_hundredth_and_leaves_the_mod
 def test_the_models_white_error_stays_where_noise_vanishes():
     found = evidence(np.full(8, 0.01)).with_noise(np.zeros(8))
     np.testing.assert_allclose(found.sigma_m_s, SHARE * np.abs(V))
+
+
+def test_errors_of_several_have_the_mean_of_their_covariances():
+    noise = Noise(np.full(8, 0.01), "local scatter")
+    one, other = (
+        Evidence.of(SWEEP, noise, error, v, None) for error, v in ((MODEL_ERROR, V), (ALONE, 1.2 * V))
+    )
+
+    def covariance(of):
+        B = of.B * np.tile(of.sigma_m_s, 2)[:, None]
+        return B @ B.T
+
+    found = one.with_errors_of([one, other])
+    np.testing.assert_array_equal(found.sigma_m_s, one.sigma_m_s)
+    np.testing.assert_allclose(covariance(found), (covariance(one) + covariance(other)) / 2, atol=1e-8)
+    assert found.B.shape == (16, 3)
+    # What is as good as nothing beside the noise takes no time.
+    assert one.with_errors_of([one, Evidence.of(SWEEP, noise, 1e-5 * ALONE, V, None)]).B.shape == (16, 2)
