@@ -19,7 +19,10 @@ class LogPane(QDockWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__("Log", parent)
         self.setObjectName("log")
-        self.setToolTip("Time of day, time of the session, what happened")
+        self.setToolTip(
+            "Time of day by the session's clock, which runs ahead on a simulated rig; time of the "
+            "session; what happened"
+        )
         self._text = QPlainTextEdit()
         self._text.setReadOnly(True)
         self._text.setMaximumBlockCount(_MOST_LINES)

@@ -34,6 +34,8 @@ _SETTLES = 0.53
 chance no forecast at 10, 30 and 60 % of a run is off by 15 % then (tests/by_hand/time_to_go.py)."""
 _PRIOR = 2.0
 """So many pieces of a kind count as having gone as forecast."""
+_PACE_KNOWN = 0.25
+"""Of a diagnosis: its first share is faster or slower than the rest, the next ones are not. A choice."""
 _DIDS: dict[str, Kind] = {"mounted": "mount", "aimed": "aim", "changed": "change"}
 _POINTS: dict[str, Kind] = {"calibration": "calibration", "step": "step", "sentinel": "sentinel"}
 _ON_WALL: tuple[Kind, ...] = ("mount", "aim", "change", "fit", "diagnosis")
@@ -164,7 +166,9 @@ class TimeToGo:
         pieces = [k for k in self._left if k in _ON_WALL]
         begun = wall_s - self._wall_s if not self._measuring else 0.0
         if self._fraction and list(self._left) == ["diagnosis"]:
-            return begun * (1 / self._fraction - 1)
+            # Its first shares say little of the pace: the forecast gives way to it as it goes on.
+            rest, own = 1 - self._fraction, min(1.0, self._fraction / _PACE_KNOWN)
+            return rest * (own * begun / self._fraction + (1 - own) * self._rest(pieces, 0.0))
         return self._rest(pieces, begun)
 
     def fraction(self, session_s: float, wall_s: float) -> float | None:

@@ -30,6 +30,6 @@ def coarse_remarks(forecast: Forecast, planned: PlannedSegment) -> Iterator[str]
         on, *beside = forecast.velocity_m_s(probe, 1.0)
         if on > _STANDS_OUT * max(beside):
             yield (
-                f"segment {planned.segment}: no step on the resonance expected at {centre:.4g} Hz, which is "
-                f"{width:.2g} Hz wide: the nearest steps are {f[at - 1]:g} and {f[at]:g} Hz"
+                f"segment {planned.segment}: no step on the resonance expected at about {centre:.4g} Hz, "
+                f"which is {width:.2g} Hz wide: the nearest steps are {f[at - 1]:g} and {f[at]:g} Hz"
             )

@@ -56,7 +56,7 @@ def check(experiment: Path, insist: bool, json_path: str | None) -> None:
     if rows:
         out.table("predicted", columns, rows)
         out.say(_level(whole))
-    out.say("modes expected at " + ", ".join(f"{f:.4g}" for f in run.mode_hz) + " Hz")
+    out.say("modes expected at about " + ", ".join(f"{f:.4g}" for f in run.mode_hz) + " Hz")
     if run.hammer_record_s is not None:
         out.say(f"hammer: records of {run.hammer_record_s:g} s")
     if (t := run.temperature) is not None:

@@ -15,6 +15,7 @@ from instrument.facts.session_result import SessionResult
 from instrument.results.error_words import ratio_words
 from instrument.results.followed import followed_lines, followed_of
 from instrument.results.numbers import with_error
+from instrument.results.quality import how_long
 from instrument.results.session_result import BEFORE_DIAGNOSIS, result_of_events
 from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated, PointMeasured
 
@@ -103,9 +104,8 @@ def print_quality(out: Output, points: list[PointMeasured]) -> None:
     off = max(abs(p.control_error_percent) for p in steps)
     noise = float(np.median([100 * p.velocity_std_m_s / abs(p.velocity_m_s) for p in steps]))
     marked = sum(bool(p.remarks) for p in steps)
-    seconds = sum(p.settle_s + p.dwell_s for p in steps)
     out.say(
-        f"{len(steps)} steps in {seconds:.0f} s of samples; base within {off:.2f} % of its level; "
+        f"{how_long(points)}; base within {off:.2f} % of its level; "
         f"noise {noise:.3f} % (median); {marked} steps with remarks"
     )
 

@@ -12,6 +12,7 @@ from instrument.report.fitted import ReportedFit
 from instrument.report.measured import points_set_aside, relative_noise, segments_of
 from instrument.report.sweep_figures import quality_figure, response_figures
 from instrument.results.numbers import format_number, signed
+from instrument.results.quality import how_long
 from instrument.results.set_aside import why_aside, words_of
 from instrument.session.contents import Contents
 from instrument.stream.derived import PointMeasured
@@ -47,12 +48,11 @@ def _summary(contents: Contents) -> str:
     shown = acceleration_unit()
     levels_m_s2 = sorted({round(p.level_m_s2, 6) for p in steps})
     levels = ", ".join(f"{shown.of(v):.4g}" for v in levels_m_s2)
-    seconds = sum(p.settle_s + p.dwell_s for p in contents.measured)
     marked = sum(bool(p.remarks) for p in steps)
     segments, sweeps = len({p.segment for p in steps}), len({p.sweep for p in steps})
     return (
         f"{_counted(len(steps), 'step')} in {_counted(segments, 'segment')} and {_counted(sweeps, 'sweep')} "
-        f"at {levels} {shown.symbol}, {seconds:.0f} s of settling and reading. "
+        f"at {levels} {shown.symbol}: {how_long(contents.measured)}. "
         f"The base was within {off:.2f} % of its level, the velocity's noise is {two_digits(noise)} % "
         f"(median); {_counted(marked, 'step')} with remarks."
     )

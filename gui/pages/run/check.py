@@ -100,7 +100,7 @@ class CheckPane(QWidget):
         said = [f"Nothing is wrong. About {duration(found.seconds)} of measuring."]
         if found.hammer_record_s is not None:
             said.append(f"Hammer: records of {found.hammer_record_s:g} s.")
-        said.append("Modes expected at " + ", ".join(f"{f:.4g}" for f in found.modes_hz) + " Hz.")
+        said.append("Modes expected at about " + ", ".join(f"{f:.4g}" for f in found.modes_hz) + " Hz.")
         self._say(" ".join(said))
         self.table.show_rows([_row(segment) for segment in found.segments])
         self.table.setVisible(bool(found.segments))

@@ -138,6 +138,9 @@ def test_a_person_who_is_waited_for_and_the_diagnosis_count():
     measured(to_go, [2.3, 2.3])
     to_go.take(DiagnosisStarted(1, 2), 4.6, 200.0)
     assert to_go.measuring_s(4.6) == 0.0
+    # A fast beginning is no pace yet: the minute foretold shrinks and does not jump.
+    to_go.computed(0.01)
+    assert 57 < to_go.beside_s(200.1) < 60
     to_go.computed(0.25)
     assert to_go.beside_s(210.0) == pytest.approx(30.0)
     to_go.take(DiagnosisFound(1, 2, None, ""), 4.6, 240.0)

@@ -29,8 +29,8 @@ def steps(*frequencies_hz):
 def test_two_steps_beside_a_resonance_do_not_see_it():
     (said,) = coarse_remarks(forecast(), steps(80.0, 140.0))
     assert said == (
-        "segment 2: no step on the resonance expected at 100 Hz, which is 2 Hz wide: the nearest steps are "
-        "80 and 140 Hz"
+        "segment 2: no step on the resonance expected at about 100 Hz, which is 2 Hz wide: the nearest steps "
+        "are 80 and 140 Hz"
     )
 
 

@@ -165,7 +165,7 @@ def test_calibration_gives_gain_and_delay_with_errors(page):
 
 def test_sweep_lists_remarks_and_drift(page):
     words = section(page, "Sweep of the damped plate")
-    assert "27 steps in 3 segments and 1 sweep at 4.905 m/s²" in words
+    assert "27 steps in 3 segments and 1 sweep at 4.905 m/s²: 27 steps and 4 sentinels, " in words
     assert "8 19 1 weak light: signal level 0.05" in words
     assert words.count("sentinel") >= 4
     assert "All 31 points" in words
