@@ -12,12 +12,14 @@ from pathlib import Path
 
 from instrument.batch.task import BatchTask
 from instrument.errors import BadInput
+from instrument.files.file_kind import refuse_another
 from instrument.files.nearest import nearest
 from instrument.files.plausible import INSIST
 from instrument.files.table import Rows, number, read_rows
+from instrument.files.text import read_text
 from instrument.interchange.given import SESSION_ENDINGS, is_session
 from instrument.interchange.questions import kelvin_doubt
-from instrument.interchange.readers import foreign_endings
+from instrument.interchange.readers import foreign_endings, is_foreign
 
 _OPTIONAL = ("hammer", "temperature_c", "material")
 """Columns of a table beside its data and specimens."""
@@ -49,8 +51,7 @@ def tasks_of(
         found = [_task(path, specimen, hammer) for path in files]
         lonely = next((t for t in found if t.specimen is None and not is_session(Path(t.data))), None)
         if lonely is not None:
-            if not Path(lonely.data).exists():
-                raise BadInput(f"{lonely.data}: no such file")
+            _refuse_no_data(Path(lonely.data))
             heads = _heads_of_a_list(Path(lonely.data))
             if heads:
                 raise BadInput(
@@ -62,6 +63,15 @@ def tasks_of(
                 "(a table of sweeps begins with a column 'data', commas between its columns)"
             )
     return [replace(task, diagnose=diagnose, insist=insist) for task in found]
+
+
+def _refuse_no_data(path: Path) -> None:
+    """Raise `BadInput` for what no specimen makes a row of."""
+    if not path.exists():
+        raise BadInput(f"{path}: no such file")
+    refuse_another(path, "a table", "sessions, sweeps, or one table of them")
+    if not is_foreign(path):
+        read_text(path)
 
 
 def _task(data: Path, specimen: Path | None, hammer: Path | None) -> BatchTask:

@@ -16,7 +16,8 @@ from instrument.interchange.naming import Naming
 @click.option(
     "--out",
     type=click.Path(path_type=Path, dir_okay=False),
-    help="Where it goes (.csv); the file's own name in the current folder otherwise.",
+    help="Where it goes (.csv); the file's own name in the current folder otherwise, with "
+    "-imported behind it where that is FILE.",
 )
 @click.option(
     "--columns",

@@ -9,8 +9,7 @@ from instrument.check.sensors import calibration_remark
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
 from instrument.facts.sensors import SensorFound, SensorsResult
-from instrument.files.sensor_file import SensorsDocument
-from instrument.files.toml import read_document
+from instrument.files.sensor_file import read_sensors
 
 
 @click.command()
@@ -24,7 +23,7 @@ def sensors(sensors: Path, json_path: str | None) -> None:
     out = Output(json_path)
     today = datetime.now(UTC).date()
     found = []
-    for one in read_document(sensors, SensorsDocument).sensor:
+    for one in read_sensors(sensors):
         until = one.valid_until
         found.append(
             SensorFound(

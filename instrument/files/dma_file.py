@@ -9,6 +9,7 @@ import numpy as np
 
 from fitting.arrays import Array
 from instrument.errors import BadInput
+from instrument.files.file_kind import refuse_another
 from instrument.files.nearest import nearest
 from instrument.files.table import number, read_rows
 from instrument.files.text import read_text
@@ -50,6 +51,7 @@ class DmaTable:
 
 def read_dma(path: Path, poisson: float) -> DmaTable:
     """Read a table. `poisson` is the core's own, where the file does not say another. Raises `BadInput`."""
+    refuse_another(path, "a table", "a table of moduli over frequency")
     header, rows = read_rows(path, lambda header: _check(path, header))
     columns = {
         name: np.array([_number(path, line, name, row[k]) for line, row in rows])

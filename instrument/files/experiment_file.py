@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 
 from instrument.errors import BadInput
+from instrument.files.file_kind import kind_of_file, refuse_another
 from instrument.files.toml import (
     NotNegative,
     Positive,
@@ -16,7 +17,6 @@ from instrument.files.toml import (
     document_faults,
     read_document,
 )
-from instrument.files.toml_kind import kind_of_toml
 from instrument.stepped_sine.patience import LONGEST_S
 from instrument.stepped_sine.settings import Dwell, LevelControl, Settle
 
@@ -282,13 +282,7 @@ def experiment_faults(path: Path) -> list[str]:
 
 
 def _refuse_another(path: Path) -> None:
-    """Raise `BadInput` for another file of this program: it lacks all that an experiment has."""
-    found, more = kind_of_toml(path), ""
-    if found in ("", "an experiment"):
-        return
-    if found == "a rig":
-        more = "; 'viscorig doctor' asks a rig's instruments"
-    raise BadInput(
-        f"{path}: {found}, expected an experiment, which names its specimen and its rig (viscorig new "
-        f"experiment){more}"
-    )
+    """Raise `BadInput` for another file: it lacks all that an experiment has."""
+    more = "; 'viscorig doctor' asks a rig's instruments" if kind_of_file(path) == "a rig" else ""
+    expected = "an experiment, which names its specimen and its rig (viscorig new experiment)"
+    refuse_another(path, "an experiment", f"{expected}{more}")

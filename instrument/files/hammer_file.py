@@ -12,7 +12,7 @@ from fitting.dynamics.bare_modes import CarriedSensor
 from fitting.errors import TooFewPoints
 from instrument.errors import BadInput
 from instrument.facts.damping import DampingResult
-from instrument.files.no_json import no_json
+from instrument.files.file_kind import no_json
 from instrument.files.text import read_text
 
 _HIGHEST_HZ = 1e6

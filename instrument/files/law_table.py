@@ -16,7 +16,7 @@ from fitting.arrays import Array
 from fitting.laws.table import Tabulated
 from instrument.errors import BadInput
 from instrument.files.dma_file import read_dma
-from instrument.files.no_json import no_json
+from instrument.files.file_kind import no_json
 from instrument.files.text import read_text
 from instrument.files.toml import one_line
 

@@ -43,6 +43,8 @@ def read_records(path: Path, named: Named) -> list[Hit] | dict[str, Frf]:
 
 def _read(path: Path, named: Named) -> list[Hit] | dict[str, Frf]:
     ending = path.suffix.lower()
+    if path.is_dir():
+        raise BadInput(f"{path}: a folder, expected impact records or an FRF")
     if not path.is_file():
         raise BadInput(f"{path}: no such file")
     if ending == ".csv" and (named.force or named.responses):

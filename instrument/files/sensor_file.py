@@ -7,10 +7,10 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from instrument.errors import BadInput
+from instrument.files.file_kind import kind_of_file, refuse_another
 from instrument.files.nearest import nearest
 from instrument.files.rig_file import RigDocument, SensorSection, year_after
 from instrument.files.toml import NotNegative, TomlTable, read_document
-from instrument.files.toml_kind import kind_of_toml
 from instrument.files.units import unit_of
 
 SensorKind = Literal["accelerometer", "force", "thermometer"]
@@ -79,20 +79,21 @@ class SensorsDocument(TomlTable):
         return self
 
 
+def read_sensors(path: Path) -> list[Sensor]:
+    """The sensors of a file. Raises `BadInput`."""
+    refuse_another(path, "a list of sensors", "a list of sensors (viscorig new sensors)")
+    return read_document(path, SensorsDocument).sensor
+
+
 def read_rig(path: Path) -> RigDocument:
     """A rig with what its sensors' file says of the sensors it names. Raises `BadInput`."""
-    found = kind_of_toml(path)
-    if found == "a specimen":
-        raise BadInput(
-            f"{path}: a specimen, expected a rig, whose [simulation] may name it (viscorig new rig)"
-        )
-    if found not in ("", "a rig"):
-        raise BadInput(f"{path}: {found}, expected a rig (viscorig new rig)")
+    its = ", whose [simulation] may name it" if kind_of_file(path) == "a specimen" else ""
+    refuse_another(path, "a rig", f"a rig{its} (viscorig new rig)")
     document = read_document(path, RigDocument)
     if document.sensors is None:
         return document
     where = path.parent / document.sensors
-    known = {one.serial: one for one in read_document(where, SensorsDocument).sensor}
+    known = {one.serial: one for one in read_sensors(where)}
     channels = {
         name: _with(section, name, known, path, where) for name, section in document.channels.named().items()
     }

@@ -15,6 +15,7 @@ from fitting.structures import AnySpecimen
 from fitting.structures.shear_pair import MOST_BY_EDGES, ShearPair, disc
 from instrument.errors import BadInput
 from instrument.files.beam_file import BeamDocument
+from instrument.files.file_kind import refuse_another
 from instrument.files.law_table import with_rows
 from instrument.files.specimen_file import (
     SpecimenDocument,
@@ -24,7 +25,6 @@ from instrument.files.specimen_file import (
     tolerances_of,
 )
 from instrument.files.toml import NotNegative, Positive, TomlTable, read_document, read_tables
-from instrument.files.toml_kind import kind_of_tables
 
 _RUBBER = 0.4999
 """Poisson's ratio of a pad; nothing depends on it."""
@@ -135,14 +135,6 @@ AnyDocument = SpecimenDocument | BeamDocument | ShearPairDocument
 """What a specimen file may hold."""
 
 _CURE = "a specimen file (viscorig new plate)"
-_BY_ENDING = {
-    ".csv": "a table",
-    ".tsv": "a table",
-    ".json": "a result",
-    ".h5": "a session",
-    ".hdf5": "a session",
-}
-"""What is no TOML: what it is by its name."""
 
 _DOCUMENTS: dict[Kind, type[ShearPairDocument] | type[BeamDocument]] = {
     "shear-pair": ShearPairDocument,
@@ -165,22 +157,14 @@ def read_structure(path: Path) -> AnySpecimen:
 
 def read_structure_document(path: Path) -> AnyDocument:
     """The document of a specimen of any kind, the rows of a law's table in it. Raises `BadInput`."""
-    tables = _tables(path)
-    _refuse_another(path, tables)
+    tables = _tables(path) if not path.is_dir() else {}
+    named = tables.get("specimen")
+    cure = f"a specimen: it names {named}" if isinstance(named, str) else _CURE
+    refuse_another(path, "a specimen", cure)
     kinds = [name for name in ("plate", *_DOCUMENTS) if name in tables]
     if len(kinds) > 1:
         raise BadInput(f"{path}: [{kinds[0]}] and [{kinds[1]}], expected one of them")
     return with_rows(read_document(path, document_type(tables)), path)
-
-
-def _refuse_another(path: Path, tables: dict[str, Any]) -> None:
-    """Raise `BadInput` for another file of this program, which lacks all that a specimen has."""
-    found: str = kind_of_tables(tables) if tables else _BY_ENDING.get(path.suffix.lower(), "")
-    if found in ("", "a specimen"):
-        return
-    named = tables.get("specimen")
-    cure = f"a specimen: it names {named}" if isinstance(named, str) else _CURE
-    raise BadInput(f"{path}: {found}, expected {cure}")
 
 
 def described(document: AnyDocument) -> AnySpecimen:

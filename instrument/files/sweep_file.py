@@ -185,6 +185,10 @@ def sweep_of_columns(
 def _check_header(path: Path, header: list[str]) -> None:
     for column in understood():
         if column.given == "always" and column.name not in header:
+            if "force_n" in header:
+                raise BadInput(
+                    f"{path}: an impact record, expected a sweep: 'viscorig damping' reads a record"
+                )
             near = nearest(column.name, header)
             turning = next((name for name in header if "rad_s" in name or "omega" in name.lower()), None)
             if turning:

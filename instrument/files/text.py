@@ -18,6 +18,15 @@ _OLD_WORKBOOK = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
 _WORKBOOKS = (".xlsx", ".xlsm", ".xls")
 _OF_A_WORKBOOK = b"xl/workbook"
 """The name of a file in the archive that a workbook is; names are not packed."""
+_PICTURE, _PDF = "a picture", "a PDF document"
+_OF_OTHERS = (
+    (b"\x89PNG\r\n", _PICTURE),
+    (b"\xff\xd8\xff", _PICTURE),
+    (b"GIF8", _PICTURE),
+    (b"RIFF", "a sound or a picture"),
+    (b"%PDF-", _PDF),
+)
+"""How files begin that are no text, and what they are, whatever their name."""
 _LONE_RETURN = re.compile(r"\r(?!\n)")
 """The line end of some old programs: a table is read with it, TOML and patterns know only the others."""
 
@@ -31,6 +40,8 @@ def refuse_endless(path: Path) -> None:
 def read_content(path: Path, most_bytes: int = LARGEST_BYTES) -> bytes:
     """The bytes of a file that is not too large. Raises `BadInput`."""
     refuse_endless(path)
+    if path.is_dir():
+        raise BadInput(f"{path}: a folder, expected a file")
     try:
         if path.stat().st_size > most_bytes:
             raise BadInput(f"{path}: {path.stat().st_size} bytes, expected at most {most_bytes}")
@@ -53,6 +64,8 @@ def read_text(path: Path, encoding: str = "utf-8-sig", most_bytes: int = LARGEST
             raise BadInput(f"{path}: UTF-16 text, expected UTF-8: {cure}")
         text = content.decode(encoding)
     except UnicodeDecodeError as error:
+        if 0 in content:
+            raise BadInput(f"{path}: a binary file, expected text") from None
         raise BadInput(
             f"{path}: byte {error.start}: not UTF-8 text ({error.reason}), expected UTF-8: save it as such"
         ) from None
@@ -64,7 +77,7 @@ def read_text(path: Path, encoding: str = "utf-8-sig", most_bytes: int = LARGEST
 
 
 def refuse_packed(path: Path, content: bytes) -> None:
-    """Raise `BadInput` where a file's content is a workbook, HDF5 or an archive, and no text."""
+    """Raise `BadInput` where a file's content is a workbook, HDF5, an archive or a picture, and no text."""
     if content.startswith(_OLD_WORKBOOK) or (content.startswith(_ARCHIVE) and _OF_A_WORKBOOK in content):
         cure = ": save it as CSV" if path.suffix.lower() != ".toml" else ""
         raise BadInput(f"{path}: an Excel workbook, expected text{cure}")
@@ -72,6 +85,9 @@ def refuse_packed(path: Path, content: bytes) -> None:
         raise BadInput(f"{path}: an HDF5 file, expected text; a session's name ends in .h5")
     if content.startswith(_ARCHIVE):
         raise BadInput(f"{path}: a packed archive, expected text")
+    for begins, kind in _OF_OTHERS:
+        if content.startswith(begins):
+            raise BadInput(f"{path}: {kind}, expected text")
 
 
 def refuse_workbook(path: Path) -> None:

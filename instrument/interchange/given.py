@@ -13,10 +13,10 @@ from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.session_result import SessionResult
+from instrument.files.file_kind import HAMMER_TEST, kind_of_file
 from instrument.files.hammer_file import HammerModes, read_hammer
 from instrument.files.structure_file import read_structure
 from instrument.files.sweep_file import SweepFile, read_sweep
-from instrument.files.toml_kind import kind_of_toml
 from instrument.interchange.base_frf import file_of_foreign, is_frf_csv, sweep_of_foreign, sweep_of_frf_csv
 from instrument.interchange.files_of import files_of
 from instrument.interchange.identified import session_modes, session_sweep
@@ -94,7 +94,7 @@ def read_given(data: Path, specimen: Path | None, hammer: Path | None, *, own_ha
 
     Raises `BadInput`, `FittingError`.
     """
-    _refuse_toml(data)
+    _refuse_another(data)
     if is_session(data):
         given = _of_session(data, specimen, own_hammer=hammer is None and own_hammer)
     else:
@@ -104,11 +104,14 @@ def read_given(data: Path, specimen: Path | None, hammer: Path | None, *, own_ha
     return given if hammer is None else replace(given, modes=hammer_of(hammer))
 
 
-def _refuse_toml(data: Path) -> None:
-    """Raise `BadInput` for a file of this program that holds no data."""
-    if data.suffix.lower() == ".toml" and data.is_file() and not is_foreign(data):
-        found = kind_of_toml(data) or "a TOML file"
-        raise BadInput(f"{data}: {found}, expected data: a sweep, or a session")
+def _refuse_another(data: Path) -> None:
+    """Raise `BadInput` for a file of this program that holds no data, and for a folder."""
+    found = "" if is_foreign(data) and data.is_file() else kind_of_file(data)
+    if not found and data.suffix.lower() == ".toml" and data.is_file():
+        found = "a TOML file"
+    if found not in ("", "a table", "a session"):
+        more = "; it goes with --hammer" if found == HAMMER_TEST else ""
+        raise BadInput(f"{data}: {found}, expected data: a sweep, or a session{more}")
 
 
 def hammer_of(path: Path) -> HammerModes:

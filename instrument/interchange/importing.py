@@ -46,7 +46,7 @@ def import_file(path: Path, out: Path | None, naming: Naming | None = None) -> I
         # Said by its own rows: nobody has seen those that would be written.
         table = one_table(found.sweeps)
         sweep_of_columns(path, table, lines=found.lines_of(len(table["frequency_hz"])))
-    target = out if out is not None else Path(f"{path.stem}.csv")
+    target = out if out is not None else _default_name(path)
     if target.suffix.lower() != ".csv":
         raise BadInput(f"{target}: ending {target.suffix!r}, expected .csv")
     kinds: dict[str, list[Any]] = {
@@ -81,6 +81,12 @@ def import_file(path: Path, out: Path | None, naming: Naming | None = None) -> I
             else "relative to the clamp or absolute velocity? [pickup] reads in the specimen says it"
         )
     return Imported(tuple(plan.values()), tuple(map(one_line, found.said)))
+
+
+def _default_name(path: Path) -> Path:
+    """In the current folder; another than the file's own, which stands there where it is a CSV."""
+    own = Path(f"{path.stem}.csv")
+    return Path(f"{path.stem}-imported.csv") if own.exists() and own.samefile(path) else own
 
 
 def _prove(read: Callable[[Path], object], written: Path, named: Path) -> None:

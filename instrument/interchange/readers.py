@@ -53,7 +53,7 @@ READERS: Registry[Reader] = Registry(
 def read_foreign(path: Path, naming: Naming | None = None) -> Found:
     """What a file holds, by its ending; `naming` has names in the place of its own. Raises `BadInput`."""
     if not path.is_file():
-        raise BadInput(f"{path}: {'no file' if path.exists() else 'no such file'}")
+        raise BadInput(f"{path}: {'a folder, expected a file' if path.is_dir() else 'no such file'}")
     reader = READERS.get(_ending(path))
     if reader is None:
         refuse_workbook(path)

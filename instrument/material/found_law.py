@@ -17,7 +17,7 @@ from fitting.structures.shear_pair import ShearPair
 from instrument.errors import BadInput
 from instrument.facts.doubts import doubts_in
 from instrument.facts.identification import IdentificationResult
-from instrument.files.no_json import no_json
+from instrument.files.file_kind import LAWS, kind_of_facts, no_json
 from instrument.files.table import LARGEST
 from instrument.files.text import read_text
 from instrument.interchange.given import is_session
@@ -192,7 +192,8 @@ def read_law(path: Path, progress: Progress = quiet) -> MaterialLaw:
         raise BadInput(f"{path}: not JSON that can be read (too deep), {_EXPECTED}") from None
     found = _of_facts(path, facts)
     if found is None:
-        raise BadInput(f"{path}: {_EXPECTED}")
+        kind = kind_of_facts(facts)
+        raise BadInput(f"{path}: {kind}, {_EXPECTED}" if kind not in ("", *LAWS) else f"{path}: {_EXPECTED}")
     errors = found.storage_modulus_standard_error_pa
     rows = (found.frequency_hz, found.storage_modulus_pa, found.loss_factor, errors)
     refuse_contradictions(path, found.kind, found.parameters, rows)

@@ -21,7 +21,7 @@ from fitting.stated.number_names import kind_of, number_name
 from fitting.stated.tolerances import OF_NARROW
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult
-from instrument.files.no_json import no_json
+from instrument.files.file_kind import no_json
 from instrument.files.text import read_text
 from instrument.models.fitted_plate import FittedPlate
 

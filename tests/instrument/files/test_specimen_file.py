@@ -147,7 +147,7 @@ BAD = {
         "tolerances.length_percent: unknown key",
     ),
     "empty": ("", "empty"),
-    "binary": (b"\x89PNG\r\n\x1a\n\xff\xfe", "not UTF-8"),
+    "binary": (b"\x89PNG\r\n\x1a\n\xff\xfe", "a picture, expected text"),
     "nul": (b"[plate]\0", "NUL"),
     "not toml": ("plate = = 1", "not TOML"),
     "negative thickness": (

@@ -90,7 +90,7 @@ BAD = {
     "empty": ("", "empty"),
     "comments only": ("# nothing\n", "no header"),
     "header only": ("frequency_hz,velocity_m_s\n", "no rows"),
-    "binary": (b"\x00\xff\xfe\x89", "not UTF-8"),
+    "binary": (b"\x00\xff\xfe\x89", "a binary file, expected text"),
     "nul": (b"frequency_hz\0", "NUL"),
     "no frequency": ("f,velocity_m_s\n1,2\n", "column frequency_hz missing"),
     "no velocity": ("frequency_hz\n1\n", "no velocity"),

@@ -36,6 +36,9 @@ def test_a_lone_carriage_return_ends_a_line_and_other_line_ends_stay(tmp_path):
         ("f,v\n1,2\n".encode("utf-16"), "UTF-16 text"),
         (b"f,\xff\n", "byte 2: not UTF-8"),
         (b"f,\0v\n", "byte 2: a NUL byte"),
+        (b"\x89PNG\r\n\x1a\n", "a picture, expected text"),
+        (b"%PDF-1.7\n", "a PDF document, expected text"),
+        (b"f,\xff\0\n", "a binary file, expected text"),
         (b" \n\n", "the file is empty"),
     ],
 )
@@ -44,6 +47,11 @@ def test_what_is_no_text_is_refused_by_its_place(tmp_path, content, said):
     path.write_bytes(content)
     with pytest.raises(BadInput, match=said):
         read_text(path)
+
+
+def test_a_folder_is_no_file(tmp_path):
+    with pytest.raises(BadInput, match="a folder, expected a file"):
+        read_text(tmp_path)
 
 
 def test_a_file_that_cannot_be_opened_is_refused(tmp_path):

@@ -7,9 +7,9 @@ import pytest
 
 from instrument.cli.main import run
 from instrument.errors import BadInput
+from instrument.files.file_kind import no_json
 from instrument.files.hammer_file import read_hammer
 from instrument.files.new_file import TEMPLATES
-from instrument.files.no_json import no_json
 from instrument.material.found_law import read_law
 from instrument.results.fit_file import read_fit
 
