@@ -19,6 +19,8 @@ _BY_KEYS = (
     ({"law_kind", "parameters"}, LAWS[0]),
 )
 """Of this program's JSON: keys that it has, and what it is then."""
+ANY_JSON = ("JSON", *(kind for _, kind in _BY_KEYS))
+"""Kinds of JSON, known or not."""
 
 
 def kind_of_file(path: Path) -> str:
@@ -34,7 +36,7 @@ def kind_of_file(path: Path) -> str:
         case ".toml":
             return kind_of_toml(path)
         case ".json":
-            return kind_of_facts(_facts(path)) or "JSON"
+            return kind_of_facts(_facts(path)) or ANY_JSON[0]
         case ending if ending in _TABLES:
             return "a table"
         case ending if ending in _SESSIONS:
@@ -60,10 +62,10 @@ def no_json(path: Path, error: json.JSONDecodeError) -> str:
     return f"line {error.lineno}: not JSON ({error.msg})"
 
 
-def refuse_another(path: Path, own: str, expected: str) -> None:
+def refuse_another(path: Path, own: str | tuple[str, ...], expected: str) -> None:
     """Raise `BadInput` for a file that is known to be something else than `own`, as `kind_of_file` has it."""
     found = kind_of_file(path)
-    if found not in ("", own):
+    if found not in ("", *((own,) if isinstance(own, str) else own)):
         raise BadInput(f"{path}: {found}, expected {expected}")
 
 

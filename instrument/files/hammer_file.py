@@ -12,7 +12,7 @@ from fitting.dynamics.bare_modes import CarriedSensor
 from fitting.errors import TooFewPoints
 from instrument.errors import BadInput
 from instrument.facts.damping import DampingResult
-from instrument.files.file_kind import no_json
+from instrument.files.file_kind import ANY_JSON, no_json, refuse_another
 from instrument.files.text import read_text
 
 _HIGHEST_HZ = 1e6
@@ -50,6 +50,7 @@ class HammerModes(NamedTuple):
 
 def read_hammer(path: Path) -> HammerModes:
     """The JSON of `viscorig damping`. Raises `BadInput`."""
+    refuse_another(path, ANY_JSON, "the JSON of 'viscorig damping', or a session")
     try:
         document = _Document.model_validate(json.loads(read_text(path)))
         if not any("damping_ratio" in m.model_fields_set for m in document.modes):

@@ -11,6 +11,7 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.modal.frf import Frf
 from instrument.errors import BadInput
+from instrument.files.file_kind import refuse_another
 from instrument.files.guard import checked_frf, checked_hits, said_of
 from instrument.files.impact_csv import MOTIONS, read_impact_csv
 from instrument.files.lvm import read_lvm
@@ -43,8 +44,7 @@ def read_records(path: Path, named: Named) -> list[Hit] | dict[str, Frf]:
 
 def _read(path: Path, named: Named) -> list[Hit] | dict[str, Frf]:
     ending = path.suffix.lower()
-    if path.is_dir():
-        raise BadInput(f"{path}: a folder, expected impact records or an FRF")
+    refuse_another(path, ("a table", "a session"), "impact records or an FRF")
     if not path.is_file():
         raise BadInput(f"{path}: no such file")
     if ending == ".csv" and (named.force or named.responses):

@@ -29,6 +29,11 @@ PLACES = [
     wrong("damping hits.csv hits.csv", "hits.csv: named twice"),
     made("a folder for a batch", "batch taken", "taken: a folder, expected sessions, sweeps"),
     made("a folder for records", "damping taken", "taken: a folder, expected impact records"),
+    wrong("damping coarse.toml", "coarse.toml: a specimen, expected impact records"),
+    wrong(
+        "identify sweep.csv --specimen coarse.toml --hammer coarse.toml",
+        "coarse.toml: a specimen, expected the JSON of 'viscorig damping'",
+    ),
     made("a folder to import", "import taken", "taken: a folder, expected a file"),
     made("a folder for an experiment", "check taken", "taken: a folder, expected an experiment"),
     made("a folder for a rig", "doctor taken", "taken: a folder, expected a rig"),

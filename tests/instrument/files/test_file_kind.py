@@ -47,6 +47,7 @@ def test_only_what_is_known_to_be_another_is_refused(tmp_path):
     (tmp_path / "a.csv").write_text("x")
     refuse_another(tmp_path / "a.csv", "a table", "nothing")
     refuse_another(tmp_path / "none.csv", "a rig", "nothing")
+    refuse_another(tmp_path / "a.csv", ("a session", "a table"), "nothing")
     with pytest.raises(BadInput, match=r"a\.csv: a table, expected a rig"):
         refuse_another(tmp_path / "a.csv", "a rig", "a rig")
 
