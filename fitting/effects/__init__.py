@@ -31,6 +31,10 @@ def _judge(name: str, found: Any) -> Effect:
     effect = derived_from(Effect, name, found, "name")()
     if effect.extends is not None and effect.extends not in _OWN:
         raise NoPlugin(f"it extends {effect.extends!r}, which is no effect of viscorig's own")
+    if effect.sharp and (type(effect).swings is Effect.swings or type(effect).sharply is Effect.sharply):
+        raise NoPlugin(
+            "it is sharp, and says neither where a mass swings (swings) nor how it is felt (sharply)"
+        )
     _claim(effect)
     return effect
 

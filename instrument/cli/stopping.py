@@ -78,9 +78,16 @@ def safe_stop(control: RunControl) -> Iterator[None]:
 
 
 def hear_no_more() -> None:
-    """Ctrl-C is unheard from here on: the command is over, and its exit status stands."""
+    """One Ctrl-C is unheard from here on: the command is over, and its exit status stands.
+
+    A second one ends what still waits, as for a process of its own.
+    """
+
+    def once(*_: object) -> None:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
     if threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        signal.signal(signal.SIGINT, once)
 
 
 @contextmanager

@@ -41,6 +41,9 @@ _ENOUGH = 150
 """Points, spread over the sweep: more say the same."""
 _WITH_EFFECTS = 0.45
 """What effects of usual size leave at most."""
+_NO_GAIN = 100.0
+"""Times, or one over it: from where on a factor of no name is hardly a gain or a level, and wrong numbers of
+the specimen explain it sooner. Each of those takes a model of its own. A choice."""
 _MANY = 24
 """Numbers from which on they say more than a core and a factor can follow: fewer have to be far off."""
 _DELAYS_S = np.linspace(-3e-3, 3e-3, 1201)
@@ -230,7 +233,9 @@ def _of_data(look: _Look) -> str | None:
                 return words
         slight = mistake.is_slight(found.factor) and not mistake.is_habit(found.factor)
         # A factor of no name is less of an explanation than a name without a factor.
-        named = mistake.is_nameless(found.factor, drive) and (_frequencies(look) or _stated_wrongly(look))
+        named = mistake.is_nameless(found.factor, drive) and _frequencies(look)
+        if not named and abs(np.log(found.factor)) > np.log(_NO_GAIN):
+            named = _stated_wrongly(look)
         return "" if slight else named or words_of(mistake, found.factor, drive)
     in_part = mistake_in_a_segment(sweep, model, as_is, drive)
     if in_part is not None:

@@ -102,6 +102,8 @@ def one_fit_words(found: DiagnosisResult) -> str:
 
 def _or_others(name: str, group: Sequence[str]) -> str:
     others = [n for n in group if n != name]
+    if len(others) > 1 and "none" in others:
+        return f"{name}, no effect or {len(others) - 1} more"
     if len(others) > 1:
         return f"{name} or {len(others)} others"
     said = {"none": "no effect", UNLISTED: "another of its kind"}

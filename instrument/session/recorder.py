@@ -112,6 +112,7 @@ class Recorder:
         self.check()
         deadline = monotonic() + _PATIENCE_S
         while self._queue.qsize() >= _QUEUE:
+            self.check()
             if monotonic() > deadline:
                 raise RigStopped(f"{self._journal.folder}: the disk took nothing for {_PATIENCE_S:.0f} s")
             sleep(_LOOK_S)
@@ -134,6 +135,8 @@ class Recorder:
     def _run(self) -> None:
         try:
             self._work()
+        except Exception as error:  # a thread that ends says why to whoever records
+            self._failure = error
         finally:
             self._works = False
 

@@ -119,7 +119,7 @@ class _Beginning:
         v = self.model.velocity(law)
         for round in range(_ROUNDS):
             here = problem.condensed(law).around(law)
-            evidence = self._evidence(here, law, u, v)
+            about, evidence = law, self._evidence(here, law, u, v)
             if len(laws) > 1:
                 law, u, meets = _best_of(here, evidence, laws, u)
                 laws = [law]
@@ -131,7 +131,7 @@ class _Beginning:
                 stated = _free_to_bend(problem, self.start)
                 none = _from_elsewhere(here, evidence, stated, none, self.executor)
             moved = _moved(problem, law, none.law)
-            about, law, u = law, none.law, none.u
+            law, u = none.law, none.u
             if moved < _FAR and not (problem.errs_as_found and round == 0):
                 break
             v = self.model.velocity(law)

@@ -39,7 +39,7 @@ from gui.widgets.work_bar import WorkBar
 from instrument.facts.diagnosis import DiagnosisResult, StageName
 from instrument.facts.doubts import doubts_of
 from instrument.facts.modal import ModalResult
-from instrument.results.standing import law_words, stage_before
+from instrument.results.standing import fit_words, stage_before
 from instrument.results.typeset import note
 
 _NOTHING = (
@@ -174,7 +174,7 @@ class TogetherPage(Page):
     def _offer_stages(self, diagnosed: DiagnosisResult | None) -> None:
         choices = {"the law alone": "before"}
         if diagnosed is not None and stage_before(diagnosed) is not None:
-            choices[f"with {law_words(diagnosed)}"] = "after"
+            choices[f"with {fit_words(diagnosed)}"] = "after"
         if [self.stage.itemText(k) for k in range(self.stage.count())] == list(choices):
             return
         self.stage.blockSignals(True)

@@ -5,6 +5,7 @@ import sys
 import pytest
 from sessions import configuration, point
 
+from instrument.errors import RigStopped
 from instrument.session.journal import SessionJournal
 from instrument.session.recorder import Recorder
 from instrument.session.storage import part_events
@@ -86,3 +87,19 @@ def test_a_part_that_fails_and_ends_the_run_is_said_by_that_alone(tmp_path, capl
     with pytest.raises(Exception, match="recording failed"):
         failed()
     assert caplog.records == []
+
+
+def test_a_recorder_that_ended_says_why_at_once(tmp_path, monkeypatch):
+    """What its thread died of is no slow disk."""
+
+    def out_of_memory(self, event):
+        raise MemoryError("no memory for a block")
+
+    def failed():
+        with Recorder(begun(tmp_path / "s.running"), []) as recorder:
+            for n in range(100_000):
+                recorder.record(point(n))
+
+    monkeypatch.setattr(Recorder, "_take", out_of_memory)
+    with pytest.raises(RigStopped, match="recording failed: no memory for a block"):
+        failed()
