@@ -119,6 +119,11 @@ class DiagnosisProblem:
         return cls(sweep, specimen, plate, points, at(sweep.omega), fine, coarse, passes, dense, nuisances)
 
     @property
+    def files_without_time(self) -> tuple[int, ...]:
+        """Numbers, from 1, of those among several files whose points carry no time while others' do."""
+        return ()
+
+    @property
     def stated_law(self) -> CoreLaw:
         """The specimen's: where identification starts."""
         assert self.specimen.core is not None

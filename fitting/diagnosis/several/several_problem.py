@@ -134,6 +134,13 @@ class SeveralProblem(DiagnosisProblem):
         )
 
     @property
+    def files_without_time(self) -> tuple[int, ...]:
+        """As `DiagnosisProblem.files_without_time`."""
+        each = [(m.points.timed, b.file) for m, b in zip(self.members, self.belongs, strict=True)]
+        lacking = tuple(sorted({file for timed, file in each if not timed}))
+        return lacking if any(timed for timed, _ in each) else ()
+
+    @property
     def resonances(self) -> Complex:
         """Poles of all members, one member after another. Shape (poles,)."""
         return np.concatenate([m.resonances for m in self.members])

@@ -45,11 +45,13 @@ def warnings_of(search: Search, judgement: Judgement) -> tuple[str, ...]:
     names = {n for group in judgement.equivalent.values() for n in group}
     if not problem.points.timed:
         stated = problem.sweep.time_s is not None
+        lacking = problem.files_without_time
+        of = f"file{'s' * (len(lacking) > 1)} {', '.join(map(str, lacking))}: " if lacking else ""
         if any(e.name in names for e in search.effects if e.needs_time):
             why = _NO_SECONDS if stated else _NO_TIME
-            said.append(f"{why}: the drift assumes an even sweep upwards in frequency")
+            said.append(f"{of}{why}: the drift assumes an even sweep upwards in frequency")
         elif not judgement.by_hand and any(e.needs_time for e in search.objected):
-            said.append(NO_SECONDS if stated else NO_DRIFT)
+            said.append(of + (NO_SECONDS if stated else NO_DRIFT))
     by_hand = judgement.group[0][0] if judgement.by_hand else None
     if by_hand is not None and (why := against_by_checks(by_hand)):
         what = f"{' and '.join(by_hand.names)}, your word," if by_hand.names else "no effect"

@@ -70,3 +70,16 @@ def test_files_that_do_not_go_together_are_named_with_what_to_do():
         OutsideModel, match=r"\(absolute: file 1; relative: file 2\), expected .*correct reads"
     ):
         SeveralProblem.of_members([one, relative], 2 * [None], places[:2])
+
+
+def test_files_without_times_are_told_where_others_have_them():
+    first, second = members((0.0, 0.0))
+    untimed = replace(second, points=replace(second.points, timed=False))
+    timed = replace(first, points=replace(first.points, timed=True))
+
+    def lacking(*each):
+        return SeveralProblem.of_members(each, [None, None], [Place(1), Place(2)]).files_without_time
+
+    assert lacking(timed, untimed) == (2,)
+    assert lacking(untimed, untimed) == ()
+    assert timed.files_without_time == ()

@@ -47,7 +47,7 @@ def test_of_a_sweep_in_one_piece_it_is_said_what_is_held_out():
 
 def test_what_follows_from_times_is_named_with_a_caution_or_said_not_to_have_been_looked_for():
     drift = CATALOGUE["temperature_drift"]
-    untimed = Like(points=Like(timed=False), sweep=SWEEP)
+    untimed = Like(points=Like(timed=False), sweep=SWEEP, files_without_time=())
     named = Like(accepted=None, equivalent={drift.name: (drift.name,)}, group=(), by_hand=False)
     nothing = Like(accepted=None, equivalent={}, group=(), by_hand=False)
     asked = Like(problem=untimed, stated=LAW, work=Like(parts=PARTS), effects=[drift], objected=())
@@ -57,3 +57,16 @@ def test_what_follows_from_times_is_named_with_a_caution_or_said_not_to_have_bee
     assert warnings_of(objecting, nothing)[0] == NO_DRIFT
     without = Like(**{**vars(asked), "effects": [], "objected": (CATALOGUE["gain_error"],)})
     assert warnings_of(without, nothing) == ()
+
+
+def test_of_several_files_it_is_said_which_carry_no_time():
+    drift = CATALOGUE["temperature_drift"]
+    nothing = Like(accepted=None, equivalent={}, group=(), by_hand=False)
+
+    def said(*lacking):
+        problem = Like(points=Like(timed=False), sweep=SWEEP, files_without_time=lacking)
+        search = Like(problem=problem, stated=LAW, work=Like(parts=PARTS), effects=[], objected=(drift,))
+        return warnings_of(search, nothing)[0]
+
+    assert said(2) == f"file 2: {NO_DRIFT}"
+    assert said(2, 3) == f"files 2, 3: {NO_DRIFT}"
