@@ -27,6 +27,8 @@ from fitting.progress import Report, unheard
 
 _SINGLES = 0.6
 """Share of the time that single effects take, where pairs are looked for too."""
+_NEAR = 6.0
+"""In -2 ln of a probability, a ratio of twenty: a misread row so near what is named is said beside it."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +43,8 @@ class DiagnosedModes:
     none: ScoredFit
     odd: Misread | None = None
     """The mode that does not go with the others, where that says more than any effect."""
+    rival: Misread | None = None
+    """The same where it says about as much as what is named."""
 
 
 def diagnose_modes(
@@ -80,12 +84,18 @@ def diagnose_modes(
         judgement = replace(judgement, verdict="ambiguous")
     every = sorted([none, *found], key=by_cost)
     odd = misread(begun)
-    if odd is not None and odd.says_more_than(every[0], begun.problem.response().plate):
+    beyond = np.inf if odd is None else odd.beyond(every[0], begun.problem.response().plate)
+    # What one row explains an effect may have done: then the row has to be plainly likelier.
+    if beyond < (-_NEAR if every[0].names else 0.0):
         unknown = replace(judgement, verdict="unknown", accepted=None, equivalent={}, unlisted=None)
         return DiagnosedModes(begun, unknown, tuple(every), t, none, odd)
     if judgement.unlisted is not None:
         every = sorted([*every, judgement.unlisted], key=by_cost)
-    return DiagnosedModes(begun, _in_light_of_the_law(work, seen, judgement), tuple(every), t, none)
+    rival = odd if beyond < _NEAR or not every[0].names else None
+    if rival is not None and judgement.verdict == "effect":
+        judgement = replace(judgement, verdict="ambiguous")
+    judgement = _in_light_of_the_law(work, seen, judgement)
+    return DiagnosedModes(begun, judgement, tuple(every), t, none, rival=rival)
 
 
 def _too_few(work: Explaining, judgement: Judgement) -> bool:

@@ -13,6 +13,7 @@ from fitting.dynamics.damping import viscous_damping
 from fitting.effects import all_spans, span_modules
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
+from fitting.identification.doubt import Doubt
 from fitting.laws import CoreLaw
 from fitting.laws.constant import ConstantModulus
 from fitting.mode_tables.build import member_of, own_motions
@@ -37,8 +38,10 @@ from instrument.progress import Progress, quiet
 from instrument.remarks.free_layers import remark_on_free_layers
 from instrument.remarks.modal_reads import remark_on_reading
 from instrument.remarks.modal_remarks import (
+    remark_on_all,
     remark_on_fit,
     remark_on_misread,
+    remark_on_unlike,
     remarks_on_pulls,
     remarks_on_tables,
 )
@@ -95,9 +98,10 @@ def identify_tables(
     )
     seconds = perf_counter() - ready
     reads = remark_on_reading(problem.members, [found.law] * len(problem.members))
-    left: tuple[str, ...] = (*remark_on_fit(found, tables), *remarks_on_pulls(found))
+    left = (*remark_on_fit(found, tables), *remarks_on_pulls(found))
     if odd is not None:
-        left = (remark_on_misread(odd, tables),)
+        left = (*_of_a_row(odd, tables), *(() if odd.plain else left))
+    left = left or remark_on_all(begun.none, tables)
     said = (
         *left,
         *_remark_on_free_layers(specimens, begun, begun.none),
@@ -120,6 +124,8 @@ class TablesDiagnosed:
     remarks: tuple[str, ...]
     misread: str = ""
     """Which mode does not go with the others, where that says more than any effect."""
+    rival: str = ""
+    """The same where it says about as much as what is named."""
 
 
 def refuse_to_diagnose(specimens: Sequence[AnySpecimen], without: Collection[str]) -> None:
@@ -160,8 +166,19 @@ def diagnose_tables(
     reads = remark_on_reading(members, [law] * len(members))
     remarks = (*check_theories(law, tables, specimens), *reads, *remarks_on_tables(tables, specimens))
     remarks = (*_remark_on_free_layers(specimens, found.begun, fitted), *remarks)
-    odd = remark_on_misread(found.odd, tables) if found.odd is not None else ""
-    return TablesDiagnosed(found, effects, ready - began, perf_counter() - ready, remarks, odd)
+    odd = _of_a_row(found.odd, tables)
+    rival = _of_a_row(found.rival, tables)
+    # In the explanation one that is likelier than all effects is said already.
+    said = (*rival, *(remark_on_all(fitted, tables) if not (odd or rival) else ()), *remarks)
+    seconds = perf_counter() - ready
+    return TablesDiagnosed(found, effects, ready - began, seconds, said, "".join(odd), "".join(rival))
+
+
+def _of_a_row(odd: Misread | None, tables: Sequence[ModalTable]) -> tuple[Doubt, ...]:
+    """What is said of a mode that does not go with the others; nothing of none."""
+    if odd is None:
+        return ()
+    return ((remark_on_misread if odd.plain else remark_on_unlike)(odd, tables),)
 
 
 def _remark_on_free_layers(

@@ -41,14 +41,15 @@ def table_doubt(
 ) -> str:
     """What to ask of tables whose fit leaves so much; empty where no mistake explains it.
 
-    `odd` is a mode without which one law explains all the others as they are.
+    `odd` is a mode without which one law explains all the others as they are; it counts where it is plain.
     """
     numbers = 2 * sum(len(t.mode) for t in tables)
     if not numbers * chi2_per_dof > BETTER:
         return ""
     gross = chi2_per_dof > GROSS
+    place = odd.place if odd is not None and odd.plain else None
     with progress("reading the modes otherwise"), threadpool_limits(1, "blas"), np.errstate(all="ignore"):
-        for some in _readings(tables, gross=gross) if odd is None else _readings_of_one(tables, odd.place):
+        for some in _readings(tables, gross=gross) if place is None else _readings_of_one(tables, place):
             most = [min(part * chi2_per_dof, FITS) for *_, part in some]
             each = [
                 (_left(one[1], specimens, limit), limit, one[0])

@@ -4,12 +4,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from fitting.diagnosis.inference.refitted import Refitted
+from fitting.diagnosis.thresholds import VERDICT
 from fitting.digits import two_digits, written_out
 from fitting.identification.doubt import ASTRAY, BIASED, Doubt
 from fitting.identification.result import moved_too_far
 from fitting.mode_tables.fit import ModalFit
 from fitting.mode_tables.misread import Misread
 from fitting.mode_tables.table import FREQUENCY_STD, LOSS_STD, ModalTable
+from fitting.numerics.chances import chi2_above
 from fitting.specimen import PlateSpecimen
 from fitting.structures import AnySpecimen
 from instrument.remarks.as_given import (
@@ -63,19 +66,57 @@ def remark_on_fit(fit: ModalFit, tables: Sequence[ModalTable]) -> tuple[Doubt, .
     )
 
 
-def remark_on_misread(odd: Misread, tables: Sequence[ModalTable]) -> str:
-    """Which mode does not go with the others, and where they have it."""
+def remark_on_all(none: Refitted, tables: Sequence[ModalTable]) -> tuple[Doubt, ...]:
+    """Doubts of a law that bends, and moves stated numbers, each within what it may, too far together."""
+    dof = none.data - none.parameter_count
+    if not all(t.states_its_noise for t in tables) or not chi2_above(none.chi2, dof) < VERDICT.check_level:
+        return ()
+    return (
+        Doubt(
+            "the modes are met only by a law that bends, and stated numbers that move, further together "
+            f"than chance has them (chi-square {none.chi2:.3g} where {dof} is expected): some modes are "
+            f"misread, or the model lacks something, and {BIASED}; see 'viscorig diagnose'"
+        ),
+    )
+
+
+def remark_on_unlike(odd: Misread, tables: Sequence[ModalTable]) -> Doubt:
+    """Which mode the law has to bend for, where the others have it, and which other one may be it instead."""
+    mode, of_file, f, eta = _row(odd, tables)
+    instead = "".join(
+        f"; or mode {number:g}{of} in its place: they have that at {one.frequency_hz:.5g} Hz with "
+        f"{one.loss_factor:.3g}, the table at {its_f:.5g} Hz with {its_eta:.3g}"
+        for one in odd.rivals
+        for number, of, its_f, its_eta in [_row(one, tables)]
+    )
+    return Doubt(
+        f"mode {mode:g}{of_file} does not go with the others (chi-square {odd.with_it:.3g} with it, "
+        f"{odd.others.chi2:.2g} without; a right one takes along as much in fewer than one table of "
+        f"two hundred): one law of the others has it at {odd.frequency_hz:.5g} Hz with a loss factor of "
+        f"{odd.loss_factor:.3g}, the table at {f:.5g} Hz with {eta:.3g}{instead}: is it misread, or another "
+        "motion? If it is right something acts on it ('viscorig diagnose'), or the core departs from its "
+        f"formula there. As it is, {BIASED}"
+    )
+
+
+def _row(odd: Misread, tables: Sequence[ModalTable]) -> tuple[float, str, float, float]:
+    """Its mode, the words for its file, its frequency and loss factor in the table."""
     mode, f, eta = (
-        np.concatenate([getattr(t, name) for t in tables])[odd.place]
+        float(np.concatenate([getattr(t, name) for t in tables])[odd.place])
         for name in ("mode", "frequency_hz", "loss_factor")
     )
     file = int(np.searchsorted(np.cumsum([len(t.mode) for t in tables]), odd.place, "right")) + 1
-    of_file = f" of file {file}" if len(tables) > 1 else ""
+    return mode, f" of file {file}" if len(tables) > 1 else "", f, eta
+
+
+def remark_on_misread(odd: Misread, tables: Sequence[ModalTable]) -> Doubt:
+    """Which mode plainly does not go with the others, and where they have it."""
+    mode, of_file, f, eta = _row(odd, tables)
     theirs, asked = f"with a loss factor of {odd.loss_factor:.3g}", "is it misread, or another motion?"
     if odd.loss_factor < _NOTHING_BENDS:
         theirs = "where layers stretch along the beam, nothing bends and nothing is lost"
         asked = f"bending modes are numbered past that one: is this mode {mode + 1:g}?"
-    return (
+    return Doubt(
         f"mode {mode:g}{of_file} does not go with the others, which one law explains without any effect: "
         f"they have it at {odd.frequency_hz:.5g} Hz {theirs}, the table "
         f"at {f:.5g} Hz with {eta:.3g}: {asked} "

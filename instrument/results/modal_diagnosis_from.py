@@ -58,7 +58,7 @@ def modal_diagnosis_from(
         p_value=None,
         nested_held_out_rms_percent=None,
         next_measurement=_READ_AGAIN
-        if diagnosed.misread
+        if diagnosed.misread or diagnosed.rival
         else text.next_measurement(
             judgement, catalogue, with_hammer=False, unknown=text.WHERE_NOTHING_EXPLAINS_MODES
         ),
@@ -164,6 +164,15 @@ def _modes(before: ModalFit, after: ModalFit, tables: Sequence[ModalTable]) -> t
 
 
 def _explanation(
+    diagnosed: TablesDiagnosed, effects: Sequence[FoundEffect], before: StageFitted, after: StageFitted
+) -> tuple[str, ...]:
+    said = _of_effects(diagnosed, effects, before, after)
+    if not diagnosed.rival:
+        return said
+    return (*said, f"About as likely one row of the table is not as it should be: {diagnosed.rival}.")
+
+
+def _of_effects(
     diagnosed: TablesDiagnosed, effects: Sequence[FoundEffect], before: StageFitted, after: StageFitted
 ) -> tuple[str, ...]:
     judgement = diagnosed.found.judgement

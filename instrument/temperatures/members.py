@@ -127,7 +127,8 @@ class Members:
             near = its.begun.none.velocity_m_s.real
             ratios.append(near - np.log(one.data.frequency_hz))
             odd = misread(its.begun) if isinstance(its.begun, BegunModal) else None
-            if odd is not None:
+            # What a law may take up at one temperature is seen by all of them, and more than a row may do it.
+            if odd is not None and odd.plain:
                 rows.append(OddRow(one.temperature_c, one.data, odd))
         doubt = numbering_doubt(ratios)
         if doubt:

@@ -1,7 +1,10 @@
 """Tables of modes of a sandwich beam, stated exactly, with noise that they state; the fit without effects."""
 
+from dataclasses import replace
+
 import numpy as np
 
+from fitting.laws import LAWS
 from fitting.laws.constant import ConstantModulus
 from fitting.mode_tables.build import member_of
 from fitting.mode_tables.explaining import Explaining
@@ -18,6 +21,14 @@ FACE = Face(2e-3, 70e9, 0.3, 2700.0)
 BEAM = Beam(
     *(0.4, 0.01, "clamped-free", FACE, FACE, Core(0.5e-3, 0.49, 1000.0, LAW)), held_width=True, exact=True
 )
+SOFT = LAWS["fractional-zener"](1.5e6, 3e7, 8e-5, 0.6)
+STEEL = Face(1.5e-3, 205e9, 0.3, 7850.0)
+KNOWN_NEARLY = Beam(
+    *(0.18, 0.015, "clamped-free", STEEL, STEEL, Core(0.25e-3, 0.49, 1080.0, SOFT)),
+    held_width=True,
+    tolerances={"substrate_young": 0.007, "constraining_thickness": 0.005, "core_thickness": 0.03},
+)
+"""Its law may bend and its stated numbers may move."""
 
 
 def read(true, count=6, seed=0, law=LAW):
@@ -30,6 +41,21 @@ def read(true, count=6, seed=0, law=LAW):
         1e-3 * f,
         0.03 * eta,
     )
+
+
+def with_row(table, k, f=1.0, eta=1.0):
+    """The table with the numbers of one row so many times what they are."""
+    where = np.arange(len(table.mode)) == k
+    return replace(
+        table,
+        frequency_hz=np.where(where, f, 1.0) * table.frequency_hz,
+        loss_factor=np.where(where, eta, 1.0) * table.loss_factor,
+    )
+
+
+def nearly_read(seed=0):
+    """Six modes of the beam that is known nearly, with errors that are stated."""
+    return replace(read(KNOWN_NEARLY, seed=seed, law=SOFT), read="model")
 
 
 def poles_of(beam, count):

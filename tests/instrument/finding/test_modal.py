@@ -5,12 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from beam_tables import BEAM, FACE, fit_modes, read
+from beam_tables import BEAM, FACE, KNOWN_NEARLY, fit_modes, nearly_read, read, with_row
 from mode_cases import TRUTH, read_off, solid_modes, stated
 from plate_files import plate_text
 
 from fitting.identification.doubt import doubts_among
 from instrument.cli.main import run
+from instrument.finding import modal
 from instrument.finding.modal import identify_tables
 
 
@@ -93,3 +94,17 @@ def test_stated_numbers_that_had_to_be_moved_too_far_are_named():
     assert doubts_among([said])
     right = identify_tables([read(BEAM)], [replace(BEAM, exact=False)])
     assert not any("had to be moved" in one for one in right.remarks)
+
+
+def test_a_row_that_the_law_bends_for_is_a_doubt_of_it():
+    found = identify_tables([with_row(nearly_read(), 0, 0.94)], [KNOWN_NEARLY])
+    assert found.fit.uncertainty.chi2_per_dof < 3
+    (doubt, *_) = doubts_among(found.remarks)
+    assert doubt.startswith("mode 1 does not go with the others")
+    assert not any("does not go" in one for one in identify_tables([nearly_read()], [KNOWN_NEARLY]).remarks)
+
+
+def test_where_no_row_is_the_one_it_is_a_doubt_all_the_same(monkeypatch):
+    monkeypatch.setattr(modal, "misread", lambda begun: None)
+    (doubt,) = doubts_among(identify_tables([with_row(nearly_read(), 0, 0.94)], [KNOWN_NEARLY]).remarks)
+    assert "further together than chance has them" in doubt

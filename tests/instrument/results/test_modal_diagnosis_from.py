@@ -40,3 +40,15 @@ def test_an_effect_at_the_end_of_what_is_plausible_is_said_and_leaves_the_law_in
         warned = [w for w in result.warnings if "plausible" in w]
         assert tuple(w.partition(":")[0] for w in warned) == said
         assert set(warned) <= set(result.doubts)
+
+
+def test_a_row_that_is_as_likely_is_said_beside_the_verdict_and_asked_to_be_read_again():
+    diagnosed = diagnose_tables([TABLE], [BEAM])
+    plain = modal_diagnosis_from(diagnosed, [TABLE], ["a.csv"])
+    beside = modal_diagnosis_from(replace(diagnosed, rival="mode 1 does not go"), [TABLE], ["a.csv"])
+    assert beside.explanation[-1].startswith(
+        "About as likely one row of the table is not as it should be: mode 1"
+    )
+    assert beside.next_measurement.startswith("That mode's peak once more")
+    assert beside.explanation[:-1] == plain.explanation
+    assert beside.verdict == plain.verdict
