@@ -15,6 +15,7 @@ from fitting.numerics.chances import chi2_above, f_above
 from fitting.temperature.members import Joined
 from fitting.temperature.one_law import OneLaw, OwnLaws
 from fitting.temperature.shifts import Shift
+from fitting.temperature.suspects import Suspect, suspects_of, widened
 
 _TOLD = 0.5
 """Of a temperature: below it the others say nothing of any, and their scatter means nothing."""
@@ -57,7 +58,13 @@ class ShiftedFit:
 
     @cached_property
     def _covariance(self) -> Array:
-        return self.one.covariance[: len(self.joint.names), : len(self.joint.names)]
+        n = len(self.joint.names)
+        return widened(self.one.covariance[:n, :n], self.suspects)
+
+    @cached_property
+    def suspects(self) -> list[Suspect]:
+        """Stated temperatures of which one is wrong, the likeliest first; errors hold for any of them."""
+        return suspects_of(self.one, self.joint)
 
     def _of(self, wanted: slice) -> Array:
         return self._covariance[wanted, wanted]

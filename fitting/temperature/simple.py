@@ -206,15 +206,11 @@ def _temperatures_refused(
         f"each of the data shifted by a factor of its own ({_gain(apart)}): "
     )
     if wrong is not None:
-        others = f"its readings are those of {wrong.read_c:.1f} degC by the others, check it"
-        unlike = "its readings go with no temperature by the others, check it"
-        said = others if np.isfinite(wrong.read_c) else unlike
-        name = names[wrong.sweep] if names else f"sweep {wrong.sweep + 1}"
-        if wrong.further:
-            name += f", as {wrong.further} more,"
+        said = " or ".join(_wrong(one, names) for one in (wrong, *wrong.rivals))
+        which = ", of which one is wrong" if wrong.rivals else ""
         return words + (
-            f"{name} is stated at {wrong.stated_c:g} degC, {said}; until then this law, which is of all "
-            "temperatures as stated, is not to be used"
+            f"{said}{which}, check it; until then this law, which is of all temperatures as stated, is not "
+            "to be used"
         )
     if fit.shift.kind == "free":
         return words + "data stated at one temperature were not at one, check them"
@@ -225,6 +221,16 @@ def _temperatures_refused(
         "check the temperatures, or say with --temperature-k how well they are known; --shift free takes "
         "the factors as they are"
     )
+
+
+def _wrong(wrong: Misread, names: Sequence[str]) -> str:
+    """Which sweep is stated at which temperature, and what its readings are."""
+    name = names[wrong.sweep] if names else f"sweep {wrong.sweep + 1}"
+    if wrong.further:
+        name += f", as {wrong.further} more,"
+    known = np.isfinite(wrong.read_c)
+    read = f"those of {wrong.read_c:.1f} degC" if known else "of no temperature"
+    return f"{name} is stated at {wrong.stated_c:g} degC, its readings are {read} by the others"
 
 
 def _wicket(fit: ShiftedFit) -> tuple[float, float]:

@@ -5,7 +5,7 @@ or a temperature is not as stated; the form through the other sweeps says which 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -20,6 +20,8 @@ _APART_K = 1e-6
 """Between sweeps of one stated temperature, so that each has a factor of its own; nothing measures it."""
 _REFUSED, _AGREED = 1e-3, 1e-2
 """Tail probabilities: below the first temperatures do not go together, above the second they do."""
+_NEAR = 6.0
+"""In chi-square, a ratio of twenty: what leaves so nearly as little may be the wrong one as well."""
 _LEAST_K = 0.1
 """Below this a factor is not read finer than a thermometer: what exact temperatures are taken for here."""
 _FAR_K = 150.0
@@ -36,6 +38,8 @@ class Misread:
     """Where the form through the other sweeps has its factor; NaN where it has it nowhere."""
     further: int = 0
     """How many more were stated at that temperature, and were not at it either."""
+    rivals: tuple["Misread", ...] = ()
+    """Others, any one of which may be the wrong one instead; the likeliest first."""
 
 
 def each_its_own(shift: Shift) -> Shift:
@@ -45,23 +49,31 @@ def each_its_own(shift: Shift) -> Shift:
 
 
 def misread(form: Shift, own: ShiftedFit) -> Misread | None:
-    """The one sweep without which all others follow the form, if just one; else those of one temperature.
+    """The one sweep without which all others follow the form, or few; else those of one temperature.
 
-    `own` is of `each_its_own`.
+    `own` is of `each_its_own`. None where leaving out any of most of them would do.
     """
     log_a, errors = own.log_shift, own.sweeps_log_shift_errors
-    if form.kind == "free" or _chance(form, log_a, errors, range(len(log_a))) >= _REFUSED:
+    if form.kind == "free" or _chance(form, log_a, errors, range(len(log_a)))[0] >= _REFUSED:
         return None
     T = form.temperature_c
     alone = [[k] for k in range(len(T))]
     alike = [its for t in np.unique(T) if len(its := np.flatnonzero(t == T).tolist()) > 1]
     for groups in (alone, alike):
-        found = [its for its in groups if _chance(form, log_a, errors, _without(T, its)) >= _AGREED]
-        if len(found) == 1:
-            its = found[0]
-            read = np.mean([_read(form, log_a, errors, _without(T, its), k) for k in its])
-            return Misread(its[0], float(T[its[0]]), float(read), len(its) - 1)
+        each = [(*_chance(form, log_a, errors, _without(T, its)), its) for its in groups]
+        agreed = sorted((chi2, its) for chance, chi2, its in each if chance >= _AGREED)
+        found = [its for chi2, its in agreed if chi2 < agreed[0][0] + _NEAR]
+        if found and (len(found) == 1 or len(found) <= len(groups) / 2):
+            first, *others = (_misread(form, log_a, errors, its) for its in found)
+            return replace(first, rivals=tuple(others))
     return None
+
+
+def _misread(form: Shift, log_a: Array, errors: Array, its: list[int]) -> Misread:
+    """Sweeps of one stated temperature, and where the form through the others has them."""
+    T = form.temperature_c
+    read = np.mean([_read(form, log_a, errors, _without(T, its), k) for k in its])
+    return Misread(its[0], float(T[its[0]]), float(read), len(its) - 1)
 
 
 def _without(temperature_c: Array, its: list[int]) -> list[int]:
@@ -81,14 +93,14 @@ def rising(shift: Shift, log_a: Array, errors: Array | float = 0.0) -> tuple[flo
     return None
 
 
-def _chance(form: Shift, log_a: Array, errors: Array, sweeps: Sequence[int]) -> float:
-    """That the form scatters so about the factors of some sweeps; NaN where it goes through any."""
+def _chance(form: Shift, log_a: Array, errors: Array, sweeps: Sequence[int]) -> tuple[float, float]:
+    """That the form scatters so about factors of some sweeps, and chi-square; NaN where it fits any."""
     at = list(sweeps)
     dof = len(at) - len(form.names) - 1
     if dof < 1:
-        return float("nan")
+        return float("nan"), float("nan")
     _, _, chi2 = _through(form, log_a, errors, at)
-    return float(chi2_above(chi2, dof))
+    return float(chi2_above(chi2, dof)), chi2
 
 
 def _through(form: Shift, log_a: Array, errors: Array, at: list[int]) -> tuple[Array, float, float]:

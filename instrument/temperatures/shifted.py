@@ -94,13 +94,8 @@ class Shifted:
                 "nothing checks a temperature, and a wrong one makes another form; measure at one more"
             )
         # Where one is known to be wrong, others are bent by it.
-        if fit.temperature_chance < _SCATTERED and self.verdict.wrong is None:
-            k = int(np.argmax(np.abs(fit.joint.off)))
-            said.append(
-                f"temperatures lie farther from the form than {fit.shift.error_k:g} K allows, {T[k]:g} degC "
-                f"by {-fit.joint.off[k] * fit.shift.error_k:+.2g} K: check it, or say with "
-                "--temperature-k how well they are known; errors of the shift are too small"
-            )
+        if self.verdict.wrong is None and (fit.suspects or fit.temperature_chance < _SCATTERED):
+            said.append(_doubt_of_temperatures(fit))
         if self.stiffens is not None:
             said.append(self.stiffens)
         return tuple(said)
@@ -123,6 +118,20 @@ class Shifted:
         """Whether it would by more than the factors are uncertain."""
         fit = self.fit
         return rising(fit.shift, fit.log_shift, _PLAIN * fit.log_shift_errors) is not None
+
+
+def _doubt_of_temperatures(fit: ShiftedFit) -> Doubt:
+    """Which of the stated temperatures may be the wrong one, and what it is by the others."""
+    words = f"temperatures lie farther from the form than {fit.shift.error_k:g} K allows"
+    check = "check it, or say with --temperature-k how well they are known"
+    if not fit.suspects:
+        return Doubt(f"{words}, not one of them alone: {check}; errors of the shift are too small")
+    which = " or ".join(f"{s.stated_c:.4g} degC ({s.by_others_c:.1f} by the others)" for s in fit.suspects)
+    several = " (these data do not tell which)" if len(fit.suspects) > 1 else ""
+    return Doubt(
+        f"{words}, as if one were stated wrongly: {which}{several}: {check}; errors of law and shift are "
+        f"widened by it, but {BIASED}"
+    )
 
 
 def identify_shifted(

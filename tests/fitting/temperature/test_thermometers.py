@@ -84,3 +84,17 @@ def test_what_shares_a_free_factor_may_be_a_little_warmer_or_colder_and_what_has
     moved = shared.log_shift(p, np.array([9.0, 11.0, 20.0, 42.0]))
     np.testing.assert_allclose(moved, [2.2, 1.8, 0.0, -3.3])
     np.testing.assert_allclose(shared.by_temperature(p, shared.temperature_c), [-0.2, -0.2, -0.175, -0.15])
+
+
+def test_what_leaves_about_as_little_is_named_beside_and_what_leaves_far_more_is_not():
+    """Of seven one near an end is 6 K off: at first by little beside the errors, then plainly."""
+    seven = np.linspace(-10.0, 50.0, 7)
+    true = seven.copy()
+    true[0] -= 6.0
+    form = Shift("wlf", seven, 20.0, 0.3)
+    log_a = form.log_shift(FORMS["wlf"], true)
+    scattered = misread(form, own(log_a - log_a[3], 0.11))
+    assert {one.sweep for one in (scattered, *scattered.rivals)} == {0, 1}
+    plain = misread(form, own(log_a - log_a[3], 0.02))
+    assert (plain.sweep, plain.rivals) == (0, ())
+    assert plain.read_c == pytest.approx(-16.0, abs=0.5)

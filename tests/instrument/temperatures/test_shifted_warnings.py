@@ -53,3 +53,25 @@ def test_a_law_that_stands_only_beside_a_cause_says_so(fit_and_each):
     maybe = replace(plain, cause=cause, verdict=replace(plain.verdict, simple=None))
     assert any(said.startswith("this law stands only where") for said in maybe.warnings)
     assert not any("this law stands only where" in said for said in plain.warnings)
+
+
+def suspect(stated_c, by_others_c):
+    return SimpleNamespace(stated_c=stated_c, by_others_c=by_others_c)
+
+
+def test_temperatures_that_may_be_wrong_are_a_doubt_with_what_the_others_make_of_each(
+    monkeypatch, fit_and_each
+):
+    def doubt(*suspects):
+        monkeypatch.setitem(vars(fit_and_each[0]), "suspects", list(suspects))
+        (said,) = [one for one in doubts_among(made(fit_and_each).warnings) if "farther from" in one]
+        return said
+
+    assert "as if one were stated wrongly: 7.7 degC (4.4 by the others): check" in doubt(suspect(7.7, 4.4))
+    both = doubt(suspect(7.7, 4.4), suspect(14.15, 15.7))
+    assert (
+        "7.7 degC (4.4 by the others) or 14.15 degC (15.7 by the others) (these data do not tell which)"
+        in both
+    )
+    monkeypatch.setitem(vars(fit_and_each[0]), "suspects", [])
+    assert not any("farther from" in one for one in made(fit_and_each).warnings)
