@@ -32,6 +32,6 @@ def test_the_latest_rows_are_kept_and_nobody_may_change_them(reader):
     assert reader.row(0.1, 0.1) is row
     with pytest.raises(ValueError, match="read-only"):
         row[0] = 2.0
-    for k in range(40):
-        reader.row(0.001 * k, 0.0)
+    for k in range(300):
+        reader.row(1e-4 * k, 0.0)
     assert reader.row(0.1, 0.1) is not row
