@@ -160,12 +160,12 @@ def main(
     # A library's warning is for the log; what a reader has to know a command says itself.
     logging.captureWarnings(True)
     logging.getLogger("py.warnings").addHandler(logging.NullHandler())
-    status = STOPPED_BY_USER
+    status, alone = STOPPED_BY_USER, arguments is None
     try:
         status = run(arguments, program, name)
-        hear_no_more()
+        hear_no_more(alone=alone)
     except KeyboardInterrupt:  # while its last words were said
-        hear_no_more()
+        hear_no_more(alone=alone)
     sys.exit(status)
 
 

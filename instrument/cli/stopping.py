@@ -77,16 +77,17 @@ def safe_stop(control: RunControl) -> Iterator[None]:
             signal.signal(number, handler)
 
 
-def hear_no_more() -> None:
+def hear_no_more(*, alone: bool) -> None:
     """One Ctrl-C is unheard from here on: the command is over, and its exit status stands.
 
-    A second one ends what still waits, as for a process of its own.
+    A second one ends what still waits. Not where the process is another program's, not the command's `alone`:
+    that one goes on to hear.
     """
 
     def once(*_: object) -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
-    if threading.current_thread() is threading.main_thread():
+    if alone and threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGINT, once)
 
 

@@ -151,7 +151,7 @@ def test_a_fault_is_exit_2_and_one_line_and_in_the_json(rig, quick, tmp_path, mo
     tty = read_document(path, RigDocument).vibrometer.address
     path.write_text(path.read_text().replace(tty, str(tmp_path / "no-such-port")))
     into = tmp_path / "doctor.json"
-    monkeypatch.setattr("instrument.cli.main.hear_no_more", lambda: None)
+    monkeypatch.setattr("instrument.cli.main.hear_no_more", lambda **_: None)
     monkeypatch.setattr(sys, "argv", ["viscorig", "doctor", str(path), "--json", str(into)])
     with pytest.raises(SystemExit) as ended:
         main()

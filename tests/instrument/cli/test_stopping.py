@@ -8,7 +8,7 @@ import threading
 
 import pytest
 
-from instrument.cli.main import run
+from instrument.cli.main import main, run
 from instrument.cli.predict import predict
 from instrument.cli.stopping import ended_as_by_a_person, safe_stop
 from instrument.errors import RigStopped
@@ -45,7 +45,8 @@ if ended == "said":
     program.run = lambda *given: late(run, *given)
 else:
     sys.exit = lambda status: late(exit, status)
-program.main(["check", "absent.toml"])
+sys.argv = ["viscorig", "check", "absent.toml"]
+program.main()
 """
 """A Ctrl-C as soon as a command has said its last word, or when its process is about to end."""
 
@@ -56,6 +57,13 @@ def test_a_ctrl_c_in_the_last_moment_gives_a_status_that_is_documented(tmp_path,
     done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=60)
     assert done.returncode == status, done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_a_command_called_within_another_program_leaves_it_its_ctrl_c(capfd):
+    before = signal.getsignal(signal.SIGINT)
+    with pytest.raises(SystemExit, match="2"):
+        main(["check", "absent.toml"])
+    assert signal.getsignal(signal.SIGINT) is before
 
 
 @pytest.mark.parametrize("first", [signal.SIGINT, signal.SIGQUIT])

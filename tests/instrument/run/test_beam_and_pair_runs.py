@@ -111,7 +111,7 @@ def test_a_session_of_a_pair_is_replayed_read_and_reported(pair_run, tmp_path):
         _ = given.plate
 
 
-def test_a_fits_curve_goes_through_the_points_of_its_session(pair_run, tmp_path, monkeypatch):
+def test_a_fits_curve_goes_through_the_points_of_its_session(pair_run, tmp_path):
     """`predict --fit`, which the window draws its curve by."""
     with SessionFile(pair_run.session) as session:
         contents = contents_of(session, with_hits=False)
@@ -121,7 +121,6 @@ def test_a_fits_curve_goes_through_the_points_of_its_session(pair_run, tmp_path,
     out = tmp_path / "p.json"
     f = ",".join(repr(p.frequency_hz) for p in pair_run.points)
     arguments = ["predict", str(tmp_path / "s.toml"), "--fit", str(fit), "--frequencies", f]
-    monkeypatch.setattr("instrument.cli.main.hear_no_more", lambda: None)
     with pytest.raises(SystemExit, match="0"):
         main([*arguments, "--json", str(out)])
     found = PredictionResult.model_validate_json(out.read_text())
