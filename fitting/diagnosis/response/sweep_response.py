@@ -8,7 +8,7 @@ Channels, sharp factors, a part that swings (`swinging_part`) and the law itself
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import reduce
 from typing import ClassVar
 
@@ -18,6 +18,7 @@ from fitting.arrays import Array, Complex
 from fitting.diagnosis.problem.base import DiagnosisProblem, NodeGrid, spans_of
 from fitting.diagnosis.problem.plate_answer import Asked, Motions, PlateAnswer, Receptance, motions
 from fitting.diagnosis.problem.plate_poles import PLAIN
+from fitting.diagnosis.response.at_one_place import At, ByChange, OfPlate
 from fitting.diagnosis.response.channels import Channels
 from fitting.diagnosis.response.plate_changes import PlateChanges
 from fitting.diagnosis.response.point_modulus import PointModulus
@@ -75,8 +76,8 @@ class SweepResponse:
         if self._modulus.effects and self._moves:
             # The modulus is another one in every pass.
             self.grid = problem.passes
-        self._last: tuple[bytes, _OfPlate] | None = None
-        self._latest: tuple[CoreLaw, Array, _At] | None = None
+        self._last: tuple[bytes, OfPlate] | None = None
+        self._latest: tuple[CoreLaw, Array, At] | None = None
         self._ready: tuple[Array, Asked, Motions] | None = None
 
     def velocity(self, law: CoreLaw, u: Array) -> Complex:
@@ -131,13 +132,13 @@ class SweepResponse:
 
     # The parts of the response.
 
-    def _at(self, law: CoreLaw, u: Array) -> "_At":
+    def _at(self, law: CoreLaw, u: Array) -> At:
         """The latest is kept: derivatives are asked for where the phasors were."""
         if self._latest is None or self._latest[0] is not law or not np.array_equal(self._latest[1], u):
             self._latest = law, u.copy(), self._at_anew(law, u)
         return self._latest[2]
 
-    def _at_anew(self, law: CoreLaw, u: Array) -> "_At":
+    def _at_anew(self, law: CoreLaw, u: Array) -> At:
         points = self.problem.points
         omega, a = points.omega, points.drive_amplitude
         plate = self._of_plate(law, u)
@@ -150,9 +151,9 @@ class SweepResponse:
         raw = per_x * (plate.x + pitch * plate.turned) + lever * pitch
         if points.reads == "absolute":
             raw = raw + a / (1j * omega)
-        return _At(self._channels.read(raw, u), raw, per_x, pitch, lever, plate)
+        return At(self._channels.read(raw, u), raw, per_x, pitch, lever, plate)
 
-    def _with_slopes(self, law: CoreLaw, u: Array) -> "_At":
+    def _with_slopes(self, law: CoreLaw, u: Array) -> At:
         """The same, its plate's derivatives worked out."""
         at = self._at(law, u)
         if at.plate.solved is not None and at.plate.by is None:
@@ -162,7 +163,7 @@ class SweepResponse:
             self._last, self._latest = (self._last[0], plate), (law, u.copy(), at)
         return at
 
-    def _of_plate(self, law: CoreLaw, u: Array) -> "_OfPlate":
+    def _of_plate(self, law: CoreLaw, u: Array) -> OfPlate:
         """What goes with the plate and its core: one for all that only turns its base or reads it."""
         G_law = self._modulus.of_law(law)
         key = self._key(G_law, u)
@@ -170,11 +171,11 @@ class SweepResponse:
             self._last = key, self._of_plate_anew(law, u, G_law)
         return self._last[1]
 
-    def _of_plate_anew(self, law: CoreLaw, u: Array, G_law: Complex) -> "_OfPlate":
+    def _of_plate_anew(self, law: CoreLaw, u: Array, G_law: Complex) -> OfPlate:
         G = self._modulus.at(law, u)
         x, slope = self.problem.rational.with_derivative(G)
         if not self._moves:
-            return _OfPlate(G, x, slope, np.zeros(len(G), complex), None, None, None)
+            return OfPlate(G, x, slope, np.zeros(len(G), complex), None, None, None)
         G_nodes, smooth = self._bearing(law, G_law, G)
         asked, moved = self._solved(u, G_nodes)
         solved, nodes = PlateAnswer(asked, moved), self.grid.nodes
@@ -187,10 +188,10 @@ class SweepResponse:
             slope = nodes.spread(solved.heave.by_G, solved.poles, solved.poles)
             x = x + (slope - plain_slope) * (G - smooth)
         if self._part is None:
-            return _OfPlate(G, x, slope, turned, (asked, moved), None, None)
+            return OfPlate(G, x, slope, turned, (asked, moved), None, None)
         off = G - smooth if self._modulus.effects else None
         part = self._part.on(self.plate, u, x, turned, *self._of_place(solved, off))
-        return _OfPlate(G, part.heave.x, slope, part.turned.x, (asked, moved), None, part)
+        return OfPlate(G, part.heave.x, slope, part.turned.x, (asked, moved), None, part)
 
     def _of_place(self, solved: PlateAnswer, off: Complex | None) -> Complex:
         """Receptances of the part's place at every point, to first order in how far a modulus is `off`.
@@ -219,7 +220,7 @@ class SweepResponse:
         """From the nodes to every point of what has the poles of the changed plate alone, once or twice."""
         return self.grid.nodes.spread(values, solved.poles, solved.poles)
 
-    def _slopes_of(self, plate: "_OfPlate", u: Array) -> "_OfPlate":
+    def _slopes_of(self, plate: OfPlate, u: Array) -> OfPlate:
         """The same with its derivatives."""
         assert plate.solved is not None
         asked, moved = plate.solved
@@ -233,14 +234,14 @@ class SweepResponse:
         heave, turned = self._along(
             solved, plate.part, lambda r: np.concatenate([r.by_G[None], r.by_z, r.by_u])
         )
-        by = _ByChange(heave[1:], turned[1:])
+        by = ByChange(heave[1:], turned[1:])
         if self._part is not None and plate.part is not None and self._of_part:
 
             def spread(values: Complex) -> Complex:
                 return self._spread(values, solved)
 
             own = [self._part.by_own(n, self.plate, u, moved, spread, plate.part) for n in self._of_part]
-            by = _ByChange(
+            by = ByChange(
                 np.vstack([by.heave, *(heave for heave, _ in own)]),
                 np.vstack([by.turned, *(turned for _, turned in own)]),
             )
@@ -306,7 +307,7 @@ class SweepResponse:
 
     # Derivatives to unknown n.
 
-    def _by(self, n: int, law: CoreLaw, u: Array, at: "_At") -> Complex:
+    def _by(self, n: int, law: CoreLaw, u: Array, at: At) -> Complex:
         """Of the velocity before the channels."""
         k, omega = self._unknowns.owner(n), self.problem.points.omega
         found = np.zeros(len(omega), complex)
@@ -335,56 +336,9 @@ class SweepResponse:
             found = found + at.per_G * dG
         return found
 
-    def _by_stated(self, at: "_At") -> Complex:
+    def _by_stated(self, at: At) -> Complex:
         """Of the velocity before the channels to each stated number."""
         assert at.plate.by is not None
         stated = slice(0, len(self.nuisances))
         by = at.plate.by.heave[stated]
         return np.asarray(at.per_x * (by + at.pitch * at.plate.by.turned[stated] if self._pitching else by))
-
-
-@dataclass(frozen=True)
-class _At:
-    v: Complex
-    raw: Complex
-    """Before the channels."""
-    per_x: Complex
-    pitch: Complex
-    lever: Complex
-    plate: "_OfPlate"
-
-    @property
-    def per_G(self) -> Complex:
-        """Derivative of `raw` to the core's modulus. Shape (points,)."""
-        return np.asarray(self.per_x * (self.plate.slope + self.pitch * self.plate.turned_slope))
-
-
-@dataclass(frozen=True)
-class _OfPlate:
-    """Shape (points,) each."""
-
-    G: Complex
-    x: Complex
-    """Displacement per acceleration of the base, or per force."""
-    slope: Complex
-    """dx/dG; of the unchanged plate until derivatives are asked for."""
-    turned: Complex
-    """Displacement per pitch acceleration."""
-    solved: tuple[Asked, Motions] | None
-    """What the nodes were asked, and how they move; None where nothing moves them."""
-    by: "_ByChange | None"
-    """None: not asked for so far."""
-    part: WithPart | None
-    """With the part that swings on it; None where none does."""
-    turned_slope: Complex | float = 0.0
-    """d turned/dG; zero until derivatives are asked for."""
-
-
-@dataclass(frozen=True)
-class _ByChange:
-    """Displacement per acceleration at every point, to the stated numbers and then to effects' unknowns."""
-
-    heave: Complex
-    """Shape (numbers, points)."""
-    turned: Complex
-    """The same of a turning base; zero where the base does not turn."""
