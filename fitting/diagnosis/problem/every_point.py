@@ -25,6 +25,6 @@ class EveryPoint(Nodes):
         """No pole matters where nothing is interpolated."""
         return self
 
-    def spread(self, values: Complex, first: Complex, second: Complex) -> Complex:
+    def spread(self, values: Complex, first: Complex, second: Complex, *, twice: bool = False) -> Complex:
         """The values as they are. Shape (points,) at the end."""
         return values

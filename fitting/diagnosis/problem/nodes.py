@@ -140,8 +140,11 @@ class Nodes:
         before, after = self._neighbours
         return np.asarray((values[after] - values[before]) / (self.omega[after] - self.omega[before]))
 
-    def spread(self, values: Complex, first: Complex, second: Complex) -> Complex:
-        """From nodes to points of what has two sets of poles. Shapes (..., nodes) to (..., points)."""
+    def spread(self, values: Complex, first: Complex, second: Complex, *, twice: bool = False) -> Complex:
+        """From nodes to points of what has two sets of poles, `twice`: double ones.
+
+        Shapes (..., nodes) to (..., points).
+        """
         poles = self._near(first, self.poles)
         moved = self._near(second, poles)
         p, q = poles[:, None] ** 2, moved[:, None] ** 2
@@ -152,6 +155,7 @@ class Nodes:
             # (w^2 - p^2) (w^2 - p'^2) over |p|^4 for its every pole.
             mine = c.poles
             at = ((c.squares - p[mine]) * (c.squares - q[mine]) * per_size[mine]).prod(axis=0)
+            at = at**2 if twice else at
             weighted = values[..., c.nodes] * at[: c.plain.shape[1]]
             found[..., c.points] = (weighted @ c.plain.T) * (1 / at[c.plain.shape[1] :])
         return found

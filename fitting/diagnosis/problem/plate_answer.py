@@ -285,7 +285,7 @@ class _Step:
         return found
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class StrainedCore:
     """How far the core of a plate shears, as something changes it, at some frequencies and moduli."""
 
@@ -308,7 +308,30 @@ class StrainedCore:
         # What the pickup reads strains nothing.
         d = replace(_between(up, down, 1 / h), observe=0.0, travel=0.0)
         step = _Step(self.plate, self.omega, self.G, self._adjoint)
-        return np.asarray((step.by(d, self._motion) + step.by_base(d)).real / self.strain**2)
+        return self._of_log(step.by(d, self._motion) + step.by_base(d))
+
+    def by_stated(self, nuisances: Nuisances, z: Array) -> Array:
+        """Derivatives of ln strain to the stated numbers, in standard deviations.
+
+        Shapes (numbers,) to (numbers, nodes).
+        """
+        plate, q = self.plate, self._motion
+        return self._of_log(
+            nuisances.by_response(plate, self.omega, self.G, q, self._adjoint, z, reads=False)
+        )
+
+    def by_modulus(self, dG: Complex) -> Array:
+        """Changes of ln strain along changes of the modulus, in Pa. Shape (any, nodes) each."""
+        return self._of_log(dG * self._by_G)
+
+    @cached_property
+    def _by_G(self) -> Complex:
+        K_1 = self._matrices[1]
+        return np.asarray(-np.einsum("pi,pi->p", self._adjoint, self._motion @ K_1.T))
+
+    def _of_log(self, along: Complex) -> Array:
+        """Of ln strain, `along` being Z's product with what changes. Shape (..., nodes)."""
+        return np.asarray(along.real / self.strain**2)
 
     @cached_property
     def _motion(self) -> Complex:
@@ -325,7 +348,10 @@ class StrainedCore:
     def _mean_square(self) -> Array:
         return self.plate.matrix("strain.mean_square")
 
+    @cached_property
+    def _matrices(self) -> Matrices:
+        return Asked(self.plate, self.omega, self.G, self.change, None, with_pitch=False).matrices
+
     def _solved(self, sides: Complex | Array) -> Complex:
-        matrices = Asked(self.plate, self.omega, self.G, self.change, None, with_pitch=False).matrices
-        A = dynamic_stiffness(matrices, self.omega, self.G)
+        A = dynamic_stiffness(self._matrices, self.omega, self.G)
         return np.asarray(np.linalg.solve(A, sides[:, :, None].astype(complex))[:, :, 0])

@@ -1,13 +1,15 @@
 """The core's modulus at every point of a sweep: a law's, as effects soften or warm it."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import cache
 
 import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.problem.base import DiagnosisProblem
+from fitting.diagnosis.problem.plate_answer import StrainedCore
 from fitting.diagnosis.response.plate_changes import PlateChanges
-from fitting.diagnosis.response.strains import Reference, Strains
+from fitting.diagnosis.response.strains import Reference, Strains, Way
 from fitting.diagnosis.response.unknowns import Unknowns
 from fitting.effects.base import Effect
 from fitting.effects.given import ModulusAt, Strain
@@ -30,7 +32,8 @@ class PointModulus:
         spans: Sequence[Span],
         reference: Reference,
     ) -> None:
-        self._points, self._unknowns, self._changes = problem.points, unknowns, changes
+        self._problem, self._points = problem, problem.points
+        self._unknowns, self._changes = unknowns, changes
         self.effects = [k for k, e in enumerate(unknowns.effects) if type(e).modulus is not Effect.modulus]
         """Numbers of those that shift a modulus."""
         self.strained = bool(self.effects) and any(s.strains for s in spans)
@@ -57,15 +60,39 @@ class PointModulus:
         h = np.where(logs + _H < law.log_limits[1], _H, -_H)
         others = np.vstack([logs, logs + np.diag(h)])
         G = self._shifted(law, u, law.moduli(others, omega), self._strain(law, u), others)
+        if self.strained:
+            # A core of another law is strained otherwise too.
+            for n, moved in enumerate(others[1:]):
+                strain = self._strains.along_law(law, *self._plate(u), law.with_values(np.exp(moved)))
+                G[1 + n] += self._shifted(law, u, self.of_law(law), strain) - G[0]
         return (G[1:] - G[0]) / h[:, None]
 
-    def along(self, law: CoreLaw, u: Array, nearby: tuple[Change, Change, float], h: float) -> Complex:
-        """A step `h` of an unknown further, as a changed plate strains its core otherwise.
+    def along(self, law: CoreLaw, u: Array, nearby: tuple[Change, Change, float]) -> Complex:
+        """Derivative to an unknown, as a changed plate strains its core otherwise. Shape (points,).
 
-        `nearby` as `Strains.along` takes it.
+        `nearby` as `StrainedCore.by` takes it.
         """
-        strain = self._strains.along(law, self._changes.key(u), lambda: self._changes.every(u), nearby, h)
-        return self._shifted(law, u, self.of_law(law), strain)
+        return self._along(law, u, lambda core: core.by(nearby))
+
+    def by_stated(self, law: CoreLaw, u: Array) -> Complex:
+        """Derivatives to the stated numbers, in standard deviations, as they strain the core otherwise.
+
+        Shape (numbers, points).
+        """
+        z, nuisances = u[self._unknowns.stated], self._problem.nuisances
+
+        @cache
+        def rows(core: StrainedCore) -> Array:
+            return core.by_stated(nuisances, z)
+
+        def row(n: int) -> Way:
+            return lambda core: rows(core)[n]
+
+        return np.array([self._along(law, u, row(n)) for n in range(len(nuisances))])
+
+    def _along(self, law: CoreLaw, u: Array, way: Way) -> Complex:
+        strain = self._strains.along(law, *self._plate(u), way, _H)
+        return (self._shifted(law, u, self.of_law(law), strain) - self.at(law, u)) / _H
 
     def _shifted(
         self, law: CoreLaw, u: Array, G_law: Complex, strain: Strain | None = None, logs: Array | None = None
@@ -84,4 +111,8 @@ class PointModulus:
 
     def _strain(self, law: CoreLaw, u: Array) -> Strain:
         """Of the core at every point, softened by a share, over the reference."""
-        return self._strains.under(law, self._changes.key(u), lambda: self._changes.every(u))
+        return self._strains.under(law, *self._plate(u))
+
+    def _plate(self, u: Array) -> tuple[bytes, Callable[[], Change]]:
+        """What strains the core goes by, as `Strains` takes it."""
+        return self._changes.key(u), lambda: self._changes.every(u)

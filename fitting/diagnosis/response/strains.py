@@ -69,6 +69,8 @@ class _Table:
 
 
 Changes = Callable[[], Change]
+Way = Callable[[StrainedCore], Array]
+"""Derivative of ln strain to what is moved, at the nodes of a table. Shape (nodes,)."""
 A = TypeVar("A", Array, Complex)
 
 
@@ -86,18 +88,26 @@ class Strains:
         """
         return self._of(lambda gains: self._table(law, key, changes, gains))
 
-    def along(
-        self, law: CoreLaw, key: bytes, changes: Changes, nearby: tuple[Change, Change, float], step: float
-    ) -> Strain:
-        """The same a `step` of an unknown further, to first order: `nearby` as `StrainedCore.by` takes it."""
+    def along(self, law: CoreLaw, key: bytes, changes: Changes, way: Way, step: float) -> Strain:
+        """What `under` is a `step` further along a way, to first order."""
 
         @cache
         def further(gains: bool) -> Array:
             table = self._table(law, key, changes, gains)
             # As a pole moves this changes as one over the distance, and as its conjugate's.
-            return step * self._cubics(table.core.by(nearby) * table.away**2)
+            return step * self._cubics(way(table.core) * table.away**2)
 
         return self._of(lambda gains: self._table(law, key, changes, gains), further)
+
+    def along_law(self, law: CoreLaw, key: bytes, changes: Changes, other: CoreLaw) -> Strain:
+        """What `under` is with another law that is a step away, to first order."""
+        G = other.modulus(self._problem.dense.omega)
+
+        def way(core: StrainedCore) -> Array:
+            moved = np.concatenate(_softened(G, gains=len(core.G) > len(_SOFTENED) * len(G)))
+            return core.by_modulus(moved - core.G)
+
+        return self.along(law, key, changes, way, 1.0)
 
     def _of(self, table: Callable[[bool], _Table], further: Callable[[bool], Array] | None = None) -> Strain:
         """`further`: what ln strain changes by, times the square of the distance. Shape (gains, 4, points).
@@ -127,7 +137,7 @@ class Strains:
         if key not in self._known:
             dense = self._problem.dense
             G, change = law.modulus(dense.omega), changes()
-            moduli = [strained(G, s, g) for g in _GAINED[: 1 + gains] for s in _SOFTENED]
+            moduli = _softened(G, gains=gains)
             core = StrainedCore(
                 self._plate, np.tile(dense.omega, len(moduli)), np.concatenate(moduli), change
             )
@@ -183,6 +193,11 @@ class Strains:
         dense = self._problem.dense
         each = values.reshape(-1, len(dense.omega)) @ dense.plain.T
         return _through(each.reshape(-1, len(_SOFTENED), len(dense.points))).astype(float)
+
+
+def _softened(G: Complex, *, gains: bool) -> list[Complex]:
+    """Moduli of every core of a table, one a gain and share, under a law's `G`. Shape (nodes,) each."""
+    return [strained(G, s, g) for g in _GAINED[: 1 + gains] for s in _SOFTENED]
 
 
 def _through(values: A) -> A:

@@ -89,7 +89,7 @@ class SweepResponse:
         at = self._with_slopes(law, u)
         by_law = self._modulus.by_law(law, u) * at.per_G
         count = len(self.nuisances)
-        by_z = self._by_stated(at) if count else np.zeros((0, len(at.raw)))
+        by_z = self._by_stated(law, u, at) if count else np.zeros((0, len(at.raw)))
         of_effects = [k for k in self._fitted if k >= count]
         raw = np.zeros((len(by_law) + len(self.parameters), len(at.raw)), complex)
         raw[: len(by_law)] = by_law
@@ -184,9 +184,10 @@ class SweepResponse:
         more, turned = nodes.spread(changed, self.grid.unchanged_poles(G_nodes), solved.poles)
         x = x + more
         if self._modulus.effects:
-            _, plain_slope = self.problem.rational.with_derivative(smooth)
-            slope = nodes.spread(solved.heave.by_G, solved.poles, solved.poles)
-            x = x + (slope - plain_slope) * (G - smooth)
+            _, unchanged = self.grid.rational.with_derivative(G_nodes)
+            poles = self.grid.unchanged_poles(G_nodes), solved.poles
+            more_slope = nodes.spread(solved.heave.by_G - unchanged, *poles, twice=True)
+            x, slope = x + more_slope * (G - smooth), slope + more_slope
         if self._part is None:
             return OfPlate(G, x, slope, turned, (asked, moved), None, None)
         off = G - smooth if self._modulus.effects else None
@@ -245,7 +246,11 @@ class SweepResponse:
                 np.vstack([by.heave, *(heave for heave, _ in own)]),
                 np.vstack([by.turned, *(turned for _, turned in own)]),
             )
-        return replace(plate, slope=heave[0], turned_slope=turned[0], by=by)
+        slope = heave[0]
+        if self._modulus.effects:
+            # Known at the modulus itself, where the nodes' is the smooth one's.
+            slope = slope + plate.slope - self._spread(solved.heave.by_G, solved)
+        return replace(plate, slope=slope, turned_slope=turned[0], by=by)
 
     def _bearing(self, law: CoreLaw, G_law: Complex, G: Complex) -> tuple[Complex, Complex]:
         """The modulus at the nodes, and the smooth one at every point that goes through it."""
@@ -329,16 +334,16 @@ class SweepResponse:
         if k in self._straining.effects and self._modulus.strained:
             more, less = (self._straining.of(k, one, self._straining.plate) for one in (up, down))
             nearby = more, less, 2 * h
-            dG = (self._modulus.along(law, u, nearby, h) - at.plate.G) / h
-            found = found + at.per_G * dG
+            found = found + at.per_G * self._modulus.along(law, u, nearby)
         if k in self._modulus.effects:
             dG = (self._modulus.at(law, up) - self._modulus.at(law, down)) / (2 * h)
             found = found + at.per_G * dG
         return found
 
-    def _by_stated(self, at: At) -> Complex:
+    def _by_stated(self, law: CoreLaw, u: Array, at: At) -> Complex:
         """Of the velocity before the channels to each stated number."""
         assert at.plate.by is not None
         stated = slice(0, len(self.nuisances))
         by = at.plate.by.heave[stated]
-        return np.asarray(at.per_x * (by + at.pitch * at.plate.by.turned[stated] if self._pitching else by))
+        found = at.per_x * (by + at.pitch * at.plate.by.turned[stated] if self._pitching else by)
+        return found + at.per_G * self._modulus.by_stated(law, u) if self._modulus.strained else found

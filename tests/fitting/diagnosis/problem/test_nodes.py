@@ -25,6 +25,15 @@ def test_a_change_of_sharp_resonances_is_carried_from_few_nodes_to_all_points():
     assert np.abs(found - expected).max() < 1e-6 * np.abs(expected).max()
 
 
+def test_a_change_of_what_has_double_poles_is_carried_as_well():
+    nodes = Nodes.of(OMEGA, 16).around(between)
+    at_nodes, expected = (response(w, MOVED) ** 2 - response(w, POLES) ** 2 for w in (nodes.omega, OMEGA))
+    found = nodes.spread(at_nodes, POLES, MOVED, twice=True)
+    assert np.abs(found - expected).max() < 1e-6 * np.abs(expected).max()
+    once = nodes.spread(at_nodes, POLES, MOVED)
+    assert np.abs(once - expected).max() > 1e-5 * np.abs(expected).max()
+
+
 def test_without_the_poles_the_same_nodes_do_not_suffice():
     nodes = Nodes.of(OMEGA, 16)
     change = response(nodes.omega, MOVED) - response(nodes.omega, POLES)

@@ -13,6 +13,7 @@ from fitting.diagnosis.problem.small_problem import SmallProblem
 from fitting.diagnosis.response.plate_changes import PlateChanges
 from fitting.diagnosis.response.point_modulus import PointModulus
 from fitting.diagnosis.response.strains import Reference, Strains
+from fitting.diagnosis.response.sweep_response import SweepResponse
 from fitting.diagnosis.response.unknowns import Unknowns
 from fitting.diagnosis.several.responses import response_of
 from fitting.dynamics.damping import viscous_damping
@@ -40,7 +41,16 @@ MASS, STEP = np.array([5e-3, 0.25, 0.16]), np.array([5e-6, 0.0, 0.0])
 @pytest.fixture(scope="module")
 def clamped(zn1):
     """A plate of few elements, exact as stated, and its sweep over the first resonance."""
-    specimen = replace(zn1, elements=(8, 6), exact=True)
+    return swept(replace(zn1, elements=(8, 6), exact=True))
+
+
+@pytest.fixture(scope="module")
+def told(zn1):
+    """The same, its stated numbers known within usual tolerances."""
+    return swept(replace(zn1, elements=(8, 6), exact=False)).problem
+
+
+def swept(specimen):
     plate = Plate(specimen)
     damping = viscous_damping(plate)
     reduced = reduce_plate(plate, damping, domain_of(specimen, F_HZ))
@@ -104,7 +114,7 @@ def test_strain_a_step_further_over_a_sharp_resonance_is_what_the_changed_plate_
     strains = Strains(clamped.problem, clamped.plate, Reference())
     softened = np.full(len(F_HZ), 0.1)
     here = (LAW, b"", lambda: with_mass(clamped.plate, MASS))
-    along = strains.along(*here, (up, down, 2 * STEP[0]), STEP[0])(softened)
+    along = strains.along(*here, lambda core: core.by((up, down, 2 * STEP[0])), STEP[0])(softened)
     found = np.log(along / strains.under(*here)(softened))
     expected = np.log(exact(clamped.plate, 0.1, up) / exact(clamped.plate, 0.1, down)) / 2
     assert np.abs(found - expected).max() < 0.01 * np.abs(expected).max()
@@ -146,9 +156,53 @@ def test_a_softened_modulus_is_below_the_law_s_where_strain_is_largest_and_moves
     # Told for 1 g, and driven at 1 m/s^2.
     assert share.min() == pytest.approx(1 - 0.1 / 9.81, abs=5e-4)
     assert abs(F_HZ[share.argmin()] - F_HZ[strain.argmax()]) < 0.5
-    # Softening goes by strain, the same under laws a step apart: a modulus moves as its law does.
-    by_law = modulus.by_law(LAW, k)
-    np.testing.assert_allclose(by_law[0], modulus.at(LAW, k), rtol=1e-3)
+
+
+def moved(law, n, h=1e-3):
+    return law.with_values(law.values * np.exp(h * (np.arange(len(law.values)) == n)))
+
+
+@pytest.mark.parametrize("n", [0, 1])
+def test_strain_under_a_law_a_step_away_is_what_the_plate_has_with_it(clamped, n):
+    strains = Strains(clamped.problem, clamped.plate, Reference())
+    softened, gained = np.full(len(F_HZ), 0.1), np.full(len(F_HZ), 0.1)
+    here, other = (LAW, b"", Change), moved(LAW, n)
+    found = np.log(strains.along_law(*here, other)(softened, gained) / strains.under(*here)(softened, gained))
+    each = []
+    for law in (other, LAW):
+        G = law.modulus(OMEGA)
+        softer = G * 0.9 + 0.1j * np.sqrt(G.real * G.imag)
+        each.append(StrainedCore(clamped.plate, OMEGA, softer, Change()).strain)
+    expected = np.log(each[0] / each[1])
+    assert np.abs(expected).max() > 1e-4
+    assert np.abs(found - expected).max() < 0.06 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("names", [("k",), ("k", "loss"), ("k", "saturation", "kept")])
+def test_derivatives_of_a_softened_core_are_those_of_differences(told, names):
+    effect = next(
+        e for e in CATALOGUE["amplitude_softening"].variants() if tuple(q.key for q in e.parameters) == names
+    )
+    own = {"k": 0.2, "saturation": 0.5, "loss": 0.1, "kept": 0.4}
+    z = np.full(len(told.nuisances), 0.3)
+    u = np.array([*z, *(own[name] for name in names)])
+    response = SweepResponse(told, [effect], reference=Reference(0.02))
+    v, by = response.with_derivatives(LAW, u)
+    softened = np.abs(SweepResponse(told, []).velocity(LAW, z) / v - 1)
+    assert softened.max() > 0.1
+
+    def off(row, up, down, h):
+        expected = (up - down) / (2 * h)
+        return np.linalg.norm((by[row] - expected) / v) / np.linalg.norm(expected / v)
+
+    h, laws = 1e-4, len(LAW.values)
+    for n in range(laws):
+        up, down = (response.velocity(moved(LAW, n, s * h), u) for s in (1, -1))
+        assert off(n, up, down, h) < 0.02, LAW.names[n]
+    for n, step in enumerate([1e-3] * len(z) + [1e-4] * len(names)):
+        up, down = (response.velocity(LAW, u + s * step * np.eye(len(u))[n]) for s in (1, -1))
+        if np.abs(up / down - 1).max() > 1e-9:
+            assert off(laws + n, up, down, step) < (0.15 if n < len(z) else 0.02), n
 
 
 def test_a_pair_of_low_loss_softens_at_its_resonance_as_the_wave_in_its_pads_has_it():
