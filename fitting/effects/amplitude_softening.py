@@ -1,16 +1,15 @@
 """The core softens with strain (Payne effect): the harder the plate is driven, the softer it is."""
 
 from collections.abc import Mapping
-from functools import lru_cache
 from itertools import product
 
-import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter
-from fitting.effects.given import ModulusAt, Points, Strain
-from fitting.laws.kraus import HALF, Kraus, strained
+from fitting.effects.given import ModulusAt, Points, Ways
+from fitting.effects.softened_core import SoftenedCore, softened_core
+from fitting.laws.kraus import HALF, Kraus, strained, strained_along
 from fitting.plate.element import core_shear_stiffness
 from fitting.widened.enriched_plate import EnrichedReducedPlate
 from fitting.widened.full_plate import FullPlate
@@ -18,15 +17,6 @@ from fitting.widened.span import Span
 
 _LEVELS = 1.2
 """Of the largest force over the least: over less, strain is a function of frequency, as the law is."""
-_AT_REST = 1e-10
-"""A step of the strain over the reference, at most, for the last one."""
-_ITERATIONS = 60
-"""Half steps would come within 1e-10 in 34 where strain hardly falls, secants do in some 8. A bound."""
-_SMALL = 1e-12
-"""A change of what is off from which a secant says nothing."""
-_FULL = (0.25, 2.0)
-"""Of what is off, the least and the most that a step takes: as far as a secant may be trusted. A choice."""
-
 
 _K = EffectParameter("k", "1", -0.5, 0.8, 0.1, spread=0.15)
 _SATURATION = EffectParameter("saturation", "1", 0.0, 4.0, 0.3, spread=0.5)
@@ -109,9 +99,18 @@ class AmplitudeSofteningEffect(Effect):
         return None if several else "one size of the force does not tell softening from the law"
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:
-        curve, kept = self._curve(u), float(u[-1]) if self.keeps else 0.0
-        s = _strained(curve, G.strain, len(points.omega), kept, points.time_s.tobytes() if kept else b"")
-        return strained(G(), *_changed(curve, s, kept, points.time_s))
+        core = self._core(G, points, u)
+        return strained(G(), core.lost, core.gained)
+
+    def modulus_along(self, G: ModulusAt, points: Points, u: Array, ways: Ways) -> Complex:
+        core = self._core(G, points, u)
+        lost, gained = core.along(ways(core.lost, core.gained if core.curve.loss else None))
+        return strained_along(G(), lost, gained)
+
+    def _core(self, G: ModulusAt, points: Points, u: Array) -> SoftenedCore:
+        kept = float(u[-1]) if self.keeps else 0.0
+        time_s = points.time_s.tobytes() if kept else b""
+        return softened_core(self._curve(u), G.strain, len(points.omega), kept, time_s)
 
     def _curve(self, u: Array) -> Kraus:
         of = dict(zip((q.key for q in self.parameters), map(float, u), strict=True))
@@ -147,41 +146,3 @@ class PadSofteningEffect(AmplitudeSofteningEffect):
     def passes_for_a_law(self, points: Points) -> bool:
         # Over one level the strain of a pad goes up and down once over a wide band, as a law may.
         return points.drive == "base" and points.levels < 2
-
-
-def _changed(curve: Kraus, s: Array, kept: float, time_s: Array) -> tuple[Array, Array]:
-    """What is lost and gained under strains `s`, some of it lost for good. Shape (points,) each."""
-    lost = curve.lost(s)
-    if kept:
-        order = np.argsort(time_s, kind="stable")
-        largest = np.empty_like(s)
-        largest[order] = np.maximum.accumulate(s[order])
-        lost = kept * curve.lost(largest) + (1 - kept) * lost
-    return lost, curve.gained(s)
-
-
-@lru_cache(maxsize=2)
-def _strained(curve: Kraus, strain: Strain, points: int, kept: float, time_s: bytes) -> Array:
-    """The strain over the reference that the core has as softened as it then is. Shape (points,).
-
-    Kept: a derivative to the law asks once for each of its parameters, the strain being the same.
-    """
-    at = np.frombuffer(time_s)
-
-    def then(s: Array) -> Array:
-        lost, gained = _changed(curve, s, kept, at)
-        return strain(lost, gained) if curve.loss else strain(lost)
-
-    s = then(np.zeros(points))
-    step, off = np.zeros(points), np.zeros(points)
-    for _ in range(_ITERATIONS):
-        before, off = off, then(s) - s
-        # Half a step where nothing is known: where the strain falls with softening full ones may swing.
-        fell = before - off
-        known = (np.abs(fell) > _SMALL) & (step != 0)
-        share = np.divide(step, fell, out=np.full(points, 0.5), where=known)
-        step = off * np.clip(share, *_FULL)
-        s = np.maximum(s + step, 0.0)
-        if np.max(np.abs(step)) < _AT_REST:
-            break
-    return s

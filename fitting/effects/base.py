@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.data.noise import Noise
-from fitting.effects.given import BarePlateModes, ModulusAt, Points, Swings
+from fitting.effects.given import BarePlateModes, ModulusAt, Points, Swings, Ways
 from fitting.laws import CoreLaw
 from fitting.specimen import KINDS, Kind, StatedSpecimen
 from fitting.sweep import Sweep
@@ -288,6 +288,13 @@ class Effect:
         """The core's modulus in Pa at every point; None: the law's at the point's frequency.
 
         Shape (..., points), as `G` gives it: its derivatives are of many laws at once.
+        """
+        return None
+
+    def modulus_along(self, G: ModulusAt, points: Points, u: Array, ways: Ways) -> Complex | None:
+        """Derivatives of `modulus` as the core is strained otherwise; None: it does not go by the strain.
+
+        Shape (ways, points).
         """
         return None
 

@@ -1,5 +1,6 @@
 """What an effect is given: the points of a sweep, law and strain there, the modes of a hammer test."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -74,6 +75,11 @@ class Strain(Protocol):
 
     def __hash__(self) -> int:
         """By which it is known again."""
+
+
+Ways = Callable[[Array, Array | None], Array]
+"""Derivatives of ln strain along some ways, of a core softened and with its loss gained so, as `Strain` takes
+them. Shapes (points,) to (ways, points)."""
 
 
 @dataclass(frozen=True)

@@ -51,5 +51,13 @@ def strained(G: Complex, lost: Array | float, gained: Array | float) -> Complex:
 
     Shape of `G`. Where a law that is tried has no loss, or less, nothing is gained.
     """
-    mean = np.sqrt(np.maximum(G.real * G.imag, 0.0))
-    return np.asarray(G * (1 - lost) + 1j * gained * mean)
+    return np.asarray(G * (1 - lost) + 1j * gained * _mean(G))
+
+
+def strained_along(G: Complex, lost: Array, gained: Array) -> Complex:
+    """Derivative of `strained` along those of what is lost and gained. Shape (ways, points)."""
+    return np.asarray(1j * gained * _mean(G) - G * lost)
+
+
+def _mean(G: Complex) -> Array:
+    return np.sqrt(np.maximum(G.real * G.imag, 0.0))

@@ -1,15 +1,13 @@
 """The core's modulus at every point of a sweep: a law's, as effects soften or warm it."""
 
 from collections.abc import Callable, Sequence
-from functools import cache
 
 import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.problem.base import DiagnosisProblem
-from fitting.diagnosis.problem.plate_answer import StrainedCore
 from fitting.diagnosis.response.plate_changes import PlateChanges
-from fitting.diagnosis.response.strains import Reference, Strains, Way
+from fitting.diagnosis.response.strains import Moved, Reference, Strains
 from fitting.diagnosis.response.unknowns import Unknowns
 from fitting.effects.base import Effect
 from fitting.effects.given import ModulusAt, Strain
@@ -59,20 +57,20 @@ class PointModulus:
         logs = np.log(law.values)
         h = np.where(logs + _H < law.log_limits[1], _H, -_H)
         others = np.vstack([logs, logs + np.diag(h)])
-        G = self._shifted(law, u, law.moduli(others, omega), self._strain(law, u), others)
+        G = self._shifted(law, u, law.moduli(others, omega), others)
+        found = np.asarray((G[1:] - G[0]) / h[:, None])
         if self.strained:
             # A core of another law is strained otherwise too.
-            for n, moved in enumerate(others[1:]):
-                strain = self._strains.along_law(law, *self._plate(u), law.with_values(np.exp(moved)))
-                G[1 + n] += self._shifted(law, u, self.of_law(law), strain) - G[0]
-        return (G[1:] - G[0]) / h[:, None]
+            at_nodes = law.moduli(others[1:], self._problem.dense.omega)
+            found = found + self._along(law, u, self._strains.of_laws(list(at_nodes))) / h[:, None]
+        return found
 
     def along(self, law: CoreLaw, u: Array, nearby: tuple[Change, Change, float]) -> Complex:
         """Derivative to an unknown, as a changed plate strains its core otherwise. Shape (points,).
 
         `nearby` as `StrainedCore.by` takes it.
         """
-        return self._along(law, u, lambda core: core.by(nearby))
+        return np.asarray(self._along(law, u, lambda core: core.by(nearby)[None])[0])
 
     def by_stated(self, law: CoreLaw, u: Array) -> Complex:
         """Derivatives to the stated numbers, in standard deviations, as they strain the core otherwise.
@@ -80,30 +78,27 @@ class PointModulus:
         Shape (numbers, points).
         """
         z, nuisances = u[self._unknowns.stated], self._problem.nuisances
+        return self._along(law, u, lambda core: core.by_stated(nuisances, z))
 
-        @cache
-        def rows(core: StrainedCore) -> Array:
-            return core.by_stated(nuisances, z)
+    def _along(self, law: CoreLaw, u: Array, moved: Moved) -> Complex:
+        """Derivatives as the core is strained otherwise. Shape (ways, points)."""
+        ways, G = self._strains.along(law, *self._plate(u), moved), self.at(law, u)
+        found: Complex = np.zeros((1, len(G)), complex)
+        for k in self.effects:
+            effect, own = self._unknowns.effects[k], self._unknowns.of(k, u)
+            at = ModulusAt(law, self._points, self._strain(law, u))
+            by = effect.modulus_along(at, self._points, own, ways)
+            if by is not None:
+                shifted = effect.modulus(at, self._points, own)
+                assert shifted is not None
+                found = found + G * (by / shifted)
+        return found
 
-        def row(n: int) -> Way:
-            return lambda core: rows(core)[n]
-
-        return np.array([self._along(law, u, row(n)) for n in range(len(nuisances))])
-
-    def _along(self, law: CoreLaw, u: Array, way: Way) -> Complex:
-        strain = self._strains.along(law, *self._plate(u), way, _H)
-        return (self._shifted(law, u, self.of_law(law), strain) - self.at(law, u)) / _H
-
-    def _shifted(
-        self, law: CoreLaw, u: Array, G_law: Complex, strain: Strain | None = None, logs: Array | None = None
-    ) -> Complex:
-        """`strain` where something is a step away from what strains are known of.
-
-        Of many laws where their `logs` are given: shape (laws, points), as `G_law` then.
-        """
+    def _shifted(self, law: CoreLaw, u: Array, G_law: Complex, logs: Array | None = None) -> Complex:
+        """Of many laws where their `logs` are given: shape (laws, points), as `G_law` then."""
         G = G_law
         for k in self.effects:
-            at = ModulusAt(law, self._points, strain or self._strain(law, u), logs)
+            at = ModulusAt(law, self._points, self._strain(law, u), logs)
             shifted = self._unknowns.effects[k].modulus(at, self._points, self._unknowns.of(k, u))
             if shifted is not None:
                 G = G * (shifted / G_law)

@@ -14,7 +14,7 @@ from fitting.diagnosis.problem.plate_answer import Asked, StrainedCore
 from fitting.diagnosis.problem.plate_poles import PLAIN
 from fitting.diagnosis.problem.small_problem import FEW
 from fitting.diagnosis.response.core_poles import away_from_poles, compliances
-from fitting.effects.given import Strain
+from fitting.effects.given import Strain, Ways
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
 from fitting.laws.kraus import strained
@@ -69,8 +69,8 @@ class _Table:
 
 
 Changes = Callable[[], Change]
-Way = Callable[[StrainedCore], Array]
-"""Derivative of ln strain to what is moved, at the nodes of a table. Shape (nodes,)."""
+Moved = Callable[[StrainedCore], Array]
+"""Derivatives of ln strain to what moves, at the nodes of a table. Shape (any, nodes)."""
 A = TypeVar("A", Array, Complex)
 
 
@@ -80,40 +80,44 @@ class Strains:
     def __init__(self, problem: DiagnosisProblem, plate: EnrichedReducedPlate, reference: Reference) -> None:
         self._problem, self._plate, self._reference = problem, plate, reference
         self._known: dict[bytes, _Table] = {}
+        self._latest: tuple[bytes, Strain] | None = None
 
     def under(self, law: CoreLaw, key: bytes, changes: Changes) -> Strain:
         """At every point, softened by a share, over the reference; `changes` of the plate go by `key`.
 
         Solved for when it is first asked for, and once: who looks for how far a core softens asks many times.
+        The latest is kept, by which what was found of it is known again.
         """
-        return self._of(lambda gains: self._table(law, key, changes, gains))
+        whole = law.values.tobytes() + key
+        if self._latest is None or self._latest[0] != whole:
+            self._latest = whole, self._of(lambda gains: self._table(law, key, changes, gains))
+        return self._latest[1]
 
-    def along(self, law: CoreLaw, key: bytes, changes: Changes, way: Way, step: float) -> Strain:
-        """What `under` is a `step` further along a way, to first order."""
+    def along(self, law: CoreLaw, key: bytes, changes: Changes, moved: Moved) -> Ways:
+        """How what `under` gives changes as what it is of moves."""
 
-        @cache
-        def further(gains: bool) -> Array:
-            table = self._table(law, key, changes, gains)
+        def ways(softened: Array, gained: Array | None = None) -> Array:
+            table = self._table(law, key, changes, gained is not None)
+            more = np.zeros(len(softened)) if gained is None else gained
             # As a pole moves this changes as one over the distance, and as its conjugate's.
-            return step * self._cubics(way(table.core) * table.away**2)
+            cubics = [self._cubics(each * table.away**2) for each in moved(table.core)]
+            return np.array([_at(c, softened, more) for c in cubics]) / table.from_poles(softened, more) ** 2
 
-        return self._of(lambda gains: self._table(law, key, changes, gains), further)
+        return ways
 
-    def along_law(self, law: CoreLaw, key: bytes, changes: Changes, other: CoreLaw) -> Strain:
-        """What `under` is with another law that is a step away, to first order."""
-        G = other.modulus(self._problem.dense.omega)
+    def of_laws(self, G: Sequence[Complex]) -> Moved:
+        """Of moduli in Pa under laws a step away. Shape (nodes,) each, of `dense`."""
 
-        def way(core: StrainedCore) -> Array:
-            moved = np.concatenate(_softened(G, gains=len(core.G) > len(_SOFTENED) * len(G)))
-            return core.by_modulus(moved - core.G)
+        def moved(core: StrainedCore) -> Array:
+            gains = len(core.G) > len(_SOFTENED) * len(G[0])
+            return core.by_modulus(
+                np.array([np.concatenate(_softened(each, gains=gains)) for each in G]) - core.G
+            )
 
-        return self.along(law, key, changes, way, 1.0)
+        return moved
 
-    def _of(self, table: Callable[[bool], _Table], further: Callable[[bool], Array] | None = None) -> Strain:
-        """`further`: what ln strain changes by, times the square of the distance. Shape (gains, 4, points).
-
-        Both are asked whether the loss gains.
-        """
+    def _of(self, table: Callable[[bool], _Table]) -> Strain:
+        """Asked whether the loss gains."""
         points = self._problem.points
         drive = points.drive_amplitude if points.force_n is None else points.force_n
         of = cache(table)
@@ -123,8 +127,6 @@ class Strains:
             known, more = of(gains), np.zeros(len(softened)) if gained is None else gained
             away = known.from_poles(softened, more)
             logs_here = _at(known.cubics, softened, more)
-            if further is not None:
-                logs_here = logs_here + _at(further(gains), softened, more) / away**2
             assert self._reference.strain is not None
             # A step far beyond what the table is of would overflow; what it leads to is refused anyway.
             logs_here = np.clip(logs_here, -_MOST_LOG, _MOST_LOG)
