@@ -19,13 +19,13 @@ _LEVELS = 1.2
 """Of the largest force over the least: over less, strain is a function of frequency, as the law is."""
 
 _K = EffectParameter("k", "1", -0.5, 0.8, 0.1, spread=0.15)
-_SATURATION = EffectParameter("saturation", "1", 0.0, 4.0, 0.3, spread=0.5)
+_SATURATION = EffectParameter("saturation", "1", 0.0, 4.0, 0.3, shape=True, spread=0.5)
 """Strain of the reference over that at which half of what can be lost is lost."""
 _LOSS = EffectParameter("loss", "1", -0.3, 0.6, 0.03, spread=0.1)
 """Gained in loss modulus at the reference, over the mean, sqrt(G' G''), of what is not softened."""
-_KEPT = EffectParameter("kept", "1", 0.0, 1.0, 0.7, complete=True, spread=0.5)
+_KEPT = EffectParameter("kept", "1", 0.0, 1.0, 0.7, shape=True, complete=True, spread=0.5)
 """Of what is lost, the share that the largest strain so far has taken and that does not come back."""
-_EXPONENT = EffectParameter("exponent", "1", 0.2, 0.8, 0.52, neutral=HALF, spread=0.1)
+_EXPONENT = EffectParameter("exponent", "1", 0.2, 0.8, 0.52, neutral=HALF, shape=True, spread=0.1)
 """Kraus' m."""
 
 

@@ -65,6 +65,8 @@ class EffectParameter:
     """Fitted in its logarithm."""
     neutral: float | None = 0.0
     """Where the effect is absent; None for an unknown that only says where or how."""
+    shape: bool = False
+    """Says how, and nothing by itself where the effect is weak: a stronger start has the same of it."""
     fixed: bool = False
     """Not moved by a fit: one of the starts."""
     complete: bool = False
@@ -259,7 +261,7 @@ class Effect:
         """`u` with the effect `a` times as strong, by a linear guess. Shape (parameters,)."""
         found = u.copy()
         for k, q in enumerate(self.parameters):
-            if q.fixed or q.neutral is None:
+            if q.fixed or q.shape or q.neutral is None:
                 continue
             found[k] = u[k] / a if np.isinf(q.neutral) else q.neutral + a * (u[k] - q.neutral)
         return found

@@ -22,7 +22,7 @@ _BEGIN = (2.0, 4.0)
 
 _MOUNTED = (
     EffectParameter("frequency", "Hz", 200.0, 2e4, 3000.0, logarithmic=True, neutral=float("inf")),
-    EffectParameter("damping_ratio", "1", 0.0, 0.3, _DAMPING_RATIO, spread=0.05),
+    EffectParameter("damping_ratio", "1", 0.0, 0.3, _DAMPING_RATIO, shape=True, spread=0.05),
 )
 _ON_BASE = EffectParameter("on_base", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True)
 _REACTION = EffectParameter("reaction", "1/kg", 0.0, 20.0, 0.5, spread=2.0)

@@ -37,7 +37,7 @@ class TetherEffect(Effect):
     source = "cable stiffness and damping, Ewins, Modal Testing (2000), section 3.5"
     parameters: tuple[EffectParameter, ...] = (
         EffectParameter("k", "N/m", -2e3, 2e3, _START_N_M, spread=100.0, below=0.2),
-        EffectParameter("loss_factor", "1", 0.0, 2.0, _LOSS, spread=0.5),
+        EffectParameter("loss_factor", "1", 0.0, 2.0, _LOSS, shape=True, spread=0.5),
         *PLACE,
     )
     spans: tuple[Span, ...] = (PointMass(),)

@@ -19,17 +19,27 @@ def pair(mass_kg, **more):
     return ShearPair(mass_kg, 2, area, Core(6e-3, 0.49, 1100.0, LAW), **given)
 
 
-def transmissibility(specimen, frequency_hz, G, more_kg=0.0):
-    """a_mass / a_base = 1 / (cos kt - m w^2/(G A k) sin kt), k = w sqrt(rho/G)."""
+def transmissibility(specimen, frequency_hz, G, more_kg=0.0, cord_n_m=0.0):
+    """a_mass / a_base = 1 / (cos kt - (m w^2 - c)/(G A k) sin kt), k = w sqrt(rho/G); a cord c."""
     w = 2 * np.pi * np.asarray(frequency_hz)
     t, area = specimen.core.thickness_m, specimen.discs * specimen.area_m2
     k = w * np.sqrt(specimen.core.density_kg_m3 / G)
-    inertia = (specimen.mass_kg + more_kg) * w**2 / (G * area * k)
+    inertia = ((specimen.mass_kg + more_kg) * w**2 - cord_n_m) / (G * area * k)
     return 1 / (np.cos(k * t) - inertia * np.sin(k * t))
 
 
 def sweep(
-    specimen, *, more_kg=0.0, softening=0.0, level=G_0, noise=2e-3, points=160, seed=0, factor=1.0, wander=0.0
+    specimen,
+    *,
+    more_kg=0.0,
+    cord_n_m=0.0,
+    softening=0.0,
+    level=G_0,
+    noise=2e-3,
+    points=160,
+    seed=0,
+    factor=1.0,
+    wander=0.0,
 ):
     """From a third of the resonance to twice it; `softening` is the modulus lost per unit strain.
 
@@ -39,7 +49,7 @@ def sweep(
     f = np.geomspace(0.3, 2.0, points) * about / (2 * np.pi)
     w = 2 * np.pi * f
     G = specimen.core.law.modulus(w)
-    T = transmissibility(specimen, f, G, more_kg)
+    T = transmissibility(specimen, f, G, more_kg, cord_n_m)
     for _ in range(60 if softening else 0):
         strain = np.abs(T - 1) * level / w**2 / specimen.core.thickness_m
         T = transmissibility(specimen, f, G * (1 - softening * strain), more_kg)

@@ -1,5 +1,6 @@
 """What a tether and softening are on a shear pair, beside closed forms."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,10 +9,14 @@ from shear_pair_cases import LAW, pair, sweep
 
 from fitting.dynamics.dynamic_stiffness import dynamic_stiffness
 from fitting.effects import CATALOGUE
+from fitting.laws import LAWS
 from fitting.planning.unseen import unseen
 from fitting.structures.small import widened_system_of
 from instrument.finding.diagnosis import diagnose
 from instrument.models.files import File
+
+TOO_SOFT = LAWS["fractional-zener"](2.6e6, 80e6, 2.5e-5, 0.48)
+"""A fit begins from this one, and not from the law that the sweeps are made of."""
 
 
 def test_a_cable_at_the_mass_is_a_gain_and_a_stiffer_pad():
@@ -34,6 +39,28 @@ def test_a_cable_at_the_mass_is_a_gain_and_a_stiffer_pad():
     absolute = (pad + omega**2 * rubber / 6) / (both - omega**2 * (light.mass_kg + rubber / 3))
     np.testing.assert_allclose(1 - omega**2 * relative, absolute, rtol=2e-3)
     assert "a cable pulls at the mass" in tether.story({"k": k, "loss_factor": loss})
+
+
+@pytest.mark.parametrize("number", [1, 2])
+def test_a_stiff_cord_at_one_of_three_masses_is_found_there(number):
+    masses = (0.573, 0.311, 0.152)
+    specimens = [replace(pair(m), core=replace(pair(m).core, law=TOO_SOFT)) for m in masses]
+    stiffness = 4e4
+    cords = [stiffness * (k == number) for k in (1, 2, 3)]
+    given = [
+        File(sweep(pair(m), cord_n_m=c, noise=5e-4, points=100, seed=k), s)
+        for k, (m, c, s) in enumerate(zip(masses, cords, specimens, strict=True))
+    ]
+    (found,) = diagnose(given).result.effects
+    assert found.name == "tether"
+    assert found.parameters["file"].value == number
+    k = found.parameters["k"]
+    assert abs(k.value - stiffness) < 2 * k.standard_error < stiffness
+
+
+def test_a_stronger_start_of_a_cord_loses_no_larger_share():
+    tether = CATALOGUE["tether"].standing_on(pair(0.5))
+    np.testing.assert_array_equal(tether.scaled(np.array([300.0, 0.2]), -20.0), [-6000.0, 0.2])
 
 
 @pytest.mark.parametrize(("drive", "levels", "expected"), [("base", 1, True), ("base", 2, False)])
