@@ -67,7 +67,7 @@ def modal_diagnosis_from(
         by_hand=False,
         explanation=_explanation(diagnosed, effects, first, last),
         warnings=remarks,
-        doubts=doubts_among(remarks),
+        doubts=(*([diagnosed.misread] if diagnosed.misread else []), *doubts_among(remarks)),
         points=(),
         modes=_modes(before, after, tables),
         files=tuple(names),

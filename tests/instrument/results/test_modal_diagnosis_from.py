@@ -52,3 +52,12 @@ def test_a_row_that_is_as_likely_is_said_beside_the_verdict_and_asked_to_be_read
     assert beside.next_measurement.startswith("That mode's peak once more")
     assert beside.explanation[:-1] == plain.explanation
     assert beside.verdict == plain.verdict
+
+
+def test_a_row_that_is_likelier_than_any_effect_leaves_the_law_in_doubt():
+    plain = diagnose_tables([TABLE], [BEAM])
+    odd = modal_diagnosis_from(replace(plain, misread="mode 1 does not go"), [TABLE], ["a.csv"])
+    assert odd.doubts[0] == "mode 1 does not go"
+    assert odd.doubts[1:] == modal_diagnosis_from(plain, [TABLE], ["a.csv"]).doubts
+    # It is in the explanation, and not among the remarks once more.
+    assert not any("mode 1" in said for said in odd.warnings)
