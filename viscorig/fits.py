@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import NamedTuple, TypeVar
 
 from fitting.identification.pointwise import phase_is_kept
@@ -120,6 +121,11 @@ def _whole_sweeps_alone(
 
 def _given(data: Sweep | Session, specimen: Specimen | None, hammer: HammerTest | None) -> Given:
     """Raises `BadInput`."""
+    if not isinstance(data, Points | Session):
+        said = "; a file is read by vr.load_session or vr.load_sweep" if isinstance(data, str | Path) else ""
+        raise BadInput(f"data: a {type(data).__name__}, expected a Sweep or a Session{said}")
+    if not isinstance(specimen, Specimen | None):
+        raise BadInput(f"specimen: a {type(specimen).__name__}, expected a Specimen (vr.load_specimen)")
     if isinstance(data, Session):
         if data.sweep is None:
             raise BadInput(f"{data.path}: no point of a sweep in this session, expected a measured sweep")

@@ -12,6 +12,7 @@ from instrument.facts.identification import IdentificationResult
 from instrument.results.fit_file import found_law
 from instrument.results.law_words import LAW_COLUMNS, a_few, aligned, law_cells, sources_words
 from instrument.results.numbers import with_error
+from viscorig.checked import numbers
 from viscorig.facts import Facts
 from viscorig.shown import Columns, columns
 from viscorig.specimen import Specimen
@@ -71,12 +72,16 @@ class Identification(Facts[IdentificationResult]):
         """The rms difference between measured and predicted amplitudes, in percent."""
         return self.result.rms_percent
 
-    def modulus_pa(self, frequency_hz: ArrayLike) -> Complex:
-        """G* of the law found, in Pa; an extrapolation beyond the measured band. Shape of `frequency_hz`."""
+    def modulus_pa(self, frequency_hz: ArrayLike) -> Complex | complex:
+        """G* of the law found, in Pa; an extrapolation beyond the measured band. Shape of `frequency_hz`.
+
+        A number for a number. Raises `BadInput` where a frequency is not above 0 and finite.
+        """
         core = self.specimen.model.core
         assert core is not None
-        omega = 2 * np.pi * np.asarray(frequency_hz, dtype=float)
-        return found_law(self.result).law(core.law).modulus(omega)
+        omega = 2 * np.pi * numbers("frequency_hz", np.ravel(frequency_hz), float, above_zero=True)
+        G = found_law(self.result).law(core.law).modulus(omega)
+        return G.reshape(np.shape(frequency_hz)) if np.ndim(frequency_hz) else complex(G[0])
 
     def to_numpy(self) -> Columns:
         """The law over the measured band with its standard errors, a row a frequency."""

@@ -178,6 +178,16 @@ def test_a_sweep_wants_its_specimen(sweep):
         vr.identify(sweep)
 
 
+@pytest.mark.parametrize("fit", [vr.identify, vr.diagnose])
+def test_what_is_no_sweep_or_no_specimen_is_named_by_its_type(sweep, plate, fit):
+    with refused("^data: a Specimen, expected a Sweep or a Session$"):
+        fit(plate, sweep)
+    with refused("^data: a str, expected a Sweep or a Session; a file is read by vr.load_session or"):
+        fit("session.h5")
+    with refused("^specimen: a str, expected a Specimen"):
+        fit(sweep, "specimen.toml")
+
+
 def test_a_bare_plate_has_no_core_to_identify(sweep, plate):
     bare = {name: table for name, table in plate.as_dict().items() if name not in ("core", "constraining")}
     with pytest.raises(vr.errors.OutsideModel, match="bare plate"):

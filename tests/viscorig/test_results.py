@@ -34,6 +34,19 @@ def test_the_law_found_is_a_function_of_frequency(found):
     np.testing.assert_allclose(G.imag / G.real, found.loss_factor, rtol=1e-12)
 
 
+@pytest.mark.parametrize("f", [100.0, 100, np.float64(100.0), np.array(100.0)])
+def test_one_frequency_gives_one_modulus(found, f):
+    G = found.modulus_pa(f)
+    assert isinstance(G, complex)
+    assert found.modulus_pa([100.0])[0] == G
+
+
+@pytest.mark.parametrize("f", [0.0, -1.0, np.inf, [10.0, np.nan], [[10.0], [-1.0]]])
+def test_the_law_has_no_modulus_at_what_is_no_frequency(found, f):
+    with pytest.raises(vr.errors.BadInput, match=r"^frequency_hz.*expected (more than 0|finite numbers)$"):
+        found.modulus_pa(f)
+
+
 def test_what_was_found_cannot_be_changed_by_accident(found):
     found.as_dict()["parameters"]["g0_pa"] = 0.0
     found.parameters["g0_pa"] = 0.0
