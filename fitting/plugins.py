@@ -118,6 +118,13 @@ class Registry(Mapping[str, T], Generic[T]):
         why = self._why.get(name) if isinstance(name, str) else None
         return f"expected one of {', '.join(sorted(self))}" + (f" (its plugin: {why})" if why else "")
 
+    def taken(self, entry: EntryPoint) -> str:
+        """Who else has an entry point's name, for people; empty where nobody has. Nothing is imported."""
+        first = next(package_of(e)[0] for e in entries()[self.group] if e.name == entry.name)
+        who = f"{OURS} itself" if entry.name in self._own else f"package {first}"
+        is_first = entry.name not in self._own and first == package_of(entry)[0]
+        return "" if is_first else f"{who} has a {GROUPS[self.group]} of this name"
+
     def leave_out(self, name: str, why: Exception) -> None:
         """No longer use another package's, which failed at its work; said in one line."""
         self._why[name] = leave_out(self._others[name], why)
@@ -152,11 +159,9 @@ class Registry(Mapping[str, T], Generic[T]):
         """Other packages', by name; the first of a name has it."""
         found: dict[str, EntryPoint] = {}
         for entry in entries()[self.group]:
-            if entry.name in self._own:
-                leave_out(entry, NoPlugin(f"{OURS} itself has a {GROUPS[self.group]} of this name"))
-            elif entry.name in found:
-                first = package_of(found[entry.name])[0]
-                leave_out(entry, NoPlugin(f"package {first} has a {GROUPS[self.group]} of this name"))
+            why = self.taken(entry)
+            if why:
+                leave_out(entry, NoPlugin(why))
             else:
                 found[entry.name] = entry
         return found

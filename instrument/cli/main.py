@@ -7,6 +7,7 @@ from contextlib import suppress
 from importlib import import_module
 from importlib.metadata import version
 from keyword import iskeyword
+from pkgutil import resolve_name
 from typing import Any
 
 import click
@@ -79,6 +80,19 @@ BY_NAME: Registry[click.Command] = Registry(
 """Ours, and those that rooms above this one and other packages add by entry points."""
 
 
+_KEPT_IN = {
+    "viscorig.laws": "fitting.laws:LAWS",
+    "viscorig.effects": "fitting.effects:CATALOGUE",
+    "viscorig.shakers": "instrument.files.devices:SHAKERS",
+    "viscorig.vibrometers": "instrument.files.devices:VIBROMETERS",
+    "viscorig.front_ends": "instrument.files.devices:FRONT_ENDS",
+    "viscorig.chambers": "instrument.files.devices:CHAMBERS",
+    "viscorig.readers": "instrument.interchange.readers:READERS",
+    "viscorig.commands": "instrument.cli.main:BY_NAME",
+}
+"""The registry of a group of entry points, imported when it is asked for."""
+
+
 class _Commands(click.Group):
     """Loads a command when it is asked for: the program answers at once."""
 
@@ -135,7 +149,11 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     click.echo(f"viscorig, version {version('viscorig')}")
     for entry in others():
         package = " ".join(package_of(entry))
-        click.echo(f"  {GROUPS[entry.group]} {entry.name}, from {package}")
+        # Pages are the window's, which is above this room.
+        kept_in = _KEPT_IN.get(entry.group)
+        why = resolve_name(kept_in).taken(entry) if kept_in else ""
+        left_out = f": left out, {why}" if why else ""
+        click.echo(f"  {GROUPS[entry.group]} {entry.name}, from {package}{left_out}")
     ctx.exit()
 
 

@@ -322,10 +322,11 @@ def tolerances_of(table: TolerancesSection | None, kind: Kind = "plate") -> dict
 
 def law_of(table: dict[str, Any]) -> CoreLaw:
     """The law of `[core.law]`: `kind` decides the other keys. Raises `OutsideModel` where a key is wrong."""
-    known = ", ".join(sorted(LAWS))
     kind = table.get("kind")
     if not isinstance(kind, str) or kind not in LAWS:
-        raise OutsideModel(f"core.law.kind: {kind!r}, expected one of {known}")
+        raise OutsideModel(
+            f"core.law.kind: {kind!r}, {LAWS.expected(kind)}, or a package installed that adds it"
+        )
     law = LAWS[kind]
     # Where rows came from says nothing any more once they are read.
     aside = ("path",) if law is Tabulated else ()

@@ -8,6 +8,7 @@ import pytest
 
 from fitting import plugins
 from fitting.plugins import NoPlugin, Registry
+from instrument.cli.main import run
 
 GOOD = "def read(path):\n    return 'read'\n"
 BROKEN = "import no_such_library\n"
@@ -88,6 +89,20 @@ def test_a_name_that_is_ours_stays_ours(package, caplog):
         "plugin 'own' of package greedy (viscorig.readers) is left out: "
         "viscorig itself has a file reader of this name"
     ]
+
+
+def test_the_version_says_what_will_be_left_out_and_imports_none_of_it(package, capsys):
+    package("broken-one", BROKEN, readers={"dat": "read", "odd": "read"}, laws={"odd": "Law"})
+    package("zebra", BROKEN, readers={"odd": "read"}, commands={"run": "run"})
+    assert run(["--version"]) == 0
+    assert capsys.readouterr().out.splitlines()[1:] == [
+        "  core law odd, from broken-one 1.2",
+        "  file reader dat, from broken-one 1.2: left out, viscorig itself has a file reader of this name",
+        "  file reader odd, from broken-one 1.2",
+        "  file reader odd, from zebra 1.2: left out, package broken-one has a file reader of this name",
+        "  command run, from zebra 1.2: left out, viscorig itself has a command of this name",
+    ]
+    assert not {"plugin_broken_one", "plugin_zebra"} & set(sys.modules)
 
 
 def test_of_two_packages_the_first_by_name_has_it(package, caplog):

@@ -171,7 +171,7 @@ BAD = {
     "force off the plate": (FORCED.replace("270.0", "400.0"), "excitation.x_mm = 400 is off the plate"),
     "place of a base": (FORCED.replace('"force"', '"base"'), "expected kind"),
     "boundary": (GOOD.replace('"cantilever"', '"clamped"'), "plate.boundary"),
-    "law kind": (GOOD.replace('"fractional-zener"', '"zener"'), "core.law.kind: 'zener'"),
+    "law kind": (GOOD.replace('"fractional-zener"', '"zener"'), "or a package installed that adds it"),
     "law out of bounds": (GOOD.replace("alpha = 0.89", "alpha = 1.5"), "alpha = 1.5"),
     "law negative": (GOOD.replace("g0_mpa = 0.40268", "g0_mpa = -0.4"), "g0_mpa = -0.4"),
     "law key": (GOOD.replace("alpha = 0.89", "alpah = 0.89"), "core.law.alpha: missing"),
