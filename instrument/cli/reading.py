@@ -19,7 +19,7 @@ from instrument.files.repeated import refuse_same_modes, refuse_same_points
 from instrument.files.structure_file import read_structure
 from instrument.interchange.cut_sweep import looks_cut
 from instrument.interchange.given import Given, read_given
-from instrument.interchange.questions import question_data, question_temperatures
+from instrument.interchange.questions import question_data, question_length, question_temperatures
 from instrument.models.files import File
 from instrument.progress import bar
 from instrument.temperatures.members import AtTemperature
@@ -80,11 +80,15 @@ def read_each(
     if len(data) > 1 and hammer is not None and not one_plate:
         raise click.UsageError("--hammer with several files: expected one file")
     paired = list(specimens) if len(specimens) == len(data) else [*specimens, None][:1] * len(data)
+    structures: dict[Path | None, AnySpecimen | None] = {None: None}
     for specimen in dict.fromkeys(paired):
         if specimen is not None:
             # Whatever else is wrong with it is said on reading.
-            read_structure(specimen)
+            structures[specimen] = read_structure(specimen)
             question_specimen(specimen, insist=insist)
+    if not insist:
+        for path, specimen in zip(data, paired, strict=True):
+            question_length(path, structures[specimen])
     given = [
         _read_data(
             one,

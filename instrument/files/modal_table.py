@@ -12,7 +12,7 @@ from fitting.mode_tables.as_read import READS, Read
 from fitting.mode_tables.table import ModalTable
 from instrument.errors import BadInput
 from instrument.files.nearest import nearest
-from instrument.files.table import check_above_zero, check_frequency, number, read_rows
+from instrument.files.table import check_above_zero, check_frequency, number, read_header, read_rows
 from instrument.files.text import IMPORT_READS, read_text
 
 _SAID = re.compile(r"^\s*#\s*read\s*:\s*(.*?)\s*$", re.MULTILINE | re.IGNORECASE)
@@ -37,7 +37,7 @@ _MOST_MODES = 1000
 def is_modal_table(path: Path) -> bool:
     """Whether a CSV's header is a modal table's, or was meant to be one."""
     try:
-        header, _ = read_rows(path)
+        header = read_header(path)
     except BadInput:
         return False
     if set(_MUST) <= set(header):

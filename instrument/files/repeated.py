@@ -35,7 +35,8 @@ def refuse_repeats(paths: Sequence[Path]) -> None:
 
 def refuse_same_points(paths: Sequence[Path], sweeps: Sequence[Sweep]) -> None:
     """Raise `BadInput` where all points of one are points of another, in whatever order and file."""
-    _refuse_shared(paths, [_points_of(sweep) for sweep in sweeps], "points")
+    if len(sweeps) > 1:
+        _refuse_shared(paths, [_points_of(sweep) for sweep in sweeps], "points")
 
 
 def refuse_same_modes(paths: Sequence[Path], tables: Sequence[ModalTable]) -> None:

@@ -12,7 +12,7 @@ from fitting.sweep import Sweep, segments_by_gap
 from instrument.errors import BadInput
 from instrument.files.impact_csv import FRF_STEMS, frfs_of
 from instrument.files.sweep_file import SweepFile, sweep_of_columns
-from instrument.files.table import check_whole, number, read_rows
+from instrument.files.table import check_whole, number, read_header, read_rows
 from instrument.interchange.importing import one_table
 from instrument.interchange.readers import read_foreign
 
@@ -21,7 +21,7 @@ _TIMES_I_OMEGA = {"displacement": 1, "velocity": 0, "acceleration": -1}
 
 def is_frf_csv(path: Path) -> bool:
     """Whether a CSV's columns are an FRF's and not a sweep's."""
-    header, _ = read_rows(path)
+    header = read_header(path)
     return any(f"{stem}_re" in header for stem in FRF_STEMS) and not any("velocity" in n for n in header)
 
 

@@ -17,6 +17,7 @@ from fitting.structures import AnySpecimen, ShearPair
 from instrument.errors import BadInput
 from instrument.files.plausible import INSIST
 from instrument.files.sweep_file import words_of_other_reading
+from instrument.files.table import count_rows, read_header
 from instrument.interchange.given import Given
 from instrument.mistakes.modal_look import modal_doubt
 from instrument.mistakes.modal_mistakes import table_doubt
@@ -33,6 +34,8 @@ _DRIFTED_K = 5.0
 """Within one sweep or table, from its coldest row to its warmest: no mean is that of all of it."""
 _MANY, _ENOUGH = 20_000, 2_000
 """Lines of a sweep: more take more than a minute, and say hardly more of a law than as many as are enough."""
+_SHORTEST = 10
+"""Letters of a line of a sweep: a frequency and two parts have more."""
 _TIMED_ROWS = 10
 """Readings that share one time from which on it is no clock's: fewer may be told by hand, all at once."""
 _LONGEST_S = 3 * 7 * 86_400.0
@@ -43,6 +46,13 @@ _BEST_FREQUENCY, _BEST_LOSS = 1e-6, 1e-4
 """Standard deviations of a mode, relative: a thousandth and a hundredth of what a careful laboratory has."""
 _LOSSY = 2.0
 """More than a mode of any structure has."""
+
+
+def question_length(path: Path, specimen: AnySpecimen | None) -> None:
+    """Ask about a sweep of far too many lines before any of them is read. Raises `BadInput`."""
+    is_long = path.suffix.lower() == ".csv" and path.is_file() and path.stat().st_size > _MANY * _SHORTEST
+    if is_long and "frequency_hz" in read_header(path):
+        _ask(_many(count_rows(path), isinstance(specimen, PlateSpecimen)), [path])
 
 
 def question_data(

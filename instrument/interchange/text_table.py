@@ -81,7 +81,11 @@ def is_number(text: str, *, comma: bool) -> bool:
 
 def number_of(text: str, *, comma: bool) -> complex:
     """Of a field that `is_number`; exponents may be Fortran's (D)."""
-    plain = re.sub(r"(?<=\d|\.)[dD](?=[-+]?\d)", "e", text.replace(",", ".") if comma else text)
+    pointed = text.replace(",", ".") if comma else text
+    try:
+        return complex(float(pointed))
+    except ValueError:
+        plain = re.sub(r"(?<=\d|\.)[dD](?=[-+]?\d)", "e", pointed)
     return complex(
         re.sub(r"[\s*]", "", plain).replace("i", "j") if _COMPLEX.fullmatch(text) else float(plain)
     )
@@ -93,6 +97,8 @@ def number_of(text: str, *, comma: bool) -> complex:
 def _fields(path: Path, n: int, line: str, separator: str) -> list[str]:
     if not separator:
         return line.split()
+    if '"' not in line:
+        return [f.strip() for f in line.split(separator)]
     try:
         return [f.strip() for f in next(csv.reader([line], delimiter=separator, strict=True))]
     except csv.Error as error:
@@ -105,8 +111,10 @@ def _loose(line: str, separator: str) -> list[str]:
 
 def _is_row(fields: Sequence[str], *, comma: bool = True, begun: bool = True) -> bool:
     """Whether two fields or more are numbers; with `begun` the first one is."""
-    numbers = [is_number(f, comma=comma) for f in fields]
-    return sum(numbers) > 1 and (numbers[0] or not begun)
+    if begun and not (fields and is_number(fields[0], comma=comma)):
+        return False
+    found = (f for f in fields if is_number(f, comma=comma))
+    return next(found, None) is not None and next(found, None) is not None
 
 
 def _separator(lines: Sequence[tuple[int, str]]) -> str:
@@ -270,7 +278,7 @@ def _even(path: Path, table: TextTable) -> TextTable:
     rows = []
     for n, row in table.rows:
         cut = row[:width] if not any(row[width:]) else row
-        if not _is_row(row) and len(cut) != width:
+        if len(cut) != width and not _is_row(row):
             raise BadInput(
                 f"{path}: line {n}: {' '.join(row)[:40]!r} below the table that begins in line "
                 f"{table.rows[0][0]}, expected one table and nothing behind it"

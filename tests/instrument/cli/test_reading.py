@@ -57,3 +57,13 @@ def test_files_of_unlike_temperatures_are_asked_about_before_anything_is_noted(
     assert NOTE not in capsys.readouterr().out
     assert len(read(paths, insist=True)) == 2
     assert capsys.readouterr().out.count(NOTE) == (0 if level == 1.0 else 2)
+
+
+def test_a_sweep_of_very_many_lines_is_asked_about_before_they_are_read(tmp_path, asked):
+    (path,) = files(tmp_path, 1.0, 20.0)
+    with path.open("a") as file:
+        file.write("# a comment\n\n" + "no number,0.1,0.2,9.8,0,1,20\n" * 20_000)
+    with pytest.raises(BadInput, match=r"0\.csv: 20002 lines make a fit long: a resonance"):
+        read([path])
+    with pytest.raises(BadInput, match=r"0\.csv: line 6: frequency_hz = 'no number', expected a number"):
+        read([path], insist=True)

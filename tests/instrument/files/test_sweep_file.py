@@ -208,3 +208,12 @@ def test_what_import_reads_is_sent_there_and_import_reads_it(tmp_path, text, sai
 def test_a_decimal_comma_in_a_cell_is_told_its_cure(tmp_path):
     with pytest.raises(BadInput, match="velocity_m_s = '0,1', expected a number with a decimal point"):
         read_sweep(write(tmp_path, 'frequency_hz,velocity_m_s\n20,"0,1"\n'))
+
+
+def test_quotes_about_cells_change_nothing(tmp_path):
+    plain, quoted = tmp_path / "a.csv", tmp_path / "b.csv"
+    plain.write_text("frequency_hz,velocity_m_s,remark\n10.0,1e-3,a\n11.0,2e-3, b \n")
+    quoted.write_text('"frequency_hz",velocity_m_s,remark\n10.0,"1e-3","a"\n11.0,2e-3, b \n')
+    one, other = read_sweep(plain), read_sweep(quoted)
+    assert one.columns["velocity_m_s"].tolist() == other.columns["velocity_m_s"].tolist() == [1e-3, 2e-3]
+    assert one.unknown == other.unknown == {"remark": ["a", "b"]}
