@@ -29,10 +29,13 @@ _LOSS_OF: dict[Loss, Callable[[Array, Array], Array]] = {
 Of several that are stated the first counts."""
 _HZ = {"hz": 1.0, "khz": 1e3, "rad/s": 1 / (2 * np.pi), "": 1.0}
 _PLAIN = {"": 1.0, "-": 1.0, "1": 1.0, "%": 0.01, "percent": 0.01, "pct": 0.01}
+_LINEAR: tuple[Loss, ...] = ("loss factor", "damping ratio")
+"""Whose standard deviation becomes the loss factor's as they do themselves."""
 _FREQUENCY = frozenset(("frequency", "freq", "f", "fn", "f0", "eigenfrequency"))
 _NUMBER = frozenset(("mode", "n", "order"))
 _SPREAD = frozenset(("std", "sd", "sigma", "stdev", "deviation", "uncertainty", "se"))
 _GREEK = (("η", "eta"), ("ζ", "zeta"), ("Δf", "df"), ("δ", " delta"), ("σ", "sigma"))
+_S_OF = re.compile(r"^\s*(?:s|sd|std|sigma)\s*\(([^()]*)\)")
 _HALF_POWER_DB = "3"
 _TIMES = re.compile(r"[x×*]\s*10|10\s*\^|\b1?[eE][-+]\d")
 """A factor in a name."""
@@ -64,7 +67,7 @@ def read_modes(source: str, table: Named, found: Found) -> bool:
         raise NotSaid(f"{source}: {', '.join(numbers)}: which is the mode's number? expected one")
     columns: Columns = {"mode": table[numbers[0]], "frequency_hz": f}
     name, columns["loss_factor"] = _loss_factor(source, table, {n: kinds[n] for n in stated}, f)
-    columns |= _spreads(source, table, [name for name, kind in kinds.items() if kind == "spread"])
+    columns |= _spreads(source, table, kinds, f)
     warm = with_celsius(source, table, found)
     if OURS in warm:
         columns[OURS] = warm[OURS]
@@ -79,12 +82,23 @@ def read_modes(source: str, table: Named, found: Found) -> bool:
 
 def _kind(name: str) -> Kind | None:
     """What a column is of, by its words."""
+    ordered = _words(name)
+    return "spread" if not _SPREAD.isdisjoint(ordered) else _kind_of(ordered, name)
+
+
+def _spelt(name: str) -> str:
+    """With Greek letters spelt out; `s(f)` is the standard deviation of f."""
     for letter, plain in _GREEK:
         name = name.replace(letter, plain)
-    _, ordered = bracketed(name)
+    return _S_OF.sub(r"std \1", name)
+
+
+def _words(name: str) -> list[str]:
+    return bracketed(_spelt(name))[1]
+
+
+def _kind_of(ordered: list[str], name: str) -> Kind | None:
     words = set(ordered)
-    if words & _SPREAD:
-        return "spread"
     if words & {"bandwidth", "width", "df"} or {"delta", "f"} <= words:
         return "bandwidth"
     if words & {"decrement", "logdec"}:
@@ -154,22 +168,34 @@ def _loss_factor(source: str, table: Named, stated: dict[str, Kind], f: Array) -
     return name, eta
 
 
-def _spreads(source: str, table: Named, names: list[str]) -> Columns:
-    """Standard deviations in the unit of what they are of. Raises `NotSaid` for percents."""
+def _spreads(source: str, table: Named, kinds: dict[str, Kind], f: Array) -> Columns:
+    """Standard deviations, made of what is stated as what they are of is.
+
+    Raises `NotSaid` where that, or of what their percents are, is not said.
+    """
     columns: Columns = {}
-    for name in names:
-        words = set(bracketed(name)[1])
-        of_frequency = bool(words & _FREQUENCY) and not words & {"loss", "eta"}
-        if not of_frequency and not (words & {"eta", "lossfactor"} or words >= {"loss", "factor"}):
-            raise NotSaid(f"{source}: {name}: of what? expected that of the frequency or of the loss factor")
-        factor = _factor(source, name, _HZ if of_frequency else {"": 1.0, "-": 1.0, "1": 1.0})
-        columns["frequency_std_hz" if of_frequency else "loss_factor_std"] = table[name] * factor
+    for name in (n for n, kind in kinds.items() if kind == "spread"):
+        of = _kind_of([word for word in _words(name) if word not in _SPREAD], name)
+        if of == "frequency":
+            units = ANGULAR_HZ if _is_angular(name) else _HZ
+            columns["frequency_std_hz"] = table[name] * _factor(source, name, units)
+            continue
+        if of not in _LINEAR:
+            raise NotSaid(
+                f"{source}: {name}: of what? expected that of frequency, loss factor or damping ratio"
+            )
+        factor = _factor(source, name, _PLAIN)
+        if factor != 1 and all(_factor(source, n, _PLAIN) == 1 for n, k in kinds.items() if k == of):
+            raise NotSaid(
+                f"{source}: {name}: in '%', expected the unit of its value: percents of that, or of 1?"
+            )
+        columns.setdefault("loss_factor_std", _LOSS_OF[of](table[name] * factor, f))
     return columns
 
 
 def _factor(source: str, name: str, units: dict[str, float]) -> float:
     """To Hz or to one, by the unit in brackets or the last word. Raises `NotSaid` for any other one."""
-    bracket, words = bracketed(name)
+    bracket, words = bracketed(_spelt(name))
     unit = bracket.strip().lower()
     if not unit:
         unit = "%" if "%" in name else next((w for w in words[-1:] if w in units), "")

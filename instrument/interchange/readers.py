@@ -63,22 +63,27 @@ def read_foreign(path: Path, naming: Naming | None = None) -> Found:
             raise BadInput(f"{path}: --columns is of arrays with names, expected {', '.join(_NAMED)}")
         named_reader: Callable[..., Found] = reader
         reader = partial(named_reader, naming=naming)
-    found = _read(reader, path)
+    may_name = naming is None and _ending(path) in _NAMED
+    found = _read(reader, path, may_name=may_name)
     if not (found.sweeps or found.frfs or found.hits or found.modes):
         said = "; ".join(found.said) or "no array that says what it is"
-        expected = f"; expected {EXPECTED}; {OF_ARRAYS}" if _ending(path) in _NAMED else ""
+        expected = f"; expected {EXPECTED}" if _ending(path) in _NAMED else ""
+        expected += f"; {OF_ARRAYS}" if may_name else ""
         raise BadInput(f"{path}: nothing to import: {one_line(said)[:160]}{expected}")
     found.said += [f"column pickup: {k} is {name}" for k, name in enumerate(found.spots)]
     return found
 
 
-def _read(reader: Reader, path: Path) -> Found:
-    """What a reader finds; another package's may fail in ways that ours do not."""
+def _read(reader: Reader, path: Path, *, may_name: bool) -> Found:
+    """What a reader finds; another package's may fail in ways that ours do not.
+
+    `may_name`: names of columns may be given, and none are yet.
+    """
     try:
         with said_of(path):
             return _checked(path, reader(path))
     except NotSaid as error:
-        hint = "; 'viscorig import --columns' says it for the file" if _ending(path) in _NAMED else ""
+        hint = "; 'viscorig import --columns' says it for the file" if may_name else ""
         raise BadInput(f"{error}{hint}") from None
     except BadInput:
         raise

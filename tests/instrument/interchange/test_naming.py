@@ -86,3 +86,12 @@ def test_two_arrays_do_not_get_one_name(tmp_path):
     savemat(tmp_path / "a.mat", {"f": F, "H": H})
     with pytest.raises(BadInput, match="H would be a second f"):
         import_file(tmp_path / "a.mat", tmp_path / "a.csv", Naming.of("H=f"))
+
+
+@pytest.mark.parametrize("names", ["Frequency [Hz],FRF real [km],FRF imag [km]", "a,b,c"])
+def test_whoever_names_columns_is_not_told_to(tmp_path, names):
+    (tmp_path / "a.csv").write_text("x,y,z\n10,1,2\n11,1,2\n")
+    for naming, is_told in ((None, True), (Naming.of(names), False)):
+        with pytest.raises(BadInput) as refused:
+            import_file(tmp_path / "a.csv", tmp_path / "b.csv", naming)
+        assert ("--columns" in str(refused.value)) == is_told

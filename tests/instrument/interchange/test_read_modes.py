@@ -80,6 +80,33 @@ def test_standard_deviations_and_temperatures_come_along(tmp_path):
     assert warm.temperature_c == pytest.approx([30])
 
 
+@pytest.mark.parametrize(
+    ("loss", "spread", "value"),
+    [
+        ("zeta [%]", "zeta std [%]", 0.5),
+        ("zeta [%]", "zeta sd [%]", 0.5),
+        ("Damping ratio", "Damping ratio std", 0.005),
+        ("ζ", "s(ζ)", 0.005),
+        ("zeta", "s(zeta)", 0.005),
+        ("zeta [%]", "σ(zeta) [%]", 0.5),
+        ("Dämpfungsgrad [%]", "Standardabweichung Dämpfungsgrad [%]", 0.5),
+        ("Loss factor [%]", "Loss factor std [%]", 1.0),
+        ("eta", "s(eta)", 0.01),
+    ],
+)
+def test_a_standard_deviation_becomes_the_loss_factors_as_the_value_does(tmp_path, loss, spread, value):
+    read = table_of(
+        tmp_path, f"Mode,f [Hz],s(f) [Hz],{loss},{spread}\n2,130,.1,1,{value}\n3,360,.2,1,{value}\n"
+    )
+    np.testing.assert_allclose(read.loss_factor_std, 0.01)
+    np.testing.assert_array_equal(read.frequency_std_hz, [0.1, 0.2])
+
+
+def test_those_of_circular_frequencies_are_taken_over_2_pi(tmp_path):
+    read = table_of(tmp_path, "Mode,omega,omega std,eta\n2,800,6.2831853,.1\n3,900,6.2831853,.1\n")
+    np.testing.assert_allclose(read.frequency_std_hz, 1.0)
+
+
 @pytest.mark.parametrize("read", ["poles", "half-power", "model", None])
 def test_how_modes_were_read_comes_along(tmp_path, read):
     said = f"# read: {read}\n" if read else ""
@@ -108,6 +135,8 @@ def test_arrays_of_a_matlab_file(tmp_path):
         ("Mode,f [Hz],eta,f uncertainty (k=2)\n2,130,1,1\n3,360,2,1\n", "one standard deviation"),
         ("Mode,Frequency [rpm],eta\n2,130,1\n3,360,2\n", "in 'rpm', expected hz, khz, rad/s"),
         ("Mode,Frequency [Hz],eta,eta std [%]\n2,130,1,1\n3,360,2,1\n", "eta std .* in '%', expected"),
+        ("Mode,Frequency [Hz],zeta,zeta std [%]\n2,130,.1,1\n3,360,.2,1\n", "percents of that, or of 1"),
+        ("Mode,Frequency [Hz],Q,Q std\n2,130,10,1\n3,360,20,1\n", "Q std: of what"),
         ("Mode,Frequency [Hz],eta,std\n2,130,1,1\n3,360,2,1\n", "of what"),
         ("Mode,f [Hz],fn [Hz],eta\n2,130,1,1\n3,360,2,1\n", "which is the mode's frequency"),
         ("Mode,f [Hz],eta\n2,130,.1\n2,360,.2\n", "mode 2 stands twice"),
