@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
+from filecmp import cmp
 from pathlib import Path
 from typing import Any
 
@@ -39,7 +40,7 @@ def import_file(path: Path, out: Path | None, naming: Naming | None = None) -> I
     `naming` has names in the place of the file's own.
 
     One kind of thing goes to `out` itself; several get its name with `-sweep`, `-frf`, `-hits` or `-modes`
-    behind it.
+    behind it. Without `out` no other file is written over.
     """
     found = read_foreign(path, naming)
     if found.sweeps:
@@ -67,6 +68,8 @@ def import_file(path: Path, out: Path | None, naming: Naming | None = None) -> I
         for (kind, k), file in unproven.items():
             if kind in _READ_BY:
                 _prove(_READ_BY[kind], file, plan[kind, k])
+        if out is None:
+            _refuse_others(unproven, plan)
         for key, file in unproven.items():
             file.replace(plan[key])
     except OSError as error:
@@ -87,6 +90,15 @@ def _default_name(path: Path) -> Path:
     """In the current folder; another than the file's own, which stands there where it is a CSV."""
     own = Path(f"{path.stem}.csv")
     return Path(f"{path.stem}-imported.csv") if own.exists() and own.samefile(path) else own
+
+
+def _refuse_others(written: dict[tuple[str, int], Path], plan: dict[tuple[str, int], Path]) -> None:
+    """Raise `BadInput` where a file of another content stands in a place that nobody named."""
+    for key, file in plan.items():
+        if file.exists() and not cmp(file, written[key], shallow=False):
+            raise BadInput(
+                f"{file}: there is a file already, expected --out: another, or this one to write over it"
+            )
 
 
 def _prove(read: Callable[[Path], object], written: Path, named: Path) -> None:

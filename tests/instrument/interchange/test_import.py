@@ -2,6 +2,7 @@
 
 import json
 import re
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -223,3 +224,24 @@ def test_a_file_is_never_written_over_itself(capsys, tmp_path):
     assert run(["import", str(path), "--out", str(path)]) == 2
     assert "read by this command, expected another name" in capsys.readouterr().err
     assert path.read_text().startswith("frequency_hz")
+
+
+def test_a_file_that_nobody_named_is_not_written_over(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    savemat("a.mat", {k: np.array(v) for k, v in ROWS.items()})
+    Path("a.csv").write_text("somebody's own")
+    assert run(["import", "a.mat"]) == 2
+    err = capsys.readouterr().err
+    assert (
+        err
+        == "viscorig: a.csv: there is a file already, expected --out: another, or this one to write over it\n"
+    )
+    assert (Path("a.csv").read_text(), sorted(p.name for p in tmp_path.iterdir())) == (
+        "somebody's own",
+        ["a.csv", "a.mat"],
+    )
+    assert run(["import", "a.mat", "--out", "a.csv"]) == 0
+    assert run(["import", "a.mat"]) == 0
+    Path("a.txt").write_text("frequency_hz,velocity_m_s\n1,2\n2,3\n")
+    assert run(["import", "a.txt"]) == 2
+    assert Path("a.csv").read_text().startswith("# imported from a.mat")
