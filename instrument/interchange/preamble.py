@@ -27,6 +27,8 @@ def with_stated_units(names: Sequence[str], preamble: Sequence[str]) -> tuple[li
     said: list[str] = []
     for k, name in enumerate(names):
         unit, words = bracketed(name)
+        if not unit and name.lower().endswith(" hz"):
+            unit, words = "Hz", words[:-1]
         unit = unit.strip() or x
         if k == 0 and unit.lower() in _AXIS_UNITS and " ".join(words) in _AXIS_NAMES:
             made.append(f"Frequency [{unit}]")

@@ -1,6 +1,6 @@
 """Unit, part of a phasor and how its size is stated, as the name of a column or an array says them.
 
-`velocity_mm_s`, `Velocity real [mm/s]`, `Mobility in mm/s/N`, `FRF (g/N)`, `Velocity [m/s rms]`.
+`velocity_mm_s`, `Velocity real [mm/s]`, `FRF (g/N)`, `Real (m/s)/g`, `Velocity [m/s rms]`.
 """
 
 import re
@@ -62,6 +62,11 @@ UNWRAPPED = "unwrapped"
 """Of a phase, or of its name."""
 _SPELT = re.compile(r"\s(?:in|/)\s+(\S+)\s*$", re.I)
 """A unit behind its word: `Mobility in mm/s/N`."""
+_ONE = r"\([^()]*\)|\[[^\[\]]*\]"
+_OVER = re.compile(
+    rf"(?:\s+in)?(?:^|\s)((?:{_ONE}|[^\s()\[\]]+)\s*/\s*(?:{_ONE}|[^\s()\[\]/]+))(?=\s|$)", re.I
+)
+"""A unit over another that stands by itself: `Real (m/s)/g`."""
 _AMIDST = re.compile(r"[\[(]([^\[\]()]*)[\])]")
 """A unit that other words follow: `Accelerance (g/N) real`."""
 _PIECES = frozenset(("m", "cm", "mm", "um", "nm", "in", "ft", "s", "s2", "g", "n", "kn", "lbf"))
@@ -83,6 +88,8 @@ def bracketed(name: str) -> tuple[str, list[str]]:
     spelt = _SPELT.search(whole)
     if match and match[0].startswith("["):
         spelt = None
+    elif over := next((m for m in _OVER.finditer(whole) if unit_of(m[1]) is not None), None):
+        return over[1], words_of(whole[: over.start()] + " " + whole[over.end() :])
     if spelt and (unit_of(spelt[1]) or spelt[1].lower() in (*ANGLES, "hz", "khz", "rad/s", "%")):
         match = spelt
     before = whole[: match.start()] if match else whole

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fitting.gravity import STANDARD_GRAVITY_M_S2
 from instrument.cli.main import run
 from instrument.errors import BadInput
 from instrument.files.sweep_file import read_sweep
@@ -213,3 +214,15 @@ def test_names_given_for_another_number_of_columns_are_refused(tmp_path):
     (tmp_path / "a.csv").write_text("20,1,2\n21,2,3\n")
     with pytest.raises(BadInput, match="line 1: 3 columns, expected 2 as --columns has names"):
         read_csv(tmp_path / "a.csv", Naming.of("Frequency [Hz],v [m/s]"))
+
+
+def test_units_behind_their_names_without_brackets(tmp_path):
+    (tmp_path / "a.txt").write_bytes(
+        "Function;FRF plate:1 (1,2 µm)\n\nLinear Hz;Real (m/s)/g;Imaginary (m/s)/g\n"
+        "20,5;0,5;-0,25\n21,5;1,0;0,5\n".encode("cp1252")
+    )
+    assert run(["import", str(tmp_path / "a.txt"), "--out", str(tmp_path / "a.csv")]) == 0
+    sweep = read_sweep(tmp_path / "a.csv").sweep(1.0)
+    np.testing.assert_array_equal(sweep.frequency_hz, [20.5, 21.5])
+    over_base = sweep.velocity_m_s / sweep.base_m_s2
+    np.testing.assert_allclose(over_base, np.array([0.5 - 0.25j, 1.0 + 0.5j]) / STANDARD_GRAVITY_M_S2)

@@ -39,6 +39,15 @@ from instrument.interchange.unit_in_name import amplitude_factor, bracketed, par
         ("Transmissibility [-]", "(m/s^2)/(m/s^2)"),
         ("Transmissibility [dB]", "(m/s^2)/(m/s^2)"),
         ("Transmissibility [(mm/s)/(mm/s)]", "(mm/s)/(mm/s)"),
+        ("Real (m/s)/g", "(m/s)/g"),
+        ("Real (m/s) / g", "(m/s)/g"),
+        ("Real [m/s]/g", "(m/s)/g"),
+        ("(m/s)/g real", "(m/s)/g"),
+        ("FRF (m/s)/(m/s^2) real", "(m/s)/(m/s^2)"),
+        ("Real g/N", "g/N"),
+        ("Velocity mm/s rms", "mm/s"),
+        ("Force / N", "N"),
+        ("Velocity/Acceleration", "furlong"),
     ],
 )
 def test_a_unit_is_read_as_it_stands(name, unit):
