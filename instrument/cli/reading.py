@@ -80,7 +80,7 @@ def read_each(
     if len(data) > 1 and hammer is not None and not one_plate:
         raise click.UsageError("--hammer with several files: expected one file")
     paired = list(specimens) if len(specimens) == len(data) else [*specimens, None][:1] * len(data)
-    structures: dict[Path | None, AnySpecimen | None] = {None: None}
+    structures: dict[Path | None, AnySpecimen] = {}
     for specimen in dict.fromkeys(paired):
         if specimen is not None:
             # Whatever else is wrong with it is said on reading.
@@ -88,7 +88,8 @@ def read_each(
             question_specimen(specimen, insist=insist)
     if not insist:
         for path, specimen in zip(data, paired, strict=True):
-            question_length(path, structures[specimen])
+            if specimen is not None:
+                question_length(path, structures[specimen])
     given = [
         _read_data(
             one,

@@ -48,10 +48,10 @@ _LOSSY = 2.0
 """More than a mode of any structure has."""
 
 
-def question_length(path: Path, specimen: AnySpecimen | None) -> None:
+def question_length(path: Path, specimen: AnySpecimen) -> None:
     """Ask about a sweep of far too many lines before any of them is read. Raises `BadInput`."""
-    is_long = path.suffix.lower() == ".csv" and path.is_file() and path.stat().st_size > _MANY * _SHORTEST
-    if is_long and "frequency_hz" in read_header(path):
+    is_table = path.suffix.lower() in (".csv", ".txt") and path.is_file()
+    if is_table and path.stat().st_size > _MANY * _SHORTEST and "frequency_hz" in read_header(path):
         _ask(_many(count_rows(path), isinstance(specimen, PlateSpecimen)), [path])
 
 
