@@ -185,9 +185,10 @@ def _spreads(source: str, table: Named, kinds: dict[str, Kind], f: Array) -> Col
                 f"{source}: {name}: of what? expected that of frequency, loss factor or damping ratio"
             )
         factor = _factor(source, name, _PLAIN)
-        if factor != 1 and all(_factor(source, n, _PLAIN) == 1 for n, k in kinds.items() if k == of):
+        if factor not in ({_factor(source, n, _PLAIN) for n, k in kinds.items() if k == of} or {1.0}):
+            said = "no unit" if factor == 1 else "in '%'"
             raise NotSaid(
-                f"{source}: {name}: in '%', expected the unit of its value: percents of that, or of 1?"
+                f"{source}: {name}: {said}, expected that of its value: percents may be of it, or of 1"
             )
         columns.setdefault("loss_factor_std", _LOSS_OF[of](table[name] * factor, f))
     return columns

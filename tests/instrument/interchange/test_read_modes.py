@@ -135,7 +135,14 @@ def test_arrays_of_a_matlab_file(tmp_path):
         ("Mode,f [Hz],eta,f uncertainty (k=2)\n2,130,1,1\n3,360,2,1\n", "one standard deviation"),
         ("Mode,Frequency [rpm],eta\n2,130,1\n3,360,2\n", "in 'rpm', expected hz, khz, rad/s"),
         ("Mode,Frequency [Hz],eta,eta std [%]\n2,130,1,1\n3,360,2,1\n", "eta std .* in '%', expected"),
-        ("Mode,Frequency [Hz],zeta,zeta std [%]\n2,130,.1,1\n3,360,.2,1\n", "percents of that, or of 1"),
+        (
+            "Mode,Frequency [Hz],zeta,zeta std [%]\n2,130,.1,1\n3,360,.2,1\n",
+            "in '%', expected that of its value",
+        ),
+        (
+            "Mode,Frequency [Hz],zeta [%],s(zeta)\n2,130,1,.1\n3,360,2,.1\n",
+            "no unit, expected that of its value",
+        ),
         ("Mode,Frequency [Hz],Q,Q std\n2,130,10,1\n3,360,20,1\n", "Q std: of what"),
         ("Mode,Frequency [Hz],eta,std\n2,130,1,1\n3,360,2,1\n", "of what"),
         ("Mode,f [Hz],fn [Hz],eta\n2,130,1,1\n3,360,2,1\n", "which is the mode's frequency"),
