@@ -105,9 +105,11 @@ class GradedCoreEffect(Effect):
         return Change(K_1=u[0] * plate.matrix(f"grading_{self.along}.K_1"))
 
     def story(self, u: Mapping[str, float]) -> str:
-        along = "length, tip over root" if self.along == "x" else "width, far edge over near edge"
         grade = u[f"grade_{self.along}"]
-        return f"the core's modulus changes by {100 * grade:+.0f} % along the {self.whose}'s {along}"
+        ends = ["root", "tip"] if self.along == "x" else ["near edge", "far edge"]
+        softer, stiffer = ends if grade > 0 else reversed(ends)
+        ratio = (2 + abs(grade)) / (2 - abs(grade))
+        return f"the core's modulus is {ratio:.3g} times as large at the {self.whose}'s {stiffer} as at its {softer}"
 
 
 class GradedCoreOfBeamEffect(GradedCoreEffect):

@@ -163,7 +163,8 @@ def story(cause: Cause) -> str:
 
 def _gain(fit: ShiftedFit) -> str:
     more = fit.chi2 - fit.chi2_own
-    said = f"chi-square {more:+.1f} for {fit.degrees:.0f} parameters fewer, p {fit.p_value:.2g}"
+    fewer = f"{fit.degrees:.0f} parameter{'s' * (f'{fit.degrees:.0f}' != '1')}"
+    said = f"chi-square {more:+.1f} for {fewer} fewer, p {fit.p_value:.2g}"
     return said if fit.noise_known else f"{said}, noise being what a law for each temperature leaves"
 
 

@@ -63,10 +63,14 @@ class Card:
             if law.shift is not None:
                 why = "it is not told whether one shifted law serves at all these temperatures"
             lines.append(f"WARNING: verdict unknown: {why}; this law may be biased beyond its band")
-        if law.is_doubted:
+        if law.shift is not None and law.shift.common_cause is not None:
             lines.append(
-                "WARNING: the fit says that this law may be biased beyond its band: see its warnings, and "
-                "'viscorig diagnose'"
+                "WARNING: this law rests on an effect that all temperatures seem to have in common, "
+                f"{law.found}: it is the law beside that effect, and another one if the effect is not there"
+            )
+        if law.doubts:
+            lines.append(
+                "WARNING: the fit says that this law may be biased beyond its band: " + "; ".join(law.doubts)
             )
         if not law.converged:
             lines.append("WARNING: the fit has not come to its end: values and their errors are provisional")

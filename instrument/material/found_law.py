@@ -23,6 +23,7 @@ from instrument.files.text import read_text
 from instrument.interchange.given import is_session
 from instrument.interchange.identified import identify_session
 from instrument.material.contradictions import refuse_contradictions
+from instrument.material.found_effect import NamedEffect
 from instrument.material.found_shift import FoundShift
 from instrument.material.knowledge import known_curve_of
 from instrument.material.stated_part import Stated, digest_of, stated_numbers
@@ -84,18 +85,15 @@ class _Warm(BaseModel):
     temperature_range_c: tuple[Finite, Finite]
 
 
-class _Named(BaseModel):
+class _Weighed(BaseModel):
     name: str
-
-
-class _Weighed(_Named):
     probability: float | None = None
 
 
 class _Diagnosed(BaseModel):
     verdict: str
     after: _LawFound
-    effects: list[_Named] = []
+    effects: list[NamedEffect] = []
     equivalent: dict[str, list[str]] = {}
     candidates: list[_Weighed] = []
     by_hand: bool = False
@@ -103,11 +101,11 @@ class _Diagnosed(BaseModel):
     @property
     def words(self) -> str:
         """What the verdict names, and what the data cannot tell from it."""
-        said = " and ".join(e.name for e in self.effects)
+        said = " and ".join(e.words for e in self.effects)
         if not self.by_hand and none_leads(
             self.equivalent, {c.name: c.probability or 0.0 for c in self.candidates}
         ):
-            shown = [e.name for e in self.effects if e.name not in self.equivalent]
+            shown = [e.words for e in self.effects if e.name not in self.equivalent]
             return f"{' and '.join(['no effect', *shown])}, not told from {' and '.join(self.equivalent)}"
         others = [n for name, group in self.equivalent.items() for n in group if n != name]
         if others:
@@ -138,17 +136,22 @@ class MaterialLaw:
     shift: FoundShift | None = None
     """Of a law over several temperatures: its frequencies are reduced ones."""
     found: str = ""
-    """The effects that a diagnosis named and reckoned with, in words."""
+    """The effects that it reckons with, named by a diagnosis or common to all temperatures, in words."""
     remount: int | None = None
     """Which mount of its specimen it was, where a session says so."""
     known: KnownCurve | None = None
     """Of the whole curve, where the source says so."""
     stated: tuple[Stated, ...] = ()
     """The numbers with a tolerance that it rests on."""
-    is_doubted: bool = False
-    """Whether its fit, not diagnosed, says of itself that it may be biased."""
+    doubts: tuple[str, ...] = ()
+    """What is said of it by which it may be wrong by more than is known of it."""
     converged: bool = True
     """Whether its fit came to its end."""
+
+    @property
+    def is_doubted(self) -> bool:
+        """Whether its fit, not diagnosed, says of itself that it may be biased."""
+        return self.verdict == NOT_DIAGNOSED and bool(self.doubts)
 
     @property
     def same(self) -> str | None:
@@ -239,7 +242,9 @@ def _diagnosed(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
     except ValidationError:
         return None
     law = _law(path, found.after, found.verdict)
-    return replace(_as_known(law, facts["after"]), found=found.words) if law is not None else None
+    if law is None:
+        return None
+    return replace(_as_known(law, facts["after"]), found=found.words, doubts=doubts_in(facts))
 
 
 def _shifted(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
@@ -249,7 +254,10 @@ def _shifted(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
         found = _law(path, _LawFound.model_validate(facts), shift.verdict)
     except ValidationError:
         return None
-    return replace(found, shift=shift, temperature_c=shift.reference_c) if found is not None else None
+    if found is None:
+        return None
+    cause = shift.common_cause.words if shift.common_cause is not None else ""
+    return replace(found, shift=shift, temperature_c=shift.reference_c, found=cause, doubts=doubts_in(facts))
 
 
 def law_of_result(path: Path, result: IdentificationResult) -> MaterialLaw | None:
@@ -265,7 +273,7 @@ def _identified(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
         return None
     if found is None:
         return None
-    return replace(_as_known(found, facts), is_doubted=bool(doubts_in(facts)))
+    return replace(_as_known(found, facts), doubts=doubts_in(facts))
 
 
 def _as_known(law: MaterialLaw, facts: dict[str, Any]) -> MaterialLaw:

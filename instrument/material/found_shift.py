@@ -5,6 +5,7 @@ from typing import Literal, Self
 from pydantic import BaseModel, Field, FiniteFloat, model_validator
 
 from fitting.temperature.shifts import GAS_J_MOL_K, ZERO_K
+from instrument.material.found_effect import NamedEffect
 
 _NEEDED = {"wlf": {"c1", "c2_k"}, "arrhenius": {"activation_energy_j_mol"}, "free": set[str]()}
 """Parameters by the kind of the shift."""
@@ -23,6 +24,8 @@ class FoundShift(BaseModel):
     shift_parameters: dict[str, float]
     temperatures: list[_At] = Field(min_length=2)
     simple: bool | None
+    common_cause: NamedEffect | None = None
+    """The effect beside which the law was found; None where it stands on nothing but the readings."""
 
     @model_validator(mode="after")
     def _whole(self) -> Self:

@@ -127,6 +127,15 @@ def test_a_law_after_a_diagnosis_says_what_it_reckons_with(tmp_path, to):
     text = card(path, to)
     assert "verdict: ambiguous" in text
     assert "with: gain_error, not told from no effect" in text
+    named["effects"][0]["parameters"] = {"factor": {"value": 1.03, "standard_error": 0.002, "unit": "1"}}
+    doubt = {
+        "warnings": ["it is nothing that the catalogue has"],
+        "doubts": ["nothing that the catalogue has"],
+    }
+    path.write_text(json.dumps({"verdict": "ambiguous", "after": facts(), **named, **doubt}))
+    text = card(path, to)
+    assert "with: gain_error (factor 1.03" in text
+    assert "WARNING: the fit says that this law may be biased beyond its band: nothing that" in text
 
 
 @pytest.mark.parametrize("to", FORMATS)
@@ -252,6 +261,21 @@ def test_a_law_over_temperatures_says_its_reference_its_reduced_band_and_its_shi
     assert "log10 a_T = -4 (T - 20) / (60 + T - 20)" in text
     assert "measured from 5 to 36 degrees C" in text
     assert "verdict: thermorheologically simple" in text
+
+
+@pytest.mark.parametrize("to", FORMATS)
+def test_a_law_that_rests_on_a_common_cause_says_which_how_large_and_warns(tmp_path, to):
+    grade = {"value": -1.4, "standard_error": 0.13, "unit": "1"}
+    cause = {"common_cause": {"name": "graded_core", "parameters": {"grade_x": grade}}}
+    doubted = {"warnings": ["the hours were many"], "doubts": ["the hours were many"]}
+    path = tmp_path / "shifted.json"
+    path.write_text(json.dumps(facts(**SHIFT, **cause, **doubted)), encoding="utf-8")
+    text = card(path, to)
+    assert "with: graded_core (grade_x -1.4" in text
+    assert "WARNING: this law rests on an effect that all temperatures seem to have in common" in text
+    assert "beyond its band: the hours were many" in text
+    path.write_text(json.dumps(facts(**SHIFT, common_cause=None)), encoding="utf-8")
+    assert "WARNING" not in card(path, to)
 
 
 def test_abaqus_shifts_by_wlf_itself_as_the_law_does(tmp_path):

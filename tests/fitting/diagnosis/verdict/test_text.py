@@ -82,7 +82,9 @@ def moved(*places):
 
 
 def test_of_several_files_and_spots_the_most_moved_is_said_with_its_place():
-    assert moved(Place(1), Place(2)).startswith("The law kept, it changes the response by up to 6 % near ")
+    assert moved(Place(1), Place(2)).startswith(
+        "With the same law, this effect alone changes the response by up to 6 % near "
+    )
     assert moved(Place(1), Place(2)).endswith(" Hz in file 2.")
     assert moved(Place(1, 0), Place(1, 1)).endswith(" Hz at pickup 1.")
     assert moved(Place(1, 0), Place(2, 1)).endswith(" Hz in file 2 at pickup 1.")
