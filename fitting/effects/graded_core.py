@@ -109,7 +109,8 @@ class GradedCoreEffect(Effect):
         ends = ["root", "tip"] if self.along == "x" else ["near edge", "far edge"]
         softer, stiffer = ends if grade > 0 else reversed(ends)
         ratio = (2 + abs(grade)) / (2 - abs(grade))
-        return f"the core's modulus is {ratio:.3g} times as large at the {self.whose}'s {stiffer} as at its {softer}"
+        stiff = f"{ratio:.3g} times as large at the {self.whose}'s {stiffer}"
+        return f"the core's modulus is {stiff} as at its {softer}"
 
 
 class GradedCoreOfBeamEffect(GradedCoreEffect):

@@ -49,15 +49,13 @@ def tasks_of(
         found = _of_table(tables[0], specimen, hammer, insist=insist)
     else:
         found = [_task(path, specimen, hammer) for path in files]
+        for path in files:
+            if path.suffix.lower() == ".csv" and path.is_file():
+                _refuse_a_list(path)
         lonely = next((t for t in found if t.specimen is None and not is_session(Path(t.data))), None)
         if lonely is not None:
             _refuse_no_data(Path(lonely.data))
-            heads = _heads_of_a_list(Path(lonely.data))
-            if heads:
-                raise BadInput(
-                    f"{lonely.data}: a list of files with the columns {heads}: expected a column 'data', "
-                    "commas between its columns; others are specimen, hammer, temperature_c, material"
-                )
+            _refuse_a_list(Path(lonely.data))
             raise BadInput(
                 f"{lonely.data}: Missing option '--specimen': a sweep does not say which plate it was "
                 "(a table of sweeps begins with a column 'data', commas between its columns)"
@@ -78,15 +76,21 @@ def _task(data: Path, specimen: Path | None, hammer: Path | None) -> BatchTask:
     return BatchTask(str(data), str(specimen) if specimen else None, str(hammer) if hammer else None)
 
 
-def _heads_of_a_list(path: Path) -> str:
-    """Of a table that names files in its first row, though not as ours do; empty for anything else."""
+def _refuse_a_list(path: Path) -> None:
+    """Raise `BadInput` for a table that names files in its first row, though not as ours do."""
     try:
         with open(path, encoding="utf-8-sig") as file:
             head, first = islice((line for line in file if line.strip() and not line.startswith("#")), 2)
     except (OSError, UnicodeDecodeError, ValueError):
-        return ""
-    named = any(Path(cell.strip(" \"'\n")).suffix.lower() in _DATA for cell in re.split("[,;\t]", first))
-    return head.strip()[:_MOST_SHOWN] if named else ""
+        return
+    heads, named = ([cell.strip(" \"'\n") for cell in re.split("[,;\t]", line)] for line in (head, first))
+    meant = [name for name, cell in zip(heads, named, strict=False) if Path(cell).suffix.lower() in _DATA]
+    if meant:
+        near = f", the nearest is {meant[0]}" if meant[0] not in ("data", "") else ""
+        raise BadInput(
+            f"{path}: a list of files with the columns {head.strip()[:_MOST_SHOWN]}{near}: expected a column "
+            "'data', commas between its columns; others are specimen, hammer, temperature_c, material"
+        )
 
 
 def _is_table(path: Path) -> bool:

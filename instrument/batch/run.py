@@ -126,14 +126,16 @@ def _do_what_is_left(
 
 def _unread(task: BatchTask) -> Outcome:
     """Of a row that names a file which cannot be read."""
-    for path in (task.data, task.specimen, task.hammer):
+    for what, path in (("", task.data), ("specimen ", task.specimen), ("hammer test ", task.hammer)):
         if path is not None:
+            # The row itself names its data.
+            name = f"{what}{Path(path).name or path}: " if what else ""
             try:
                 refuse_endless(Path(path))
                 with open(path, "rb") as file:
                     file.read(1)
             except BadInput as error:
-                return failure(str(error).replace(path, Path(path).name), again=True)
+                return failure(name + str(error).removeprefix(f"{path}: "), again=True)
             except OSError as error:
-                return failure(f"{Path(path).name or path}: {system_words(error)}", again=True)
+                return failure(name + system_words(error), again=True)
     return failure("its files changed while the batch went on", again=True)

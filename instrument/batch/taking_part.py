@@ -84,16 +84,24 @@ def repeats_among(rows: Iterable[BatchRow]) -> dict[int, str]:
     """Place of each row whose data an earlier row of its group has already, and that row's data.
 
     Told by contents, whatever the files are called and whichever specimen they are given, and by laws that
-    are one to four digits: one measurement counts once. Rows that take no part repeat nothing.
+    are one to four digits: one measurement counts once. A row that has no law to believe repeats by its
+    contents alone, and is repeated by none that has one; a row that failed repeats nothing.
     """
     first: dict[tuple[str, Group], str] = {}
+    unbelieved: dict[tuple[str, Group], str] = {}
     laws = defaultdict[Group, list[tuple[str, Array]]](list)
     found = {}
     for place, (row, group) in enumerate(zip(rows, groups_of(rows), strict=True)):
-        law = law_of(row)
-        if law is None:
+        if row.outcome["failed"]:
             continue
         key = row.contents or os.path.realpath(row.task.data), group
+        law = law_of(row)
+        if law is None:
+            alike = first.get(key) or unbelieved.get(key)
+            if alike is not None:
+                found[place] = alike
+            unbelieved.setdefault(key, row.task.data)
+            continue
         curve = np.concatenate([law["frequency_hz"], law["storage_modulus_pa"], law["loss_factor"]])
         earlier = first.get(key) or next((data for data, other in laws[group] if _is_one(curve, other)), None)
         if earlier is not None:

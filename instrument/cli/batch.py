@@ -1,5 +1,6 @@
 """`viscorig batch`: many sessions or sweeps to one table and one page."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -91,13 +92,7 @@ def batch(
         written = [*write_tables(rows, folder, marks), page]
         repeated = rows.repeated
     twice = [(tasks[place].data, first) for place, first in repeats.items()]
-    _say(out, counted, repeated)
-    for data, first in twice[:_FAILURES_SHOWN]:
-        out.say(
-            f"repeat, not in the spread: {data} is {first} again, by its bytes or by its law to four digits"
-        )
-    if len(twice) > _FAILURES_SHOWN:
-        out.say(f"and {len(twice) - _FAILURES_SHOWN} more repeats, all in {CSV}")
+    _say(out, counted, repeated, twice)
     for one in between:
         for line in one.lines:
             out.say(line)
@@ -108,11 +103,17 @@ def batch(
     out.result(counted.result(repeated, written, between, twice))
 
 
-def _say(out: Output, counted: Counted, repeated: int) -> None:
+def _say(out: Output, counted: Counted, repeated: int, twice: Sequence[tuple[str, str]]) -> None:
     before = f", {repeated} of them known before" if repeated else ""
     out.say(f"{counted.done} of {counted.rows} rows done{before}, {len(counted.failures)} failed")
     if counted.verdicts:
         out.say("verdicts: " + ", ".join(f"{n} {name}" for name, n in counted.verdicts.most_common()))
+    for data, first in twice[:_FAILURES_SHOWN]:
+        out.say(
+            f"repeat, not in the spread: {data} is {first} again, by its bytes or by its law to four digits"
+        )
+    if len(twice) > _FAILURES_SHOWN:
+        out.say(f"and {len(twice) - _FAILURES_SHOWN} more repeats, all in {CSV}")
     if counted.doubted:
         some = counted.doubted[:_FAILURES_SHOWN]
         more = f" and {len(counted.doubted) - len(some)} more" if len(counted.doubted) > len(some) else ""

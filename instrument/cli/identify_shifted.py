@@ -95,7 +95,7 @@ def _fitted(
     hammer: HammerModes | None = None,
 ) -> Shifted:
     assert asked.shift is not None
-    found = identify_at_temperatures(
+    return identify_at_temperatures(
         every,
         stated,
         asked.shift,
@@ -105,16 +105,19 @@ def _fitted(
         hammer=hammer,
         temperature_k=asked.temperature_k,
     )
+
+
+def _draw(out: Output, found: Shifted, asked: Asked) -> None:
     if asked.figures is not None:
         from instrument.results.shifted_figures import save_shifted_figures
 
         for path in save_shifted_figures(found, asked.figures):
             out.say(f"saved {path}")
-    return found
 
 
 def _tell(out: Output, found: Shifted, every: Sequence[AtTemperature], asked: Asked) -> None:
     if found.verdict.simple is False:
+        _draw(out, found, asked)
         raise OutsideModel(found.verdict.words + _if_mounted_anew(every))
     result = shifted_from(found, every)
     print_shifted(out, result, law_stands=found.verdict.law_stands)
@@ -123,6 +126,7 @@ def _tell(out: Output, found: Shifted, every: Sequence[AtTemperature], asked: As
         looked = by_profile(found.fit.quantities(np.geomspace(b[0], b[-1], _PROFILED)), bar)
         print_in_depth(out, looked)
         result = result.but(uncertainty=tuple(in_depth_facts(looked)))
+    _draw(out, found, asked)
     out.result(result)
 
 

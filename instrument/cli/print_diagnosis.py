@@ -24,6 +24,7 @@ from instrument.results.next_words import (
     NEXT_TITLE,
     beyond_words,
     kind_words,
+    may_settle,
     next_row,
     separated_words,
 )
@@ -75,7 +76,7 @@ def _print_next(out: Output, found: DiagnosisResult) -> None:
     out.say()
     out.table(NEXT_TITLE, list(NEXT_COLUMNS), [list(next_row(f)) for f in shown])
     # Of the first the sentence above says so already.
-    for f in shown[1:]:
+    for f in filter(may_settle, shown[1:]):
         out.say(
             textwrap.fill(f"{kind_words(f.kind)}: {f.why} It separates {separated_words(f.between)}.", _WIDTH)
         )

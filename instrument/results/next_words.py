@@ -9,7 +9,7 @@ from instrument.facts.follow_up import FollowUp, FollowUpKind
 from instrument.results.standing import standing
 
 NEXT_TITLE = "what would tell the explanations apart if one of them is true, best first"
-NEXT_COLUMNS = ("what to measure", "s of rig and hands", "settles it", "likelier by")
+NEXT_COLUMNS = ("what to measure", "rig and hands", "settles it", "likelier by")
 
 _FOLLOWING: dict[FollowUpKind, str] = {
     "frequencies": "more steps",
@@ -24,6 +24,8 @@ _FOLLOWING: dict[FollowUpKind, str] = {
 
 _BEYOND_DOUBT = log(1.001e6)
 """Of odds: no explanation, nor the program, is known well enough for more to mean anything."""
+_IN_MINUTES_S = 120.0
+"""From here on a person thinks in minutes."""
 _MOST_NAMED = 3
 """Of a group, in a sentence: its table names all."""
 
@@ -31,10 +33,22 @@ _MOST_NAMED = 3
 def advice(offer: FollowUp) -> str:
     """Which explanations, by which measurement, where, why, what it costs and what may be hoped for."""
     what = f"{offer.todo[0].lower()}{offer.todo[1:]}"
-    takes, settles = f"It takes {offer.seconds:.0f} s", f"settles the matter with {_percent(offer)} chance"
-    cost = f"{takes} and, if one of these is true, {settles}"
-    cost += f"; if not, {_FOLLOWING[offer.then]} should follow." if offer.then else "."
-    return f"T{apart_words(offer.between)[1:]}, {what} {offer.why} {cost}"
+    cost = f"It takes {duration(offer.seconds)}"
+    if may_settle(offer):
+        cost += f" and, if one of these is true, settles the matter with {_percent(offer)} chance"
+    if offer.then:
+        cost += f"; {'if not,' if may_settle(offer) else 'then'} {_FOLLOWING[offer.then]} should follow"
+    return f"T{apart_words(offer.between)[1:]}, {what} {offer.why} {cost}."
+
+
+def duration(seconds: float) -> str:
+    """Seconds in words: 45 s, 4 min."""
+    return f"{seconds:.0f} s" if seconds < _IN_MINUTES_S else f"{seconds / 60:.0f} min"
+
+
+def may_settle(offer: FollowUp) -> bool:
+    """Whether there is a chance, to a percent, that one explanation is left."""
+    return _percent(offer) != "0 %"
 
 
 def kind_words(kind: FollowUpKind) -> str:
@@ -44,7 +58,8 @@ def kind_words(kind: FollowUpKind) -> str:
 
 def next_row(offer: FollowUp) -> tuple[str, ...]:
     """One row under `NEXT_COLUMNS`."""
-    return offer.todo, f"{offer.seconds:.0f}", _percent(offer), times(min(offer.separation, _BEYOND_DOUBT))
+    odds = times(min(offer.separation, _BEYOND_DOUBT))
+    return offer.todo, duration(offer.seconds), _percent(offer), odds
 
 
 def apart_words(between: Sequence[str]) -> str:

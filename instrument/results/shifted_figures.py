@@ -8,11 +8,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fitting.numerics.chances import Z_95
-from instrument.results.drawing import DATA, MODEL, WIDTH_IN, label, legend, panels
+from instrument.results.drawing import DATA, MODEL, WIDTH_IN, label, legend, legend_above, panels
 from instrument.temperatures.shifted import Shifted
 
 _POINTS = 40
 _HEIGHT_IN = 8.0
+_ROOM = 2.0
+"""Times the lowest frequency, below which a temperature has no room on a line's left."""
+_BESIDE_PT = 7.0
+"""From a line to its temperature."""
 
 
 def save_shifted_figures(found: Shifted, folder: Path) -> list[Path]:
@@ -20,6 +24,7 @@ def save_shifted_figures(found: Shifted, folder: Path) -> list[Path]:
     folder.mkdir(parents=True, exist_ok=True)
     figure, ((ax,),) = panels(1, 1, 6.5)
     _nomogram(ax, found)
+    legend_above(figure, ax)
     paths = [folder / "nomogram.png", folder / "simplicity.png"]
     figure.savefig(paths[0], dpi=150)
     figure = Figure(figsize=(WIDTH_IN, _HEIGHT_IN), layout="constrained")
@@ -33,9 +38,24 @@ def save_shifted_figures(found: Shifted, folder: Path) -> list[Path]:
 def _nomogram(ax: Axes, found: Shifted) -> None:
     """G' and eta over reduced frequency; the frequency on the right, read along a temperature's diagonal."""
     b, fit = found.band, found.fit
-    ax.loglog(b.frequency_hz, b.storage_modulus_pa / 1e6, color=DATA, label="G' / MPa")
-    ax.loglog(b.frequency_hz, b.loss_factor, color=MODEL, label="eta")
-    label(ax, x=f"reduced frequency f a_T / Hz (reference {fit.shift.reference_c:g} °C)", y="G' / MPa, eta")
+    for value, error, color, name in (
+        (b.storage_modulus_pa / 1e6, b.storage_modulus_standard_error_pa / 1e6, DATA, "G' / MPa"),
+        (b.loss_factor, b.loss_factor_standard_error, MODEL, "eta"),
+    ):
+        ax.loglog(b.frequency_hz, value, color=color, label=name)
+        # In logarithms, or a wide band has no lower edge.
+        factor = np.exp(Z_95 * error / value)
+        ax.fill_between(
+            b.frequency_hz,
+            value / factor,
+            value * factor,
+            color=color,
+            alpha=0.2,
+            lw=0,
+            label=f"{name}, 95 %",
+        )
+    _reduced(ax, found)
+    label(ax, x=f"reduced frequency f $a_T$ / Hz (reference {fit.shift.reference_c:g} °C)", y="G' / MPa, eta")
     right = ax.twinx()
     f = np.array([b.frequency_hz[0], b.frequency_hz[-1]])
     low, high = min(x[0] for x in fit.bands_hz) / 3, max(x[1] for x in fit.bands_hz) * 3
@@ -46,12 +66,38 @@ def _nomogram(ax: Axes, found: Shifted) -> None:
         done.add(T)
         reduced = np.array([low, high]) * np.exp(log_a)
         right.loglog(reduced, [low, high], color="0.6", lw=0.8)
-        at = float(np.clip(0.8 * reduced[1], f[0], 0.8 * f[1]))
-        right.annotate(f"{T:g} °C", (at, at / np.exp(log_a)), fontsize=8, color="0.3")
+        # Beside the line, on the side where the frame is far.
+        at = float(np.clip(0.8 * reduced[1], 1.2 * f[0], 0.8 * f[1]))
+        side = 1 if at < _ROOM * f[0] else -1
+        right.annotate(
+            f"{T:g} °C",
+            (at, at / np.exp(log_a)),
+            (_BESIDE_PT * side, 0),
+            textcoords="offset points",
+            ha="left" if side > 0 else "right",
+            va="center",
+            fontsize=8,
+            color="0.3",
+        )
     right.set_ylim(low, high)
     ax.set_xlim(f[0], f[1])
     right.set_ylabel("frequency / Hz", fontsize=9)
-    legend(ax)
+    right.tick_params(labelsize=8, which="both")
+
+
+def _reduced(ax: Axes, found: Shifted) -> None:
+    """What each temperature's readings say by themselves, at their frequencies, shifted."""
+    fit = found.fit
+    for k, one in enumerate(found.alone):
+        every = np.unique(one.frequency_hz)
+        at = every[np.unique(np.linspace(0, len(every) - 1, _POINTS).astype(int))]
+        storage, eta = one.begun.none.law.storage_and_loss(2 * np.pi * at)
+        storage = storage / np.exp(fit.log_vertical[k])
+        for values, color in ((storage / 1e6, DATA), (eta, MODEL)):
+            name = "each temperature's own law where it was read" if (k, color) == (0, DATA) else None
+            ax.plot(
+                at * np.exp(fit.sweeps_log_shift[k]), values, "o", ms=3.5, mfc="none", color=color, label=name
+            )
 
 
 def _each_alone(wicket: Axes, cole: Axes, curves: Axes, found: Shifted) -> None:
@@ -83,4 +129,4 @@ def _shift_factors(ax: Axes, found: Shifted) -> None:
     ax.errorbar(T, fit.log_shift / ten, Z_95 * fit.log_shift_errors / ten, fmt="o", ms=4, capsize=3)
     wide = np.linspace(T.min(), T.max(), 100)
     ax.plot(wide, fit.shift.log_shift(fit.parameters, wide) / ten, color=MODEL, lw=0.8)
-    label(ax, x="temperature / °C", y="log10 a_T", title=f"shift factors: {fit.shift.kind}")
+    label(ax, x="temperature / °C", y="log10 $a_T$", title=f"shift factors: {fit.shift.kind}")

@@ -10,7 +10,7 @@ import httpx
 
 from instrument.errors import RigStopped
 from instrument.facts.follow_up import FollowUp
-from instrument.results.next_words import apart_words
+from instrument.results.next_words import apart_words, duration
 from instrument.run.control import RunControl
 from instrument.stream.raw import OperatorDid
 
@@ -99,7 +99,7 @@ def follow_up_words(offer: FollowUp) -> str:
     """What it costs and what may be hoped for, in a line."""
     chance = f"{100 * offer.probability_resolved:.0f} % that one explanation is left"
     steps = f"{len(offer.frequencies_hz)} steps, " if offer.frequencies_hz else ""
-    return f"{steps}{offer.seconds:.0f} s, {chance}"
+    return f"{steps}{duration(offer.seconds)}, {chance}"
 
 
 def _at_a_terminal() -> bool:

@@ -256,7 +256,8 @@ def moved_words(problem: DiagnosisProblem, plain: Complex, velocity_m_s: Complex
     # Beside what it changes elsewhere nobody wants the rest.
     largest = max(parts)[0]
     parts = [part for part in parts if part[0] > _WORTH_SAYING * largest] or parts
-    return f"With the same law, this effect alone changes the response by up to {', '.join(words for _, words in parts)}."
+    most = ", ".join(words for _, words in parts)
+    return f"With the same law, this effect alone changes the response by up to {most}."
 
 
 def _whose(problem: DiagnosisProblem, point: int) -> str:

@@ -124,3 +124,10 @@ def test_a_temperature_without_which_one_law_serves_is_named_before_the_material
     assert "something may be off there alone" in words
     assert "not one material" not in words
     assert "not one material" in judge(fit(p=1e-5)).words
+
+
+@pytest.mark.parametrize(("degrees", "said"), [(1.2, "1 parameter fewer"), (4.0, "4 parameters fewer")])
+def test_one_parameter_is_singular(degrees, said):
+    refused = fit(p=REFUSED / 2, off=1.2)
+    refused.degrees = degrees
+    assert f" for {said}, " in judge(refused).words

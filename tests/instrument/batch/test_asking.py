@@ -58,9 +58,11 @@ def test_a_list_of_files_that_is_not_written_as_ours_is_told_from_a_sweep(tmp_pa
     separator = ";" if ";" in heads else ","
     path = tmp_path / "list.csv"
     path.write_text(f"{heads}\n{separator.join(['a.csv', 'a.toml', '21'])}\n", encoding="utf-8")
-    said = f"a list of files with the columns {heads}: expected a column 'data', commas between its columns"
-    with pytest.raises(BadInput, match=re.escape(said)):
-        tasks_of([path], None)
+    near = "" if separator == ";" else ", the nearest is file"
+    said = f"with the columns {heads}{near}: expected a column 'data', commas between its columns"
+    for specimen in (None, tmp_path / "a.toml"):
+        with pytest.raises(BadInput, match=re.escape(f"a list of files {said}")):
+            tasks_of([path], specimen)
 
 
 def test_a_file_that_is_not_there_is_said_to_be_so_before_its_specimen_is_missed(tmp_path):

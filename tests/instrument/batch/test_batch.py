@@ -151,14 +151,16 @@ def test_a_table_names_data_specimen_and_temperature(tmp_path, sweeps, plate):
         "remark,data,specimen,temperature_c\n"
         f"first,{sweeps[0].name},{plate},21.5\n"
         f"gone,nowhere.csv,{plate},\n"
-        f"no plate,{sweeps[1].name},,\n",
+        f"no plate,{sweeps[1].name},,\n"
+        f"wrong plate,{sweeps[1].name},nosuch.toml,\n",
         encoding="utf-8",
     )
     assert batch(table, "--out", tmp_path) == 0
     rows = rows_of(tmp_path)
-    assert [row["status"] for row in rows] == ["done", "failed", "failed"]
+    assert [row["status"] for row in rows] == ["done", "failed", "failed", "failed"]
     assert rows[0]["temperature_c"] == "21.5"
-    assert rows[1]["reason"] == "nowhere.csv: No such file or directory"
+    assert rows[1]["reason"] == "No such file or directory"
+    assert rows[3]["reason"] == "specimen nosuch.toml: No such file or directory"
     assert "--specimen" in rows[2]["reason"]
 
 

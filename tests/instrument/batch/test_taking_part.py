@@ -40,6 +40,15 @@ def test_a_row_that_failed_is_repeated_by_none():
     assert law_of(some[1]) is not None
 
 
+def test_a_row_in_doubt_is_named_as_a_repeat_and_takes_none_s_part():
+    doubted = {"verdict": None, "warnings": ["odd"], "doubts": ["odd"]}
+    some = [holding("a", row(k, 1.0 + k / 10, **doubted)) for k in range(2)]
+    assert repeats_among(some) == {1: "0.csv"}
+    believed = holding("a", row(2, 1.0))
+    assert repeats_among([*some, believed]) == {1: "0.csv"}
+    assert repeats_among([believed, *some]) == {1: "2.csv", 2: "2.csv"}
+
+
 def test_one_file_at_two_temperatures_repeats_nothing():
     assert repeats_among([holding("a", row(1, 1.0, 20.0)), holding("a", row(2, 1.0, 40.0))]) == {}
 

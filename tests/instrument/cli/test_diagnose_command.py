@@ -116,7 +116,7 @@ def test_what_would_tell_rivals_apart_is_listed_with_its_cost(capsys, given, mon
     # One advice: the sentence is the first row in words, and its reason stands there alone.
     assert "Next measurement: To tell gain_error and no effect apart, point the laser at (285, 24) mm" in said
     assert (
-        "A gain is the same at every spot. It takes 209 s and, if one of these is true, settles the matter "
+        "A gain is the same at every spot. It takes 3 min and, if one of these is true, settles the matter "
         "with 92 % chance."
     ) in said
     assert "spot:" not in out
@@ -269,7 +269,7 @@ def test_the_report_ranks_what_would_tell_the_explanations_apart(contents):
     assert hidden.rows[0][:4] == ("temperature_drift", "warming 2.27 K", "4", "26.9")
     (table,) = (b for b in section.blocks if b.kind == "table" and "tell the explanations apart" in b.title)
     assert [row[0] for row in table.rows] == [SPOT["todo"], BACKWARDS["todo"]]
-    assert table.rows[0][1:] == ("30", "80 %", "55 times", "spot_offset and gain_error", SPOT["why"])
+    assert table.rows[0][1:] == ("30 s", "80 %", "55 times", "spot_offset and gain_error", SPOT["why"])
     # Where the first is made is drawn below the table.
     drawn = section.blocks[section.blocks.index(table) + 1]
     assert drawn.kind == "picture"

@@ -264,6 +264,14 @@ def test_a_law_that_nothing_explains_is_printed_as_not_to_be_used(capsys, zn1, f
     assert "this one is not to be used" in warned[0]
 
 
+def test_figures_are_said_to_be_saved_after_the_results(capsys, monkeypatch, zn1, found, tmp_path):
+    found(simple=None, stands=False)
+    monkeypatch.setattr(shifted_figures, "save_shifted_figures", lambda found, folder: [folder / "n.png"])
+    shift([given(zn1, k) for k in range(3)], tmp_path, Output(None))
+    said = capsys.readouterr().out
+    assert 0 < said.index("the law at 20 degC") < said.index("saved ")
+
+
 def test_a_law_that_is_not_simple_is_refused_after_its_figures_are_saved(
     capsys, monkeypatch, zn1, found, tmp_path
 ):

@@ -7,7 +7,14 @@ from diagnosis_cases import diagnosis
 from following_cases import SPOT
 
 from instrument.facts.follow_up import FollowUp, FollowUpKind
-from instrument.results.next_words import NEXT_COLUMNS, advice, beyond_words, next_row, separated_words
+from instrument.results.next_words import (
+    NEXT_COLUMNS,
+    advice,
+    beyond_words,
+    may_settle,
+    next_row,
+    separated_words,
+)
 
 OFFER = FollowUp.model_validate(SPOT)
 
@@ -22,6 +29,17 @@ def test_the_advice_says_which_measurement_why_and_what_it_costs():
 def test_the_advice_says_what_follows_where_it_settles_nothing():
     after = advice(OFFER.but(then="bare_hammer"))
     assert after.endswith("with 80 % chance; if not, the bare plate's hammer test should follow.")
+
+
+def test_what_settles_nothing_promises_nothing_and_what_takes_long_takes_minutes():
+    vain = OFFER.but(probability_resolved=0.004, seconds=209.0)
+    assert advice(vain).endswith(" It takes 3 min.")
+    assert advice(vain.but(then="bare_hammer")).endswith(
+        " It takes 3 min; then the bare plate's hammer test should follow."
+    )
+    assert not may_settle(vain)
+    assert may_settle(OFFER)
+    assert dict(zip(NEXT_COLUMNS, next_row(vain), strict=True))["rig and hands"] == "3 min"
 
 
 def test_every_measurement_has_words_to_follow_by():

@@ -155,6 +155,22 @@ def test_the_nomogram_has_a_diagonal_for_each_temperature(temperatures, saved, t
     )
     assert f"reference {REFERENCE:g} °C" in left.get_xlabel()
     assert [text.get_text() for text in right.texts] == [f"{t:g} °C" for t in T]
+    # Beside its line and inside the frame.
+    frame = left.get_window_extent()
+    for text, line in zip(right.texts, right.lines, strict=True):
+        box = text.get_window_extent()
+        assert frame.x0 < box.x0 < box.x1 < frame.x1
+        ends = right.transData.transform(np.column_stack(line.get_data()))
+        for y in (box.y0, box.y1):
+            x = np.interp(y, ends[:, 1], ends[:, 0])
+            assert not box.x0 <= x <= box.x1
+    assert left.yaxis.get_ticklabels()[0].get_fontsize() == right.yaxis.get_ticklabels()[0].get_fontsize()
+    assert [c.get_label() for c in left.collections] == ["G' / MPa, 95 %", "eta, 95 %"]
+    # Reduced readings lie on the one law, where the material is simple.
+    points = [line.get_data() for line in left.lines[2:]]
+    assert len(points) == 2 * len(T)
+    law = temperatures.fit.law.storage_and_loss(2 * np.pi * points[0][0])[0] / 1e6
+    np.testing.assert_allclose(points[0][1], law, rtol=0.1)
     for line, log_a in zip(right.lines, temperatures.fit.log_shift, strict=True):
         reduced, plain = line.get_data()
         np.testing.assert_allclose(np.log(reduced / plain), log_a)
