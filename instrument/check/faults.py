@@ -86,7 +86,8 @@ def _simulated_plate(experiment: Experiment) -> Iterator[str]:
         yield (
             f"{experiment.specimen_path}: pickup at {x:g}, {y:g} mm, but the simulated rig reads the "
             f"published plate at {1e3 * at[0]:g}, {1e3 * at[1]:g}: expected that, or [simulation] specimen = "
-            f'"{experiment.specimen_path.name}" in {experiment.rig_path.name}, which is read anywhere'
+            f'"{experiment.specimen_path.name}" in {experiment.rig_path.name}, which is read anywhere, '
+            "but can hide no clamp that yields or rubs"
         )
     try:
         check_like(specimen, published)

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter
+from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter
 from fitting.effects.given import Points
 
 
@@ -15,6 +15,7 @@ class CrossTalk(Effect):
     name = "crosstalk"
     enters = "channel"
     source = "capacitive and resistive coupling of measuring cables"
+    structures = EVERY_STRUCTURE
     parameters = (EffectParameter("leak", "mm/s per m/s^2", -5.0, 5.0, 0.05, spread=0.1),)
     chance = 0.01
     discriminating_test = "a short across the velocity input while the shaker runs: what is left leaks"
