@@ -77,17 +77,18 @@ def _simulated_plate(experiment: Experiment) -> Iterator[str]:
         return
     published = read_specimen(case_file("specimen.toml"))
     at, stated = published.pickup_m, specimen.pickup_m
+    # One that is simulated for the run is told the spot.
     if (
-        at is not None
+        not experiment.rig.is_simulated
+        and at is not None
         and stated is not None
         and max(abs(a - b) for a, b in zip(at, stated, strict=True)) > _SPOT_M
     ):
         x, y = (1e3 * v for v in stated)
         yield (
             f"{experiment.specimen_path}: pickup at {x:g}, {y:g} mm, but the simulated rig reads the "
-            f"published plate at {1e3 * at[0]:g}, {1e3 * at[1]:g}: expected that, or [simulation] specimen = "
-            f'"{experiment.specimen_path.name}" in {experiment.rig_path.name}, which is read anywhere, '
-            "but can hide no clamp that yields or rubs"
+            f"published plate at {1e3 * at[0]:g}, {1e3 * at[1]:g}: expected that, or address = "
+            f'"simulated" for all devices in {experiment.rig_path.name}, which reads it anywhere'
         )
     try:
         check_like(specimen, published)

@@ -33,7 +33,21 @@ _LOOKS_EVERY_S = 0.2
 )
 @click.option("--modbus-port", type=click.IntRange(0, 65535), default=0, help="0 for a free one.")
 @click.option("--frontend-port", type=click.IntRange(0, 65535), default=0, help="0 for a free one.")
-def simulate(rig: Path, virtual_time: bool, log: Path | None, modbus_port: int, frontend_port: int) -> None:
+@click.option(
+    "--spot",
+    type=float,
+    nargs=2,
+    metavar="X Y",
+    help="Where the published plate is read, in mm from the clamp and a long edge; 60 60 if nobody says.",
+)
+def simulate(
+    rig: Path,
+    virtual_time: bool,
+    log: Path | None,
+    modbus_port: int,
+    frontend_port: int,
+    spot: tuple[float, float] | None,
+) -> None:
     """Stand up the instruments of RIG.toml's [simulation] until interrupted.
 
     The first line of output is JSON: modbus_tcp, modbus_rtu, vibrometer_tty, frontend_url,
@@ -45,7 +59,15 @@ def simulate(rig: Path, virtual_time: bool, log: Path | None, modbus_port: int, 
     with ended_as_by_a_person(), ExitStack() as stack:
         try:
             addresses = stack.enter_context(
-                simulated_rig(document, rig, virtual_time=virtual_time, log=log, ports=ports, progress=bar)
+                simulated_rig(
+                    document,
+                    rig,
+                    virtual_time=virtual_time,
+                    log=log,
+                    ports=ports,
+                    spot_m=None if spot is None else (1e-3 * spot[0], 1e-3 * spot[1]),
+                    progress=bar,
+                )
             )
         except (ArithmeticError, LookupError, RuntimeError, TypeError, ValueError) as error:
             _log.debug("%s", rig, exc_info=True)

@@ -80,11 +80,20 @@ class Addresses:
 
 
 @contextmanager
-def open_rig(document: RigDocument, path: Path, hammer: Hammer | None) -> Iterator[Rig]:
-    """Connect everything; let go of it again at the end. Raises `DriverError`."""
+def open_rig(
+    document: RigDocument,
+    path: Path,
+    hammer: Hammer | None,
+    spot_m: tuple[float, float] | None = None,
+) -> Iterator[Rig]:
+    """Connect everything; let go of it again at the end. Raises `DriverError`.
+
+    `spot_m` is where a rig that is simulated for the run reads the published plate, None for (0.06, 0.06).
+    """
     with ExitStack() as stack:
         if document.is_simulated:
-            addresses = stack.enter_context(simulator(path))
+            spot = ("--spot", *(f"{1e3 * v:g}" for v in spot_m)) if spot_m is not None else ()
+            addresses = stack.enter_context(simulator(path, *spot))
             document = _at(document, addresses)
         shaker = open_shaker(document.shaker)
         stack.callback(shaker.close)

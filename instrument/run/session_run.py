@@ -109,13 +109,19 @@ class SessionRun:
         self._recorder = recorder
         try:
             self._prepare()
-            document = self._experiment.document
+            document, specimen = self._experiment.document, self._experiment.the_specimen()
+            spot_m = specimen.pickup_m if isinstance(specimen, PlateSpecimen) else None
             with ExitStack() as stack:
                 # What a simulated rig builds first it shows itself.
                 shown = quiet if self._experiment.rig.is_simulated else self._request.progress
                 with shown("connecting to the instruments"):
                     bare = stack.enter_context(
-                        open_rig(self._experiment.rig, self._experiment.rig_path, document.hammer)
+                        open_rig(
+                            self._experiment.rig,
+                            self._experiment.rig_path,
+                            document.hammer,
+                            spot_m,
+                        )
                     )
                 rig = stack.enter_context(self._request.companion.with_rig(bare))
                 try:

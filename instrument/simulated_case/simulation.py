@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +14,9 @@ from drivers.shaker.register_map import DEFAULT
 from drivers.simulated.climate import Climate
 from drivers.simulated.mounted_plate import MountedPlate
 from drivers.simulated.plant.effects import Effects
+from drivers.simulated.plant.sandwich import sandwich
 from drivers.simulated.plant.shaken import ShakenPlate
-from drivers.simulated.plates import DampedPlate, HammerInHand, OnShaker, SimulatedBarePlate, Struck
+from drivers.simulated.plates import DampedPlate, HammerInHand, Mount, OnShaker, SimulatedBarePlate, Struck
 from drivers.simulated.rig import Ports, SimulatedChamber, SimulatedRig
 from drivers.simulated.sensors import SimulatedSensor
 from drivers.simulated.world import Laser, Wiring, World
@@ -52,9 +54,13 @@ def simulated_rig(
     virtual_time: bool,
     log: Path | None = None,
     ports: tuple[int, int] = (0, 0),
+    spot_m: tuple[float, float] | None = None,
     progress: Progress = quiet,
 ) -> Iterator[dict[str, str]]:
-    """Stand up the rig a file describes; its addresses. Raises `BadInput`."""
+    """Stand up the rig a file describes; its addresses. Raises `BadInput`.
+
+    `spot_m` is where the published plate is read, in m; what a specimen file puts there says it itself.
+    """
     simulation = document.simulation
     if simulation is None:
         raise BadInput(f"{path}: [simulation] is missing, expected it for a rig to simulate; it may be empty")
@@ -62,7 +68,7 @@ def simulated_rig(
     chamber = _chamber(document, simulation)
     try:
         climate = chamber.climate if chamber else None
-        plates = _plates(document, simulation, path, climate, progress)
+        plates = _plates(document, simulation, path, climate, spot_m, progress)
         world = _world(document, simulation, virtual_time, plates)
     except (ValueError, TypeError) as error:
         raise BadInput(f"{path}: simulation: {error}") from None
@@ -123,11 +129,16 @@ def _world(
 
 
 def _plates(
-    document: RigDocument, simulation: Simulation, path: Path, climate: Climate | None, progress: Progress
+    document: RigDocument,
+    simulation: Simulation,
+    path: Path,
+    climate: Climate | None,
+    spot_m: tuple[float, float] | None,
+    progress: Progress,
 ) -> dict[str, MountedPlate]:
     """What can stand there, by name: the published plate, or what `[simulation]` names."""
     effects, _ = effects_of(simulation)
-    alike, mount, struck, stated = _of_the_bare_plate(effects), None, None, None
+    alike, mount, struck, stated = _of_the_bare_plate(effects), published_mount(spot_m), None, None
     if simulation.specimen is not None:
         stands = stands_on(simulation, path)
         if not isinstance(stands, PlateSpecimen):
@@ -146,6 +157,13 @@ def _plates(
         HammerInHand(simulation.double_hit_every, simulation.seed),
     )
     return {"damped": DampedPlate(effects, climate, mount, hang, hand), "bare": bare}
+
+
+def published_mount(spot_m: tuple[float, float] | None) -> Mount:
+    """The published plate, read at `spot_m` until somebody aims elsewhere."""
+    return lambda effects, by_hand: sandwich(
+        effects, by_hand=replace(by_hand, spot_m=by_hand.spot_m or spot_m)
+    )
 
 
 def _struck(

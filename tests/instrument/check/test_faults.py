@@ -133,11 +133,22 @@ def test_another_plate_than_the_published_one_is_not_on_the_rig(tmp_path):
     assert "length is -20.1 % off the model's; expected that plate's specimen, or a real rig" in said
 
 
-def test_the_published_plate_is_read_at_its_spot_alone(tmp_path):
+def test_the_published_plate_is_read_anywhere_by_a_rig_that_is_simulated_for_the_run(tmp_path):
     elsewhere = {"x_mm = 60.0": "x_mm = 80.0"}
-    (said,) = objections(tmp_path, ("sweep",), specimen=elsewhere)
+    assert objections(tmp_path, ("sweep",), specimen=elsewhere) == []
+
+
+def test_on_a_rig_simulated_for_any_client_it_is_read_at_its_spot_alone(tmp_path):
+    elsewhere = {"x_mm = 60.0": "x_mm = 80.0"}
+    hosts = {"host:port": "127.0.0.1:502", "serial port": "/dev/ttyUSB0", "URL": "http://127.0.0.1"}
+    apart = {
+        f'"simulated"               # {what}\n': f'"{at}"               # {what}\n'
+        for what, at in hosts.items()
+    }
+    (said,) = objections(tmp_path, ("sweep",), specimen=elsewhere, rig=apart)
     assert said.startswith("specimen.toml: pickup at 80, 60 mm, but the simulated rig reads the published")
-    own = {"seed = 1": 'seed = 1\nspecimen = "specimen.toml"'}
+    assert said.endswith('address = "simulated" for all devices in rig.toml, which reads it anywhere')
+    own = apart | {"seed = 1": 'seed = 1\nspecimen = "specimen.toml"'}
     assert objections(tmp_path, ("sweep",), specimen=elsewhere, rig=own) == []
 
 

@@ -1,12 +1,15 @@
 """`[simulation]` of RIG.toml: what it hides, what it cannot be, and the rig that it stands up."""
 
+import numpy as np
 import pytest
 
+from drivers.simulated.plant.effects import ByHand, ClampCompliance, Effects, SpotOffset
+from drivers.simulated.plant.sandwich import sandwich
 from instrument.errors import BadInput
 from instrument.files.rig_file import RigDocument
 from instrument.files.toml import read_document
 from instrument.simulated_case import write_case
-from instrument.simulated_case.simulation import simulated_rig
+from instrument.simulated_case.simulation import published_mount, simulated_rig
 from instrument.simulated_case.stated import CHANNEL_EFFECTS, effects_of
 
 
@@ -40,5 +43,24 @@ def test_without_its_table_no_rig_is_stood_up(rig):
     with (
         pytest.raises(BadInput, match=r"rig.toml: \[simulation\] is missing"),
         simulated_rig(document, rig, virtual_time=True),
+    ):
+        pass
+
+
+def test_the_published_plate_is_read_at_the_spot_given_and_hides_there_what_it_hides():
+    hidden = Effects(clamp_compliance=ClampCompliance(1e13, 1e13), spot_offset=SpotOffset(2e-3, 0.0))
+    there, aimed = (0.15, 0.024), (0.25, 0.1)
+    mount = published_mount(there)
+    for by_hand, at in ((ByHand(), there), (ByHand(spot_m=aimed), aimed)):
+        found, expected = mount(hidden, by_hand), sandwich(hidden, by_hand=ByHand(spot_m=at))
+        np.testing.assert_array_equal(found.structure.readings, expected.structure.readings)
+        np.testing.assert_array_equal(found.structure.K, expected.structure.K)
+
+
+def test_a_spot_off_the_published_plate_is_named(rig):
+    document = read_document(rig, RigDocument)
+    with (
+        pytest.raises(BadInput, match=r"point \(400.0, 24.0\) mm is off the plate"),
+        simulated_rig(document, rig, virtual_time=True, spot_m=(0.4, 0.024)),
     ):
         pass
