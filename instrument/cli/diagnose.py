@@ -14,6 +14,8 @@ from instrument.cli.reading import are_tables, files_of_data, read_each, reading
 from instrument.files.repeated import refuse_repeats
 from instrument.finding.diagnosis import diagnose as diagnose_files
 from instrument.models.files import lone_plate
+from instrument.planning.into_experiment import begun
+from instrument.planning.next_sweep import write_next
 from instrument.planning.open_questions import with_open_questions
 from instrument.progress import bar
 from instrument.results.diagnosis_from import diagnosis_from
@@ -42,6 +44,12 @@ from instrument.results.session_result import Conditions, result_of
     "out. For one sweep of a plate at one spot, and always done there for 30 points or fewer; 0 for never. "
     "Not with --accept: nothing is searched for then.",
 )
+@click.option(
+    "--next",
+    "experiment",
+    type=click.Path(path_type=Path),
+    help="Write what is advised first as the [sweep] of this experiment file; a new one where there is none.",
+)
 @figures_option("Save residual, evidence and law as PNG.")
 @json_option
 @naming_files
@@ -54,6 +62,7 @@ def diagnose(
     without: tuple[str, ...],
     accept: tuple[str, ...],
     resamples: int | None,
+    experiment: Path | None,
     figures: Path | None,
     json_path: str | None,
 ) -> None:
@@ -73,11 +82,14 @@ def diagnose(
                 "--hammer": hammer is not None,
                 "--accept": bool(accept),
                 "--resamples": resamples is not None,
+                "--next": experiment is not None,
                 "--figures": figures is not None,
             }
         )
         diagnose_modes(out, data, specimen, frozenset(without), insist=insist)
         return
+    # Said before the work, not after it.
+    text = _begun(experiment, specimen) if experiment is not None else ""
     every = read_each(out, data, specimen, hammer, no_hammer=no_hammer, insist=insist, one_plate=True)
     declined, accepted = frozenset(without), _accepted(accept)
     files, given = files_of_data(every, data), every[0]
@@ -93,12 +105,20 @@ def diagnose(
     if alone:
         out.say()
         print_result(out, result_of(None, result, Conditions.of_sweep(given.sweep, given.temperature_c)))
+    if experiment is not None:
+        out.say(f"\n{write_next(experiment, text, result.next_measurements)}")
     if figures is not None:
         from instrument.results.diagnosis_figures import save_diagnosis_figures
 
         for path in save_diagnosis_figures(result, figures):
             out.say(f"saved {path}")
     out.result(result)
+
+
+def _begun(experiment: Path, specimen: tuple[Path, ...]) -> str:
+    if not experiment.exists() and not specimen:
+        raise click.UsageError(f"--next {experiment}: a new file, expected --specimen for it to name")
+    return begun(experiment, specimen[0] if specimen else experiment)
 
 
 def _accepted(names: tuple[str, ...]) -> tuple[str, ...] | None:

@@ -243,6 +243,26 @@ def test_a_universal_file_over_a_force_is_refused(capsys, tmp_path):
     assert "expected" in err
 
 
+# What to measure next
+
+
+def test_what_is_advised_first_is_written_as_an_experiment(capsys, given, monkeypatch, tmp_path):
+    ranked = (FollowUp.model_validate(SPOT),)
+    monkeypatch.setattr(command, "diagnosis_from", lambda found: diagnosis().but(next_measurements=ranked))
+    monkeypatch.setattr(command, "with_open_questions", lambda result, found: result)
+    path = tmp_path / "next.toml"
+    status, out, err = call(capsys, "diagnose", TABLE5, "--specimen", ZN1, "--next", path)
+    assert status == 0, err
+    assert f"[sweep] of {path}; its specimen file has to say [pickup] x_mm = 250, y_mm = 100" in out
+    assert "frequencies_hz = [105.5, 104, 96.5]" in path.read_text()
+
+
+def test_a_new_experiment_needs_a_specimen_to_name(capsys, given, tmp_path):
+    status, _, err = call(capsys, "diagnose", tmp_path / "a.h5", "--next", tmp_path / "next.toml")
+    assert status == 2
+    assert "a new file, expected --specimen for it to name" in err
+
+
 # The report
 
 
