@@ -31,9 +31,8 @@ def sweep_section(contents: Contents, fitted: ReportedFit) -> ReportSection:
     drawn += "" if fitted.fit is not None else "; no model is drawn, as there is no fit"
     found = contents.diagnosis.result if contents.diagnosis is not None else None
     blocks += [FigureBlock(f, drawn) for f in response_figures(segments, fitted, found)]
-    blocks.append(
-        FigureBlock(quality_figure(contents), "How well each point was measured, in the order of measuring")
-    )
+    quality = "How well each point was measured, in the order of measuring" + _counted_from(contents)
+    blocks.append(FigureBlock(quality_figure(contents), quality))
     blocks += [*_set_aside(contents.measured, why), *_sentinels(contents), *_remarks(contents.measured)]
     blocks.append(_points(contents))
     return ReportSection(title, tuple(blocks))
@@ -56,6 +55,14 @@ def _summary(contents: Contents) -> str:
         f"The base was within {off:.2f} % of its level, the velocity's noise is {two_digits(noise)} % "
         f"(median); {_counted(marked, 'step')} with remarks."
     )
+
+
+def _counted_from(contents: Contents) -> str:
+    """Why the first step of the sweep is not step 1; empty where it is."""
+    first = min((p.step for p in contents.measured), default=1)
+    if first <= 1:
+        return ""
+    return f"; steps 1 to {first - 1} of the run were its loop check and calibration"
 
 
 def _counted(count: int, what: str) -> str:

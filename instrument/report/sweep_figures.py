@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from fitting.arrays import Array, Complex
 from instrument.facts.diagnosis import DiagnosisResult
+from instrument.files.acceleration import acceleration_unit
 from instrument.report.fitted import ReportedFit
 from instrument.report.measured import Measured, explained, relative_noise
 from instrument.results.drawing import (
@@ -29,8 +30,8 @@ from instrument.results.drawing import (
 from instrument.session.contents import Contents
 from instrument.stream.derived import PointMeasured
 
-_MS = 1e3
-"""(m/s)/(m/s²) is a second; a millisecond reads better."""
+_MM = 1e3
+"""Millimetres of a metre."""
 
 
 def response_figures(
@@ -44,7 +45,7 @@ def _response(segments: Sequence[Measured], fitted: ReportedFit, found: Diagnosi
     figure, (above, below) = panels(2, len(segments), 5.2)
     for amplitude, phase, measured in zip(above, below, segments, strict=True):
         _draw_segment(amplitude, phase, measured, fitted, explained(measured, found))
-    label(above[0], y="|v / a| / ms")
+    label(above[0], y=f"|v/a| / (mm/s)/{acceleration_unit().under}")
     label(below[0], y="Phase / degree")
     legend_above(figure, *above)
     return figure
@@ -57,7 +58,7 @@ def _draw_segment(
     fitted: ReportedFit,
     after: list[tuple[Array, Complex]],
 ) -> None:
-    f, size = m.frequency_hz, np.abs(m.over_base)
+    f, size, scale = m.frequency_hz, np.abs(m.over_base), _MM * acceleration_unit().m_s2
     # The model is of the spot and the plate that the specimen file says.
     model = fitted.over_base(m.grid_hz) if not m.elsewhere else None
     kept, angle = m.kept, _angle(m)
@@ -70,28 +71,28 @@ def _draw_segment(
         name = "model fitted"
         if after:
             name, line["linestyle"] = "model without any effect", "--"
-        amplitude.plot(m.grid_hz, _MS * np.abs(model), label=name, **line)
+        amplitude.plot(m.grid_hz, scale * np.abs(model), label=name, **line)
         phase.plot(m.grid_hz, np.degrees(course), **line)
     for n, (at_hz, with_effects) in enumerate(after):
         near = np.interp(at_hz, f, angle)
         turned = near + np.angle(with_effects * np.exp(-1j * near))
         line = {"color": MARK, "linewidth": 1.3, "linestyle": "-"}
         name = "" if n else "with what the diagnosis found"
-        amplitude.plot(at_hz, _MS * np.abs(with_effects), label=name or None, **line)
+        amplitude.plot(at_hz, scale * np.abs(with_effects), label=name or None, **line)
         phase.plot(at_hz, np.degrees(turned), **line)
     bars: dict[str, Any] = {"fmt": "o", "markersize": 3.5, "color": DATA, "capsize": 2, "elinewidth": 0.8}
     each = np.degrees(TWO_STD * m.std[kept] / size[kept])
     amplitude.errorbar(
         f[kept],
-        _MS * size[kept],
-        _MS * TWO_STD * m.std[kept],
+        scale * size[kept],
+        scale * TWO_STD * m.std[kept],
         label="measured, ± 2 standard deviations",
         **bars,
     )
     phase.errorbar(f[kept], np.degrees(angle[kept]), each, **bars)
-    mark_set_aside(amplitude, f[~kept], _MS * size[~kept])
+    mark_set_aside(amplitude, f[~kept], scale * size[~kept])
     mark_set_aside(phase, f[~kept], np.degrees(angle[~kept]))
-    from_zero(amplitude, _MS * (size if model is None else np.concatenate([size, np.abs(model)])))
+    from_zero(amplitude, scale * (size if model is None else np.concatenate([size, np.abs(model)])))
     label(amplitude, title=f"Segment {m.segment}" + (f"\n{m.elsewhere}" if m.elsewhere else ""))
     label(phase, x="Frequency / Hz")
 

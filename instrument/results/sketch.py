@@ -62,6 +62,8 @@ class View:
     boxes: tuple[Box, ...]
     marks: tuple[Mark, ...] = ()
     arrows: tuple[Arrow, ...] = ()
+    size_mm: tuple[float, float] | None = None
+    """Of a plate from a corner at 0, 0: written along its edges, and with each mark where it is."""
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:
@@ -106,6 +108,7 @@ def _plate(s: PlateSpecimen, further: Sequence[Mark]) -> View:
         f"Seen from above, {L:g} x {B:g} mm; {driven}",
         (*edges, Box(0.0, 0.0, L, B, whole), *patches),
         (*marks, *further),
+        size_mm=(L, B),
     )
 
 

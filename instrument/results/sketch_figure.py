@@ -1,6 +1,7 @@
 """A sketch of a structure as a figure for the report."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -65,13 +66,23 @@ def _draw(ax: Axes, view: View) -> None:
         # A name that began right of a mark in the right half would run over the edge, or off the page.
         right = mark.x > (x0 + x1) / 2
         ax.annotate(
-            mark.name,
+            mark.name if view.size_mm is None else f"{mark.name} {mark.x:g}, {mark.y:g}",
             (mark.x, mark.y),
             xytext=(-5 if right else 5, 4),
             textcoords="offset points",
             ha="right" if right else "left",
             fontsize=8,
         )
+    if view.size_mm is not None:
+        length, width = view.size_mm
+        beside: dict[str, Any] = {
+            "textcoords": "offset points",
+            "fontsize": 8,
+            "ha": "center",
+            "va": "center",
+        }
+        ax.annotate(f"{length:g} mm", (length / 2, y0), xytext=(0, -8), **beside)
+        ax.annotate(f"{width:g} mm", (x1, width / 2), xytext=(8, 0), rotation=90, **beside)
     room = _ROOM * max(x1 - x0, y1 - y0)
     ax.set_xlim(x0 - room, x1 + room)
     ax.set_ylim(y0 - room, y1 + room)

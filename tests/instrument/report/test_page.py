@@ -103,6 +103,9 @@ def test_figures_are_svg_of_their_own(page):
 def test_it_is_dark_where_that_is_preferred_and_prints_light(page):
     assert "prefers-color-scheme: dark" in page
     assert "@media print" in page
+    # Figures too, and on a screen alone.
+    (query,) = re.findall(r"@media ([^{]*) \{\n  figure img \{ filter: invert", page)
+    assert query == "screen and (prefers-color-scheme: dark)"
 
 
 def test_a_page_that_is_printed_has_a_margin(page):

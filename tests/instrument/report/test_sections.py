@@ -11,6 +11,7 @@ from session_cases import GAIN
 
 from fitting.data.aside import LOST, reasons
 from instrument.errors import NOT_SILENT
+from instrument.files.acceleration import show_acceleration_in
 from instrument.interchange.point_table import columns
 from instrument.interchange.read_session import read_session
 from instrument.report.blocks import FigureBlock, Sentence, TableBlock
@@ -18,9 +19,10 @@ from instrument.report.calibration import calibration_section
 from instrument.report.ending import ending_section, missing_parts
 from instrument.report.fitted import ReportedFit
 from instrument.report.hammer import hammer_section
+from instrument.report.measured import segments_of
 from instrument.report.picture import as_svg
 from instrument.report.sweep import sweep_section
-from instrument.report.sweep_figures import quality_figure
+from instrument.report.sweep_figures import quality_figure, response_figures
 from instrument.results.set_aside import NAME
 from instrument.session.points import sweep_of
 from instrument.stream.raw import SessionEnded
@@ -130,6 +132,31 @@ def test_quality_is_drawn_point_after_point(contents):
     drawn = control.lines[0]
     assert drawn.get_xdata().tolist() == [p.step for p in contents.measured]
     assert drawn.get_ydata() == pytest.approx([p.control_error_percent for p in contents.measured])
+
+
+@pytest.mark.parametrize(("unit", "under", "m_s2"), [("m/s2", "(m/s\u00b2)", 1.0), ("g", "g", 9.80665)])
+def test_velocity_over_acceleration_is_drawn_in_the_unit_on_its_axis(contents, unit, under, m_s2):
+    (first, *_) = segments_of(contents)
+    show_acceleration_in(unit)
+    try:
+        above = response_figures([first], ReportedFit(None))[0].axes[0]
+    finally:
+        show_acceleration_in("m/s2")
+    assert above.get_ylabel() == f"|v/a| / (mm/s)/{under}"
+    drawn = next(c for c in above.containers if c.get_label().startswith("measured")).lines[0]
+    assert drawn.get_ydata() == pytest.approx(1e3 * m_s2 * np.abs(first.over_base[first.kept]))
+
+
+def test_steps_that_do_not_begin_at_one_are_explained(contents):
+    def caption(first_step):
+        points = [
+            replace(p, point=replace(p.point, step=first_step + k)) for k, p in enumerate(contents.points)
+        ]
+        section = sweep_section(replace(contents, points=points), ReportedFit(None))
+        return next(f.title for f in blocks(section, FigureBlock) if "How well" in f.title)
+
+    assert caption(44).endswith("; steps 1 to 43 of the run were its loop check and calibration")
+    assert caption(1).endswith("in the order of measuring")
 
 
 def test_a_picture_is_the_same_bytes_for_the_same_figure():

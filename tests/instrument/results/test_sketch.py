@@ -57,6 +57,9 @@ def test_a_plates_edges_patches_and_points_are_drawn():
     assert [m.name for m in view.marks] == ["spot", "5 g", "hit"]
     figure = sketch_figure((view,))
     assert figure.axes[0].get_aspect() == 1.0
+    written = {text.get_text() for text in figure.axes[0].texts}
+    size = {f"{1e3 * plate.length_m:g} mm", f"{1e3 * plate.width_m:g} mm"}
+    assert written == {f"spot {view.marks[0].x:g}, {view.marks[0].y:g}", "5 g 100, 50", "hit 1, 2"} | size
 
 
 def test_a_beam_that_a_force_drives_has_its_points_and_no_base_that_moves():
