@@ -1,6 +1,6 @@
 """What could be measured next, ranked."""
 
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QAbstractItemView, QVBoxLayout, QWidget
 
 from fitting.structures import AnySpecimen
 from gui.pages.run.structure_view import StructureView
@@ -23,7 +23,7 @@ _SAID = (
 )
 
 
-_DRAWN_PX = 200
+_DRAWN_PX = 160
 
 
 class NextTable(QWidget):
@@ -34,6 +34,8 @@ class NextTable(QWidget):
         columns = dict(zip(NEXT_COLUMNS, _TIPS, strict=True)) | {"separates": "Explanations it tells apart"}
         self.table = ReadTable(columns, wide=(0, len(columns) - 1))
         self.table.setWordWrap(True)
+        # A row may be higher than the table.
+        self.table.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
         # Rows of several lines run into one another otherwise.
         self.table.setShowGrid(True)
         self.table.horizontalHeader().sectionResized.connect(lambda *_: self.table.resizeRowsToContents())

@@ -36,7 +36,8 @@ class ChoiceTable(ReadTable):
             self.chosen.emit()
 
     def sizeHint(self) -> QSize:
-        """As high as the usual rows are."""
+        """As high as the usual rows are, with a scroll bar below them."""
         rows = self._usual_rows * self.verticalHeader().defaultSectionSize()
+        rows += self.horizontalScrollBar().sizeHint().height()
         high = self.horizontalHeader().sizeHint().height() + rows + 2 * self.frameWidth()
         return QSize(super().sizeHint().width(), high)

@@ -17,7 +17,8 @@ from instrument.errors import BadInput
 from instrument.files.structure_file import AnyDocument, described
 from instrument.results.sketch import Arrow, Box, Kind, Mark, MarkKind, View, sketch_of
 
-_ROOM_PX, _TITLE_PX, _MARK_PX, _HEAD_PX = 26, 24, 6, 5
+_ROOM_PX, _TITLE_PX, _MARK_PX, _HEAD_PX, _EDGE_PX = 26, 24, 6, 5, 8
+_WRAPPED = Qt.TextFlag.TextWordWrap
 _NOTHING = "The specimen appears here, drawn to scale, once its file says what it is."
 _FILLS: dict[Kind, tuple[Role, float]] = {
     "face": ("faint", 0.35),
@@ -76,9 +77,13 @@ class _Painted:
     """One view in its room."""
 
     def __init__(self, painter: QPainter, theme: Theme, view: View, room: QRectF) -> None:
-        self._painter, self._theme, self._view, self._room = painter, theme, view, room
+        self._painter, self._theme, self._view = painter, theme, view
         self._x0, self._y0, x1, y1 = view.bounds
-        inside = room.adjusted(_ROOM_PX, _ROOM_PX + _TITLE_PX, -2 * _ROOM_PX, -_ROOM_PX)
+        # A title of several lines is whole: what is drawn makes room for it.
+        wanted = QRectF(_EDGE_PX, room.top() + _EDGE_PX, room.width() - 2 * _EDGE_PX, room.height())
+        self._title = painter.boundingRect(wanted, _WRAPPED, view.title)
+        below = max(float(_TITLE_PX), self._title.height() + _EDGE_PX)
+        inside = room.adjusted(_ROOM_PX, _ROOM_PX + below, -2 * _ROOM_PX, -_ROOM_PX)
         width, height = x1 - self._x0, y1 - self._y0
         self._scale = max(min(inside.width() / width, inside.height() / height), 1e-6)
         self._left = inside.center().x() - self._scale * width / 2
@@ -87,11 +92,7 @@ class _Painted:
     def draw(self) -> None:
         """Title, boxes, arrows, marks."""
         self._painter.setPen(self._theme.color("text"))
-        metrics = self._painter.fontMetrics()
-        title = metrics.elidedText(
-            self._view.title, Qt.TextElideMode.ElideRight, int(self._room.width() - _ROOM_PX)
-        )
-        self._painter.drawText(QPointF(_ROOM_PX / 2, self._room.top() + _TITLE_PX), title)
+        self._painter.drawText(self._title, _WRAPPED, self._view.title)
         for box in self._view.boxes:
             self._box(box)
         for arrow in self._view.arrows:

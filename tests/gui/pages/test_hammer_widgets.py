@@ -35,6 +35,15 @@ def test_the_row_chosen_stays_so_and_is_told_when_it_is_gone(made):
     assert heard == [None]
 
 
+def test_the_usual_rows_are_whole_above_a_scroll_bar(made):
+    table = made(ChoiceTable({"a": "", "b": ""}, usual_rows=3))
+    table.show_rows([(Cell("1" * 80), Cell("2" * 80))] * 3)
+    table.resize(200, table.sizeHint().height())
+    table.show()
+    assert table.horizontalScrollBar().isVisible()
+    assert not table.verticalScrollBar().isVisible()
+
+
 def test_a_hit_can_only_be_told_what_it_is_not(made):
     hits, heard = made(HitList()), []
     hits.rejected.connect(heard.append)

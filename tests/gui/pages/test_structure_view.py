@@ -1,13 +1,16 @@
 """The drawing of beams and shear pairs, of a file being written and of a session."""
 
+from dataclasses import replace
+
 import pytest
 
 from gui.form.draft import Draft
 from gui.form.drafts import Drafts
-from gui.pages.run.structure_view import Drawing
+from gui.pages.run.structure_view import Drawing, StructureView
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.new_file import write_new
 from instrument.files.structure_file import read_structure
+from instrument.results.sketch import sketch_of
 from instrument.simulated_case import case_file
 
 
@@ -53,3 +56,15 @@ def test_a_sessions_plate_is_drawn_too_and_nothing_can_be_dragged(drawing):
     drawing.show_specimen(read_structure(case_file("specimen.toml")))
     assert drawing.currentWidget() is drawing.structure
     assert "300.2 x 199.9 mm" in drawing.structure.views[0].title
+
+
+def test_a_title_longer_than_the_drawing_is_wide_is_written_to_its_end(qtbot):
+    shown = StructureView()
+    qtbot.addWidget(shown)
+    shown.resize(400, 200)
+    (view,) = sketch_of(read_structure(case_file("specimen.toml")))
+    pictures = []
+    for end in ("between them", "not elsewhere"):
+        shown.show_views([replace(view, title=f"Point the laser at (150, 24) mm and {40 * 'sweep '}{end}")])
+        pictures.append(shown.grab().toImage())
+    assert pictures[0] != pictures[1]
