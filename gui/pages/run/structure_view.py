@@ -82,8 +82,8 @@ class _Painted:
         # A title of several lines is whole: what is drawn makes room for it.
         wanted = QRectF(_EDGE_PX, room.top() + _EDGE_PX, room.width() - 2 * _EDGE_PX, room.height())
         self._title = painter.boundingRect(wanted, _WRAPPED, view.title)
-        below = max(float(_TITLE_PX), self._title.height() + _EDGE_PX)
-        inside = room.adjusted(_ROOM_PX, _ROOM_PX + below, -2 * _ROOM_PX, -_ROOM_PX)
+        above = max(_ROOM_PX + _TITLE_PX, int(self._title.height()) + 3 * _EDGE_PX)
+        inside = room.adjusted(_ROOM_PX, above, -2 * _ROOM_PX, -_ROOM_PX)
         width, height = x1 - self._x0, y1 - self._y0
         self._scale = max(min(inside.width() / width, inside.height() / height), 1e-6)
         self._left = inside.center().x() - self._scale * width / 2
