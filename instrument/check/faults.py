@@ -18,11 +18,10 @@ from instrument.models.set_up import check_like
 from instrument.session.configuration import Experiment
 from instrument.session.setup import sweep_settings
 from instrument.simulated_case import case_file
+from instrument.simulated_case.spot import spot_elsewhere
 from instrument.simulated_case.stated import refuse_simulation
 from instrument.simulated_case.structure import stands_on
 
-_SPOT_M = 1e-3
-"""As near a laser is aimed."""
 _SAMPLES_A_CYCLE = 4.0
 """Below, a front-end's own filter is near."""
 
@@ -76,18 +75,14 @@ def _simulated_plate(experiment: Experiment) -> Iterator[str]:
         )
         return
     published = read_specimen(case_file("specimen.toml"))
-    at, stated = published.pickup_m, specimen.pickup_m
+    spot_m = spot_elsewhere(specimen)
     # One that is simulated for the run is told the spot.
-    if (
-        not experiment.rig.is_simulated
-        and at is not None
-        and stated is not None
-        and max(abs(a - b) for a, b in zip(at, stated, strict=True)) > _SPOT_M
-    ):
-        x, y = (1e3 * v for v in stated)
+    if spot_m is not None and published.pickup_m is not None and not experiment.rig.is_simulated:
+        x, y = (1e3 * v for v in spot_m)
+        at_x, at_y = (1e3 * v for v in published.pickup_m)
         yield (
             f"{experiment.specimen_path}: pickup at {x:g}, {y:g} mm, but the simulated rig reads the "
-            f"published plate at {1e3 * at[0]:g}, {1e3 * at[1]:g}: expected that, or address = "
+            f"published plate at {at_x:g}, {at_y:g}: expected that, or address = "
             f'"simulated" for all devices in {experiment.rig_path.name}, which reads it anywhere'
         )
     try:

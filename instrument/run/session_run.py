@@ -31,6 +31,7 @@ from instrument.session.configuration import Experiment
 from instrument.session.journal import SessionJournal
 from instrument.session.recorder import Recorder
 from instrument.session.setup import setup_of
+from instrument.simulated_case.spot import spot_elsewhere
 from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated
 from instrument.stream.event import Derived, Event
 from instrument.stream.raw import (
@@ -109,8 +110,8 @@ class SessionRun:
         self._recorder = recorder
         try:
             self._prepare()
-            document, specimen = self._experiment.document, self._experiment.the_specimen()
-            spot_m = specimen.pickup_m if isinstance(specimen, PlateSpecimen) else None
+            document = self._experiment.document
+            spot_m = spot_elsewhere(self._experiment.the_specimen())
             with ExitStack() as stack:
                 # What a simulated rig builds first it shows itself.
                 shown = quiet if self._experiment.rig.is_simulated else self._request.progress
