@@ -82,6 +82,12 @@ class Shifted:
                 "law of it, and its errors say nothing"
             )
             said.insert(0, Doubt(words))
+        elif self.cause is not None and len(self.predicted_modes[0]):
+            words = (
+                f"this law stands only where {story(self.cause)}: modes are few numbers, and nothing else "
+                "shows it; a table that a formula made, and no specimen, asks for such a cause too"
+            )
+            said.insert(0, Doubt(words))
         return (*said, *moved_too_far(self.adjusted, known), *self._of_temperatures, *self.remarks)
 
     @property
