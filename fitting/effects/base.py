@@ -86,6 +86,11 @@ class EffectParameter:
     it is.
     """
 
+    @property
+    def says_how_much(self) -> bool:
+        """Whether it is a size: what goes to its neutral value as the effect goes."""
+        return self.neutral is not None and not self.fixed and not self.shape
+
 
 class Tie(NamedTuple):
     """Two unknowns of an effect that are nearly one."""
@@ -261,7 +266,7 @@ class Effect:
         """`u` with the effect `a` times as strong, by a linear guess. Shape (parameters,)."""
         found = u.copy()
         for k, q in enumerate(self.parameters):
-            if q.fixed or q.shape or q.neutral is None:
+            if not q.says_how_much:
                 continue
             found[k] = u[k] / a if np.isinf(q.neutral) else q.neutral + a * (u[k] - q.neutral)
         return found

@@ -25,7 +25,7 @@ _MOUNTED = (
     EffectParameter("damping_ratio", "1", 0.0, 0.3, _DAMPING_RATIO, shape=True, spread=0.05),
 )
 _ON_BASE = EffectParameter("on_base", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True)
-_REACTION = EffectParameter("reaction", "1/kg", 0.0, 20.0, 0.5, spread=2.0)
+_REACTION = EffectParameter("reaction", "1/kg", 0.0, 20.0, 0.5, shape=True, spread=2.0)
 
 
 class SensorMountingEffect(Effect):
@@ -59,6 +59,12 @@ class SensorMountingEffect(Effect):
         top = points.omega.max() / (2 * np.pi)
         more = (1.0,) if self.on_base else (0.0, 0.0)
         return [np.array([times * top, _DAMPING_RATIO, *more]) for times in _BEGIN]
+
+    def scaled(self, u: Array, a: float) -> Array:
+        """As in `Effect`; r^2 says how strong it is."""
+        found = u.copy()
+        found[0] = u[0] / np.sqrt(abs(a))
+        return found
 
     def reading(self, v: Complex, points: Points, u: Array) -> Complex:
         r = points.omega / (2 * np.pi * u[0])

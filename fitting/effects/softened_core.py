@@ -13,7 +13,15 @@ from fitting.laws.kraus import Kraus
 _AT_REST = 1e-10
 """A step of the strain over the reference, at most, for the last one."""
 _ITERATIONS = 60
-"""Half steps would come within 1e-10 in 34 where strain hardly falls, secants do in some 8. A bound."""
+"""Half steps would come within 1e-10 in 34 where strain hardly falls, secants mostly do in 8 to 20. A bound."""
+_PASSES = 8
+"""Over what is kept: a point that comes to be the largest softens those after it. Two do, mostly."""
+_OFF = 1e-7
+"""Of a strain, that it may be off what it makes of itself: far below any noise."""
+_FARTHEST, _NEAREST = 40.0, 1e-4
+"""Times the strain of a core that does not soften: how far another may lie, and of that the least looked at."""
+_PLACES, _HALVES = 120, 50
+"""Looked at between them, 8 % from one to the next; then halves of a gap, below the last digit of any."""
 _SMALL = 1e-12
 """A change of what is off from which a secant says nothing."""
 _FULL = (0.25, 2.0)
@@ -21,7 +29,10 @@ _FULL = (0.25, 2.0)
 _H = 1e-6
 """Step of differences, of the logarithm of a strain."""
 _LEAST_HELD = 0.05
-"""Of how far a strain gives way to itself less than wholly: beyond, a core jumps: it has no slope. Chosen."""
+"""Of how far a strain gives way to itself less than wholly: beyond, a core is about to jump, and its slope is
+held at twenty times that of a core alone. Chosen."""
+_TINY = 1e-300
+"""A strain whose logarithm is asked for where nothing drives a core."""
 
 
 @lru_cache(maxsize=2)
@@ -60,9 +71,9 @@ class SoftenedCore:
         s, earlier = self._s, self._s[self._largest]
         lost, gained = self._lost(s * (1 + _H), earlier), self.curve.gained(s * (1 + _H))
         before = self._lost(s, earlier * (1 + _H))
-        here = np.log(self._under(self.lost, self.gained))
-        by_own = (np.log(self._under(lost, gained)) - here) / _H
-        by_earlier = (np.log(self._under(before, self.gained)) - here) / _H if self.kept else 0 * s
+        here = _log(self._under(self.lost, self.gained))
+        by_own = (_log(self._under(lost, gained)) - here) / _H
+        by_earlier = (_log(self._under(before, self.gained)) - here) / _H if self.kept else 0 * s
         first = self._largest == np.arange(self.points)
         # What is the largest so far depends on itself alone, and others on it.
         held = 1 - by_own - np.where(first, by_earlier, 0.0)
@@ -77,10 +88,19 @@ class SoftenedCore:
     @cached_property
     def _s(self) -> Array:
         """Strain over the reference."""
-        s = self._then(np.zeros(self.points))
+        none = np.zeros(self.points)
+        s = self._at_rest(self._then(none, none), none)
+        for _ in range(_PASSES if self.kept else 0):
+            before, s = s, self._at_rest(s, _largest_before(s, self.time_s))
+            if np.max(np.abs(s - before)) < _AT_REST:
+                break
+        return s
+
+    def _at_rest(self, s: Array, earlier: Array) -> Array:
+        """What a strain comes to from `s` on, after the largest of `earlier`. Shape (points,) each."""
         step, off = np.zeros(self.points), np.zeros(self.points)
         for _ in range(_ITERATIONS):
-            before, off = off, self._then(s) - s
+            before, off = off, self._then(s, earlier) - s
             # Half a step where nothing is known: where the strain falls with softening full ones may swing.
             fell = before - off
             known = (np.abs(fell) > _SMALL) & (step != 0)
@@ -88,17 +108,35 @@ class SoftenedCore:
             step = off * np.clip(share, *_FULL)
             s = np.maximum(s + step, 0.0)
             if np.max(np.abs(step)) < _AT_REST:
-                break
-        return s
+                return s
+        return self._halved(s, earlier)
+
+    def _halved(self, s: Array, earlier: Array) -> Array:
+        """The same where steps came to no end: the least strain at rest, between one that rises and one that falls.
+
+        Beside a fold steps creep or go round: there a core may be at rest at two strains, or has just jumped.
+        """
+        off = np.abs(self._then(s, earlier) - s) > _OFF * np.maximum(s, _OFF)
+        if not off.any():
+            return s
+        most = _FARTHEST * np.maximum(self._then(np.zeros(self.points), earlier), s)
+        places = np.concatenate([[0.0], np.geomspace(_NEAREST, 1.0, _PLACES)])
+        rises = np.array([self._then(place * most, earlier) > place * most for place in places])
+        last = np.argmax(rises[:-1] & ~rises[1:], axis=0)
+        low, high = places[last] * most, places[last + 1] * most
+        for _ in range(_HALVES):
+            middle = (low + high) / 2
+            up = self._then(middle, earlier) > middle
+            low, high = np.where(up, middle, low), np.where(up, high, middle)
+        return np.where(off, (low + high) / 2, s)
 
     @cached_property
     def _largest(self) -> NDArray[np.intp]:
         """The point of the largest strain so far, of each; itself where nothing is kept."""
         return _largest_so_far(self._s, self.time_s) if self.kept else np.arange(self.points)
 
-    def _then(self, s: Array) -> Array:
-        largest = s[_largest_so_far(s, self.time_s)] if self.kept else s
-        return self._under(self._lost(s, largest), self.curve.gained(s))
+    def _then(self, s: Array, earlier: Array) -> Array:
+        return self._under(self._lost(s, np.maximum(s, earlier)), self.curve.gained(s))
 
     def _under(self, lost: Array, gained: Array) -> Array:
         return self.strain(lost, gained) if self.curve.loss else self.strain(lost)
@@ -115,3 +153,15 @@ def _largest_so_far(s: Array, time_s: Array) -> NDArray[np.intp]:
     found = np.empty(len(s), dtype=np.intp)
     found[order] = order[np.maximum.accumulate(np.where(first, np.arange(len(s)), 0))]
     return found
+
+
+def _largest_before(s: Array, time_s: Array) -> Array:
+    """The largest strain before each point, zero before the first. Shape (points,)."""
+    order = np.argsort(time_s, kind="stable")
+    found = np.zeros(len(s))
+    found[order[1:]] = np.maximum.accumulate(s[order])[:-1]
+    return found
+
+
+def _log(strain: Array) -> Array:
+    return np.asarray(np.log(np.maximum(strain, _TINY)))

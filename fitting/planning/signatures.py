@@ -33,7 +33,7 @@ class Signature:
         """Which of its unknowns says how strong it is; None for an effect that is there or not."""
         u, found = (
             self.starts[start],
-            [k for k, q in enumerate(self.effect.parameters) if q.neutral is not None and not q.fixed],
+            [k for k, q in enumerate(self.effect.parameters) if q.says_how_much],
         )
         return max(found, key=lambda k: _strength(self.effect.parameters[k], float(u[k])), default=None)
 

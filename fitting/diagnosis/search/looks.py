@@ -175,8 +175,8 @@ class _LinearStep:
 
     @property
     def _one_sided(self) -> bool:
-        neutral = [(q.neutral, q) for q in self.effect.parameters]
-        return any(n is not None and not q.lower < n < q.upper for n, q in neutral)
+        sized = [q for q in self.effect.parameters if q.says_how_much]
+        return any(q.neutral is not None and not q.lower < q.neutral < q.upper for q in sized)
 
 
 def slopes(response: Response, law: CoreLaw, known: Array, starts: Sequence[Array], v: Complex) -> Complex:

@@ -49,7 +49,7 @@ def has_no_size(fitted: Refitted) -> bool:
         sized = [
             _is_sized(q, float(value), float(error))
             for q, value, error in zip(effect.parameters, fitted.u[own], errors[own], strict=True)
-            if q.neutral is not None and not q.fixed
+            if q.says_how_much
         ]
         if sized and not any(sized):
             return True

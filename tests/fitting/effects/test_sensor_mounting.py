@@ -66,3 +66,9 @@ def test_one_that_resonates_far_away_changes_nothing(at):
 def test_both_begin_above_what_is_measured(at):
     top = at.omega.max() / (2 * np.pi)
     assert all(u[0] > 1.5 * top for form in SensorMountingEffect().variants() for u in form.starts(None, at))
+
+
+def test_a_weak_one_five_times_as_strong_rises_five_times_as_far(at):
+    form, begun = SensorMountingEffect(), np.array([1e6, 0.02, 0.0, 0.5])
+    rise = [form.reading(np.ones(3, complex), at, u) - 1 for u in (begun, form.scaled(begun, 5.0))]
+    np.testing.assert_allclose(rise[1].real, 5 * rise[0].real, rtol=1e-3)

@@ -54,6 +54,56 @@ def test_it_is_at_rest_under_its_own_strain_and_moves_as_if_it_were_solved_again
         np.testing.assert_allclose(gained[n], (up.gained - down.gained) / (2 * h), atol=1e-5)
 
 
+@dataclass(frozen=True)
+class Resonant:
+    """A strain at places across a resonance that goes down as the core softens: it folds, and may jump."""
+
+    loss_factor: float
+
+    def __call__(self, softened, gained=None):
+        more = 0.0 if gained is None else gained * np.sqrt(self.loss_factor)
+        square = np.linspace(0.7, 1.3, POINTS) ** 2
+        return 0.4 / np.abs(1 - softened - square + 1j * (self.loss_factor * (1 - softened) + more))
+
+
+def least_at_rest(curve, strain):
+    """By walking up from nothing, for a core of which nothing stays."""
+    walk = np.geomspace(1e-4, 60, 40_000)
+    found = np.zeros(POINTS)
+    for s in walk[::-1]:
+        found = np.where(
+            strain(curve.lost(np.full(POINTS, s)), curve.gained(np.full(POINTS, s))) <= s, s, found
+        )
+    return found
+
+
+@pytest.mark.parametrize("loss_factor", [0.05, 0.2])
+@pytest.mark.parametrize("curve", [Kraus(0.05), Kraus(0.2), Kraus(0.4, 1.0), Kraus(0.3, 0.0, -0.02)])
+def test_beside_a_fold_it_comes_to_rest_at_the_least_strain(curve, loss_factor):
+    strain = Resonant(loss_factor)
+    here = SoftenedCore(curve, strain, POINTS, 0.0, TIME_S)
+    s = strain(here.lost, here.gained if curve.loss else None)
+    np.testing.assert_allclose(curve.lost(s), here.lost, atol=1e-6)
+    far = np.abs(s / least_at_rest(curve, strain) - 1) > 0.02
+    assert not far.any()
+
+
+@pytest.mark.parametrize("loss_factor", [0.05, 0.2])
+def test_beside_a_fold_it_comes_to_rest_where_some_of_it_stays(loss_factor):
+    curve, kept, strain = Kraus(0.4, 1.0), 0.6, Resonant(loss_factor)
+    here = SoftenedCore(curve, strain, POINTS, kept, TIME_S)
+    s, order = strain(here.lost), np.argsort(TIME_S)
+    largest = np.empty(POINTS)
+    largest[order] = np.maximum.accumulate(s[order])
+    np.testing.assert_allclose(here.lost, kept * curve.lost(largest) + (1 - kept) * curve.lost(s), atol=1e-6)
+
+
+def test_where_nothing_strains_it_nothing_moves():
+    here = SoftenedCore(Kraus(0.3), lambda softened, gained=None: 0.0 * softened, POINTS, 0.0, TIME_S)
+    assert not here.lost.any()
+    assert not np.array(here.along(ways())).any()
+
+
 def test_a_core_about_to_jump_moves_far_and_not_without_bound():
     curve = Kraus(0.5)
     for rises in np.linspace(1.8, 6.0, 40):

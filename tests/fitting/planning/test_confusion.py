@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from planning_cases import sensitivity
 
+from fitting.effects import CATALOGUE
 from fitting.effects.channel_delay import ChannelDelayEffect
 from fitting.effects.core_thickness import CoreThicknessEffect
 from fitting.effects.gain_error import GainErrorEffect
@@ -29,6 +30,16 @@ def test_what_the_law_imitates_is_not_seen():
     assert np.linalg.norm(projected(S, ALL, signature(CoreThicknessEffect(), ALONG_LAW))) < 1e-2
     assert abs(seen.seen_at - 1) > 10
     assert seen.chance_seen < 0.05
+
+
+@pytest.mark.parametrize("name", ["tether", "amplitude_softening", "sensor_mounting"])
+def test_what_only_says_how_is_no_size(name):
+    """A loss factor at which a strong tether stays as it was would be seen at every strength alike."""
+    for effect in CATALOGUE[name].variants():
+        one = signature(effect, FIRST)
+        sizes = [one.size(0, strength) for strength in (1.0, 5.0)]
+        assert sizes[0] != sizes[1]
+        assert not effect.parameters[one.sized(0)].shape
 
 
 def test_an_effect_is_seen_from_four_standard_deviations():

@@ -37,6 +37,15 @@ class BentResponse:
         return np.array([100 * size, size, self.bend * size**2], complex)
 
 
+class BentAndLossy(Bent):
+    """With a loss factor that begins at none: no reason to look at one side alone."""
+
+    parameters = (*Bent.parameters, EffectParameter("loss_factor", "1", 0.0, 1.0, 0.2, shape=True))
+
+    def starts(self, plate, points):
+        return [np.array([1.0, 0.2])]
+
+
 @pytest.fixture
 def bent(monkeypatch):
     """A look at it, beside a law that takes up the first reading; the second asks for `asked` of it."""
@@ -69,6 +78,12 @@ def test_what_a_large_step_hides_in_its_bend_a_small_one_shows(bent):
 def test_what_a_small_step_promises_is_no_start_where_it_is_noise(bent):
     ((promise, _),) = bent(asked=1.0)
     assert promise < 0.01
+
+
+def test_less_than_nothing_of_a_size_is_followed_whatever_else_begins_at_none(bent):
+    promised = bent(BentAndLossy(), asked=-10.0)
+    assert max(promise for promise, _ in promised) > 20
+    assert any(u[0] < 0 for _, u in promised)
 
 
 def test_starts_of_two_sizes_have_one_slope(bent):
