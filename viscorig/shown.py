@@ -9,8 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from instrument.errors import BadInput, system_words
+from instrument.errors import BadInput
 from instrument.facts.result import Result
+from instrument.files.at_once import write_at_once
+from instrument.files.replaceable import refuse_for_json
 from instrument.stream.jsonable import to_jsonable
 
 Columns = dict[str, NDArray[Any]]
@@ -48,11 +50,8 @@ class Shown:
     def to_json(self, path: str | Path) -> Path:
         """Write `as_dict()` as the commands write theirs; the path. Raises `BadInput`."""
         path = Path(path)
-        try:
-            text = json.dumps(to_jsonable(self.as_dict()), indent=1, allow_nan=False)
-            path.write_text(text + "\n", encoding="utf-8")
-        except OSError as error:
-            raise BadInput(f"{path}: {system_words(error)}") from None
+        refuse_for_json(path)
+        write_at_once(path, json.dumps(to_jsonable(self.as_dict()), indent=1, allow_nan=False) + "\n")
         return path
 
     def __repr__(self) -> str:

@@ -1,6 +1,7 @@
 """batch.csv, and batch.parquet where pyarrow is installed: written row by row, whole or not at all."""
 
 import csv
+import re
 from collections.abc import Iterable, Iterator
 from importlib.util import find_spec
 from itertools import islice
@@ -10,8 +11,14 @@ from typing import Any
 from instrument.batch.columns import Cell, Marks, cells, columns_of
 from instrument.batch.run import BatchRow
 from instrument.files.at_once import at_once
+from instrument.files.replaceable import Written
 
 CSV, PARQUET = "batch.csv", "batch.parquet"
+WRITTEN = {
+    CSV: Written(re.compile(rb"data,specimen,[^\n]*,status,reason,")),
+    PARQUET: Written(re.compile(rb"PAR1")),
+}
+"""Tables that a batch writes, and how each begins."""
 _AT_ONCE = 500
 """Rows of a Parquet group."""
 _WORDS = (

@@ -9,13 +9,14 @@ from instrument.batch.asking import tasks_of
 from instrument.batch.between import between_rows, marks_of
 from instrument.batch.counted import Counted
 from instrument.batch.no_band import without_spread
-from instrument.batch.page import write_page
+from instrument.batch.page import HTML, write_page
 from instrument.batch.run import here, on_cluster, run_batch
-from instrument.batch.table import CSV, write_tables
+from instrument.batch.table import CSV, WRITTEN, write_tables
 from instrument.batch.taking_part import repeats_among
 from instrument.cli.options import force_option, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
+from instrument.files.replaceable import PAGE, refuse_to_lose
 from instrument.material.spread import FEWEST
 from instrument.processes.other_processes import VARIABLE, wanted
 from instrument.progress import bar
@@ -72,8 +73,8 @@ def batch(
     """A law for each of FILES: sessions (.h5), sweeps, or one table with the columns data and specimen.
 
     A table's other columns are hammer, temperature_c and material; its paths are from its own folder. A row
-    that fails, or is questioned as `identify` does, says why and stops nothing. Stopped or killed, the
-    same command goes on where it was.
+    that fails, or is questioned as `identify` does, says why and stops nothing; exit status 2 where all
+    do. Stopped or killed, the same command goes on where it was.
     """
     out = Output(json_path)
     if scheduler is not None and workers is not None:
@@ -81,6 +82,8 @@ def batch(
     if any(path.absolute() == (folder / CSV).absolute() for path in files):
         raise BadInput(f"{folder / CSV}: both given and to be written, expected another --out")
     tasks = tasks_of(files, specimen, hammer, diagnose=diagnose, insist=insist)
+    for name, kind in {**WRITTEN, HTML: PAGE}.items():
+        refuse_to_lose(folder / name, kind)
     runner = on_cluster(scheduler) if scheduler is not None else here(workers or wanted())
     with run_batch(tasks, folder, runner, bar) as rows:
         counted = Counted.of(rows)
@@ -101,6 +104,8 @@ def batch(
     for path in written:
         out.say(f"wrote {path}")
     out.result(counted.result(repeated, written, between, twice))
+    if not counted.done:
+        raise BadInput(f"{folder / CSV}: every row failed, expected one that can be worked out")
 
 
 def _say(out: Output, counted: Counted, repeated: int, twice: Sequence[tuple[str, str]]) -> None:

@@ -13,6 +13,7 @@ from instrument.cli.output import Output
 from instrument.cli.printable import printable
 from instrument.errors import BadInput
 from instrument.files.at_once import write_at_once
+from instrument.files.replaceable import refuse_ending, refuse_to_lose
 from instrument.files.structure_file import read_structure
 from instrument.material.found_law import read_law, stated_poisson
 from instrument.progress import bar
@@ -51,9 +52,12 @@ def card(
         raise click.UsageError("--out - and --json -: standard output takes one of them")
     output = Output(json_path)
     form = FORMATS[to]
-    path = out if out is not None else found.with_name(f"{found.stem}-card{form.ending}")
-    if str(path) != "-" and not path.parent.is_dir():
-        raise BadInput(f"{path}: no such folder to write to")
+    path = out if out is not None else found.with_name(f"{found.stem}-card{form.endings[0]}")
+    if str(path) != "-":
+        refuse_ending(path, (*form.endings, f".{to}"))
+        if not path.parent.is_dir():
+            raise BadInput(f"{path}: no such folder to write to")
+        refuse_to_lose(path, form.written)
     law = read_law(found, bar)
     if specimen is not None:
         read = read_structure(specimen)

@@ -72,9 +72,10 @@ def _to_change_it(folder: Path) -> str:
 
 
 def _run_rig(out: Output, folder: Path, effect: str | None, seed: int) -> RunResult:
+    case = write_case(folder, seed=seed, effect=effect)
     out.say("The simulated rig: bare plate, hammer; damped plate, stepped sine at 1 g.")
     out.say(f"Hidden in it: {effect or 'nothing'}. The model is not told.\n")
-    experiment = read_whole_experiment(write_case(folder, seed=seed, effect=effect))
+    experiment = read_whole_experiment(case)
     control = RunControl()
     with safe_stop(control), Watcher() as watch:
         finished = run_experiment(

@@ -17,7 +17,7 @@ from instrument.interchange.naming import Naming
     "--out",
     type=click.Path(path_type=Path, dir_okay=False),
     help="Where it goes (.csv); the file's own name in the current folder otherwise, with "
-    "-imported behind it where that is FILE. Only what is named here is written over.",
+    "-imported behind it where that is FILE. Only an earlier import that is named here is written over.",
 )
 @click.option(
     "--columns",

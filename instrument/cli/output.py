@@ -11,6 +11,7 @@ from instrument.cli.printable import printable
 from instrument.errors import BadInput
 from instrument.facts.result import Result
 from instrument.files.at_once import refuse_unwritable
+from instrument.files.replaceable import refuse_for_json
 from instrument.files.result_file import result_text, write_result
 from instrument.progress import Screen
 
@@ -52,6 +53,8 @@ class Output:
         if json_path is not None and Path(json_path).is_dir():
             raise BadInput(f"{json_path}: is a folder, expected a file to write to")
         _keep_what_is_read()
+        if json_path not in (None, "-"):
+            refuse_for_json(Path(str(json_path)))
         _refuse_unwritable()
         self._console = Screen(highlight=False, quiet=json_path == "-", soft_wrap=True)
 

@@ -9,12 +9,14 @@ from instrument.cli.output import Output
 from instrument.errors import BadInput, system_words
 from instrument.facts.written import ReportResult
 from instrument.files.at_once import write_at_once
+from instrument.files.replaceable import PAGE, PDF, PNG, refuse_ending, refuse_to_lose
 from instrument.progress import bar
 from instrument.report.page import report_of
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
-_PAGE, _SHEETS = (".html", ".htm", ".pdf", ".png"), (".pdf",)
+_PAGE, _SHEETS = (PAGE, PDF, PNG), (PDF,)
+"""What the page may be, and what the sheets beside it."""
 
 
 @click.command()
@@ -37,12 +39,14 @@ def report(session: Path, out: Path | None, pdf: Path | None, json_path: str | N
     output = Output(json_path)
     page = out if out is not None else session.with_suffix(".html")
     wanted = [page, *([pdf] if pdf is not None else [])]
-    for path, endings in zip(wanted, (_PAGE, _SHEETS), strict=False):
-        if path.suffix.lower() not in endings:
-            raise BadInput(f"{path}: ending {path.suffix!r}, expected {' or '.join(endings)}")
+    for path, kinds in zip(wanted, (_PAGE, _SHEETS), strict=False):
+        refuse_ending(path, [ending for kind in kinds for ending in kind.endings])
         if not path.parent.is_dir():
             # Said before the work, not after it.
             raise BadInput(f"{path}: no such folder to write to")
+        for kind in kinds:
+            if path.suffix.lower() in kind.endings:
+                refuse_to_lose(path, kind)
     with SessionFile(session) as file:
         contents = contents_of(file)
     made = report_of(contents, bar)

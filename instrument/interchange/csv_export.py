@@ -3,11 +3,13 @@
 import csv
 import io
 import json
+import re
 from pathlib import Path
 
 import numpy as np
 
 from instrument.files.at_once import write_at_once
+from instrument.files.replaceable import JSON, Written, refuse_another_text, refuse_to_lose
 from instrument.interchange.identified import session_modes
 from instrument.interchange.point_table import PointColumn, columns
 from instrument.interchange.provenance import one_line, provenance, reading
@@ -15,6 +17,9 @@ from instrument.interchange.specimen_toml import specimen_toml, struck_specimen_
 from instrument.results.session_result import recorded_result
 from instrument.session.contents import Contents, RecordedHit
 from instrument.stream.derived import StruckFound
+
+_EXPORTED = Written(re.compile(rb"# session [^\n]* exported from "))
+"""As `provenance` begins every table."""
 
 
 def export_csv(contents: Contents, folder: Path) -> list[Path]:
@@ -35,8 +40,18 @@ def export_csv(contents: Contents, folder: Path) -> list[Path]:
         texts[f"{name}-struck-{k}-specimen.toml"] = struck_specimen_toml(contents, struck)
     texts[f"{name}-specimen.toml"] = specimen_toml(contents)
     for file, text in texts.items():
+        _refuse_to_lose(folder / file, text)
+    for file, text in texts.items():
         write_at_once(folder / file, text)
     return [folder / file for file in texts]
+
+
+def _refuse_to_lose(path: Path, text: str) -> None:
+    """A specimen may have been edited since: only the very same one is written again. Raises `BadInput`."""
+    if path.suffix == ".toml":
+        refuse_another_text(path, text)
+    else:
+        refuse_to_lose(path, JSON if path.suffix == ".json" else _EXPORTED)
 
 
 def sweep_text(contents: Contents) -> str:

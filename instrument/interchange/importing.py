@@ -1,5 +1,6 @@
 """Foreign data to this program's CSV files: sweeps, FRFs, impact records."""
 
+import re
 from collections import Counter
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
@@ -15,6 +16,7 @@ from instrument.files.at_once import write_at_once
 from instrument.files.impact_csv import write_frf_csv, write_impact_csv
 from instrument.files.modal_table import read_modal_rows
 from instrument.files.point_columns import understood
+from instrument.files.replaceable import Written, refuse_to_lose
 from instrument.files.sweep_file import read_sweep, sweep_of_columns
 from instrument.impact.record import Hit
 from instrument.interchange.found import Columns, Found, Modes
@@ -24,6 +26,9 @@ from instrument.interchange.readers import read_foreign
 
 _READ_BY: dict[str, Callable[[Path], object]] = {"sweep": read_sweep, "modes": read_modal_rows}
 """What reads a kind of file, where that is more than a table of numbers."""
+_FIRST = "# imported from "
+_IMPORTED = Written(re.compile(_FIRST.encode()))
+"""How every file begins that was written here."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +45,7 @@ def import_file(path: Path, out: Path | None, naming: Naming | None = None) -> I
     `naming` has names in the place of the file's own.
 
     One kind of thing goes to `out` itself; several get its name with `-sweep`, `-frf`, `-hits` or `-modes`
-    behind it. Without `out` no other file is written over.
+    behind it. Another file is not written over; what was imported before is, where `out` names it.
     """
     found = read_foreign(path, naming)
     if found.sweeps:
@@ -59,6 +64,8 @@ def import_file(path: Path, out: Path | None, naming: Naming | None = None) -> I
     plan = _names(target, {kind: len(items) for kind, items in kinds.items()})
     if any(p.exists() and p.samefile(path) for p in plan.values()):
         raise BadInput(f"{path}: would be written over, expected another --out")
+    for file in plan.values() if out is not None else ():
+        refuse_to_lose(file, _IMPORTED)
     unproven = {key: file.with_name(f".{file.name}.part") for key, file in plan.items()}
     try:
         for (kind, k), file in unproven.items():
@@ -97,7 +104,7 @@ def _refuse_others(written: dict[tuple[str, int], Path], plan: dict[tuple[str, i
     for key, file in plan.items():
         if file.exists() and not cmp(file, written[key], shallow=False):
             raise BadInput(
-                f"{file}: there is a file already, expected --out: another, or this one to write over it"
+                f"{file}: there is a file already, expected --out: another, or this one if imported"
             )
 
 
@@ -133,7 +140,7 @@ def _write(file: Path, kind: str, item: object) -> None:
 def _say_where_from(file: Path, source: Path, what: str) -> None:
     """`what` of the source it is, where that has several."""
     said = one_line(f"{source.name}: {what}" if what else source.name)
-    write_at_once(file, f"# imported from {said}\n" + file.read_text(encoding="utf-8"))
+    write_at_once(file, f"{_FIRST}{said}\n" + file.read_text(encoding="utf-8"))
 
 
 def _alike(hits: list[Hit]) -> list[list[Hit]]:

@@ -4,10 +4,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.io import savemat
+from scipy.io import savemat, whosmat
 
 from instrument.facts.damping import METHODS
 from instrument.files.at_once import at_once
+from instrument.files.replaceable import refuse_another_file
 from instrument.impact.spectra import spectra
 from instrument.interchange.point_table import PointColumn, columns
 from instrument.interchange.provenance import provenance, reading
@@ -32,9 +33,19 @@ def export_mat(contents: Contents, folder: Path) -> list[Path]:
         said.append(f"result: {recorded_result(contents).words}")
     content["about"] = np.array(said, dtype=object)
     path = folder / f"{contents.configuration.name}.mat"
+    if path.is_file() and not _is_exported(path):
+        refuse_another_file(path)
     with at_once(path) as draft:
         savemat(draft, content, oned_as="column", do_compression=True)
     return [path]
+
+
+def _is_exported(path: Path) -> bool:
+    """Whether a file has what every export has, or nothing."""
+    try:
+        return not path.stat().st_size or {"about", "units"} <= {name for name, *_ in whosmat(path)}
+    except Exception:  # the reader's own refusals are of any kind
+        return False
 
 
 def _sweep(contents: Contents) -> list[PointColumn]:

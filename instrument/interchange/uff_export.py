@@ -4,6 +4,7 @@ One file each: readers that look for time records pass over a file with FRFs in 
 hits they find, so that those that do not count have a file of their own.
 """
 
+import re
 import warnings
 from collections.abc import Iterable
 from datetime import datetime
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 
 from fitting.modal.frf import Frf
 from instrument.files.at_once import at_once
+from instrument.files.replaceable import Written, refuse_to_lose
 from instrument.files.uff58 import CODES, COHERENCE, FRF, TIME
 from instrument.impact.spectra import spectra
 from instrument.session.contents import Contents, RecordedHit, TimedPoint
@@ -27,6 +29,8 @@ _FURTHER_SPOTS = 10
 """Node of a further spot, less its number."""
 _LEAST_LINES = 2
 """The library takes the step from the first two."""
+_EXPORTED = Written(re.compile(rb"\s*-1\s+151\s.*\bviscorig ", re.DOTALL))
+"""A data set 151 that names this program comes first."""
 
 
 def export_uff(contents: Contents, folder: Path) -> tuple[list[Path], list[str]]:
@@ -41,6 +45,8 @@ def export_uff(contents: Contents, folder: Path) -> tuple[list[Path], list[str]]
             s for h in contents.hits if not h.accepted for s in _hit_sets(contents, h)
         ],
     }
+    for file in files:
+        refuse_to_lose(folder / file, _EXPORTED)
     written = []
     for file, sets in files.items():
         if sets:

@@ -1,12 +1,16 @@
 """A whole experiment on the simulated rig: the published plate, hammer test, sweep of three resonances."""
 
+import re
 from pathlib import Path
 from random import Random
 
 from instrument.errors import BadInput, system_words
+from instrument.files.replaceable import refuse_another_file
 from instrument.files.text import read_text
 
 FILES = ("experiment.toml", "rig.toml", "specimen.toml")
+_CHOSEN = re.compile(r"seed = \d+$|effects\.\w+ = ")
+"""Lines of a rig that a demonstration chooses."""
 
 EFFECTS = {
     "clamp_compliance": "along_x_n_m3 = 3e13, along_z_n_m3 = 3e13",
@@ -52,16 +56,26 @@ def case_file(name: str) -> Path:
 
 
 def write_case(folder: Path, *, seed: int = 1, effect: str | None = None) -> Path:
-    """The case as files to run and to edit; the experiment's path. Raises `BadInput`."""
+    """The case as files to run and to edit; the experiment's path.
+
+    Raises `BadInput`, also where such a file has been edited, or is another one.
+    """
     if effect is not None and effect not in EFFECTS:
         raise BadInput(f"effect {effect!r}, expected one of {', '.join(sorted(EFFECTS))}")
     hidden = f"effects.{effect} = {{ {EFFECTS[effect]} }}\n" if effect is not None else ""
     try:
-        for name in FILES:
-            text = read_text(case_file(name))
-            if name == "rig.toml":
-                text = text.replace("seed = 1\n", f"seed = {seed}\n{hidden}")
+        texts = {name: read_text(case_file(name)) for name in FILES}
+        for name, text in texts.items():
+            if (folder / name).is_file() and _as_given(read_text(folder / name)) != _as_given(text):
+                refuse_another_file(folder / name)
+        texts["rig.toml"] = texts["rig.toml"].replace("seed = 1\n", f"seed = {seed}\n{hidden}")
+        for name, text in texts.items():
             (folder / name).write_text(text, encoding="utf-8")
     except OSError as error:
         raise BadInput(f"{folder}: {system_words(error)}") from None
     return folder / "experiment.toml"
+
+
+def _as_given(text: str) -> str:
+    """Without what a seed and a hidden effect make of it."""
+    return "".join(line for line in text.splitlines(keepends=True) if not _CHOSEN.match(line))

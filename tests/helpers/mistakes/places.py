@@ -8,6 +8,23 @@ PLACES = [
     ),
     wrong("damping hits.csv --json hits.csv", "hits.csv: read by this command"),
     wrong("card found.json --to json --out found.json", "found.json: read by this command"),
+    wrong("compare found.json other.json --json coarse.toml", "coarse.toml: ending '.toml', expected .json"),
+    wrong("modes coarse.toml --count 2 --json run.h5", "run.h5: ending '.h5', expected .json"),
+    made(
+        "a result over notes",
+        "modes coarse.toml --json taken",
+        "taken: another file stands there and is not written over, expected another name",
+        "torque 25 N m",
+    ),
+    wrong(
+        "card found.json --to nastran --out x.x", "x.x: ending '.x', expected .bdf or .nas or .dat or .txt"
+    ),
+    wrong("card found.json --to csv --out sweep.csv", "sweep.csv: a table stands there and is not written"),
+    wrong("card found.json --to csv --out hits.csv", "hits.csv: a table stands there and is not written"),
+    wrong(
+        "card found.json --to abaqus --out coarse.toml", "coarse.toml: ending '.toml', expected .inp or .txt"
+    ),
+    wrong("demo --out .", "experiment.toml: an experiment stands there and is not written over"),
     made("--json is a folder", "modes coarse.toml --count 2 --json taken", "taken: is a folder"),
     made("a folder for the data", "identify taken --specimen coarse.toml", "taken: a folder, expected data"),
     made("a folder for the specimen", "modes taken", "taken: a folder, expected a specimen"),

@@ -68,6 +68,25 @@ def test_a_corrupt_file_is_a_row_with_its_reason(whole):
     assert float(rows[0]["alpha_standard_error"]) > 0
 
 
+def test_where_every_row_failed_so_has_the_batch(tmp_path, sweeps, plate, capsys):
+    said = tmp_path / "said.json"
+    assert batch(sweeps[2], "--specimen", plate, "--out", tmp_path, "--json", said) == 2
+    assert capsys.readouterr().err.strip() == (
+        f"viscorig: {tmp_path / 'batch.csv'}: every row failed, expected one that can be worked out"
+    )
+    assert [row["status"] for row in rows_of(tmp_path)] == ["failed"]
+    assert json.loads(said.read_text())["failed"] == 1
+
+
+def test_a_table_of_another_kind_is_not_written_over(tmp_path, sweeps, plate, capsys):
+    table = tmp_path / "batch.csv"
+    table.write_text("data,specimen\na.csv,plate.toml\n")
+    assert batch(sweeps[2], "--specimen", plate, "--out", tmp_path) == 2
+    assert "batch.csv: a table stands there and is not written over" in capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == ["batch.csv"]
+    assert table.read_text().startswith("data,specimen\na.csv")
+
+
 def test_a_row_says_what_identify_says(tmp_path, sweeps, plate):
     assert batch(sweeps[0], "--specimen", plate, "--out", tmp_path) == 0
     assert (

@@ -49,6 +49,11 @@ def said(command, *arguments):
         (batch, ("a.csv", "--workers", 2, "--scheduler", "tcp://h:1"), "--workers and --scheduler exclude"),
         (batch, ("batch.csv",), "batch.csv: both given and to be written"),
         (card, ("a.json", "--to", "csv", "--out", "nowhere/card.csv"), "no such folder to write to"),
+        (
+            card,
+            ("a.json", "--to", "ansys", "--out", "a.csv"),
+            "'.csv', expected .mac or .inp or .dat or .txt",
+        ),
         (check, ("none.toml",), "1 fault, nothing can be run"),
         (compare, ("a.h5",), "a.h5: one file, expected two or more"),
         (compare, ("a.h5", "b.h5", "--remounts", "--spread"), "--remounts finds the repeatability"),

@@ -261,6 +261,35 @@ def test_the_command_prints_every_file_it_wrote(capsys, session_path, tmp_path):
         assert f"wrote {path}" in said
 
 
+def test_an_export_is_written_over_and_nothing_else(capsys, session_path, tmp_path):
+    at = {"csv": f"{NAME}.csv", "uff": f"{NAME}-sweep.uff", "mat": f"{NAME}.mat"}
+    for to, name in at.items():
+        folder = tmp_path / to
+        command = ["export", str(session_path), "--to", to, "--out", str(folder)]
+        assert run(command) == 0
+        assert run(command) == 0
+        whole = (folder / name).read_bytes()
+        for path in folder.iterdir():
+            path.unlink()
+        (folder / name).write_text("frequency_hz,velocity_m_s\n20,1e-3\n")
+        assert run(command) == 2
+        assert f"{folder / name}: " in capsys.readouterr().err
+        assert [path.read_text() for path in folder.iterdir()] == ["frequency_hz,velocity_m_s\n20,1e-3\n"]
+        (folder / name).write_bytes(whole)
+        assert run(command) == 0
+
+
+def test_a_specimen_that_was_edited_since_is_kept_and_all_beside_it(capsys, session_path, tmp_path):
+    command = ["export", str(session_path), "--to", "csv", "--out", str(tmp_path)]
+    assert run(command) == 0
+    edited = tmp_path / f"{NAME}-specimen.toml"
+    edited.write_text(edited.read_text() + "# the pickup was moved\n")
+    before = {path: path.stat().st_mtime_ns for path in tmp_path.iterdir()}
+    assert run(command) == 2
+    assert "specimen.toml: a specimen stands there and is not written over" in capsys.readouterr().err
+    assert {path: path.stat().st_mtime_ns for path in tmp_path.iterdir()} == before
+
+
 def test_a_session_stopped_early_exports_what_there_is(capsys, tmp_path):
     synthetic = SyntheticSession(configuration())
     synthetic.begin()

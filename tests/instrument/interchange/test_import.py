@@ -233,15 +233,19 @@ def test_a_file_that_nobody_named_is_not_written_over(capsys, tmp_path, monkeypa
     assert run(["import", "a.mat"]) == 2
     err = capsys.readouterr().err
     assert (
-        err
-        == "viscorig: a.csv: there is a file already, expected --out: another, or this one to write over it\n"
+        err == "viscorig: a.csv: there is a file already, expected --out: another, or this one if imported\n"
     )
     assert (Path("a.csv").read_text(), sorted(p.name for p in tmp_path.iterdir())) == (
         "somebody's own",
         ["a.csv", "a.mat"],
     )
+    assert run(["import", "a.mat", "--out", "a.csv"]) == 2
+    assert "a.csv: a table stands there and is not written over, expected" in capsys.readouterr().err
+    assert Path("a.csv").read_text() == "somebody's own"
+    Path("a.csv").unlink()
     assert run(["import", "a.mat", "--out", "a.csv"]) == 0
     assert run(["import", "a.mat"]) == 0
+    assert run(["import", "a.mat", "--out", "a.csv"]) == 0
     Path("a.txt").write_text("frequency_hz,velocity_m_s\n1,2\n2,3\n")
     assert run(["import", "a.txt"]) == 2
     assert Path("a.csv").read_text().startswith("# imported from a.mat")

@@ -24,6 +24,19 @@ def stated(rig, **changes):
     return document.model_copy(update={"simulation": document.simulation.model_copy(update=changes)})
 
 
+def test_a_case_is_written_over_one_nobody_has_edited(tmp_path):
+    write_case(tmp_path, effect="added_mass")
+    write_case(tmp_path, seed=12)
+    rig = tmp_path / "rig.toml"
+    assert "\nseed = 12\n" in rig.read_text()
+    assert "effects." not in "".join(line for line in rig.read_text().splitlines() if line[:1] != "#")
+    rig.write_text(rig.read_text().replace('model = "OFV-5000"', 'model = "OFV-505"'))
+    edited = {path.name: path.read_text() for path in tmp_path.iterdir()}
+    with pytest.raises(BadInput, match=r"rig\.toml: a rig stands there and is not written over"):
+        write_case(tmp_path)
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == edited
+
+
 def test_effects_of_the_plate_and_of_the_channels_are_told_apart(rig):
     hidden = {"added_mass": {"mass_kg": 0.008, "x_m": 0.25, "y_m": 0.05}, "gain_error": {"factor": 1.1}}
     plate, channel = effects_of(stated(rig, effects=hidden).simulation)
