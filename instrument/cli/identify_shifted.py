@@ -44,7 +44,7 @@ def identify_shifted(
     specimens: Sequence[Path] = (),
     insist: bool = False,
 ) -> None:
-    """Fit sweeps, print, draw; a law that is not simple is refused after its figures are saved."""
+    """Fit sweeps, print, draw; a law that is not simple is refused after its figures and JSON are written."""
     if len(given) < 2:
         raise click.UsageError(f"--shift: {len(given)} file, expected sweeps at two temperatures or more")
     sweeps, stated = sweeps_at(given, data, specimens)
@@ -116,10 +116,14 @@ def _draw(out: Output, found: Shifted, asked: Asked) -> None:
 
 
 def _tell(out: Output, found: Shifted, every: Sequence[AtTemperature], asked: Asked) -> None:
+    result = shifted_from(found, every)
     if found.verdict.simple is False:
         _draw(out, found, asked)
-        raise OutsideModel(found.verdict.words + _if_mounted_anew(every))
-    result = shifted_from(found, every)
+        out.result(result)
+        refused, *advice = (result.words + _if_mounted_anew(every)).split("; ")
+        for line in advice:
+            out.say(f"note: {line}")
+        raise OutsideModel(refused)
     print_shifted(out, result, law_stands=found.verdict.law_stands)
     if asked.depths:
         b = found.band.frequency_hz

@@ -248,7 +248,7 @@ def _diagnosed(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
 
 
 def _shifted(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
-    """Of the JSON of `identify --shift`."""
+    """Of the JSON of `identify --shift`. Raises `BadInput` where that refused the law."""
     try:
         shift = FoundShift.model_validate(facts)
         found = _law(path, _LawFound.model_validate(facts), shift.verdict)
@@ -256,6 +256,11 @@ def _shifted(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
         return None
     if found is None:
         return None
+    if shift.simple is False:
+        raise BadInput(
+            f"{path}: one law for all its temperatures was refused, expected one that 'viscorig identify "
+            "--shift' has not refused"
+        )
     cause = shift.common_cause.words if shift.common_cause is not None else ""
     return replace(found, shift=shift, temperature_c=shift.reference_c, found=cause, doubts=doubts_in(facts))
 

@@ -1,6 +1,7 @@
 """Figures of one law over several temperatures: nomogram, wicket plot, Cole-Cole, shift factors."""
 
 from pathlib import Path
+from textwrap import fill
 
 import numpy as np
 from matplotlib import colormaps
@@ -8,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fitting.numerics.chances import Z_95
+from fitting.temperature.simple import story
 from instrument.results.drawing import DATA, MODEL, WIDTH_IN, label, legend, legend_above, panels
 from instrument.temperatures.shifted import Shifted
 
@@ -17,6 +19,8 @@ _ROOM = 2.0
 """Times the lowest frequency, below which a temperature has no room on a line's left."""
 _BESIDE_PT = 7.0
 """From a line to its temperature."""
+_LINE = 95
+"""Letters across a figure, in the size of its axes' names."""
 
 
 def save_shifted_figures(found: Shifted, folder: Path) -> list[Path]:
@@ -25,14 +29,32 @@ def save_shifted_figures(found: Shifted, folder: Path) -> list[Path]:
     figure, ((ax,),) = panels(1, 1, 6.5)
     _nomogram(ax, found)
     legend_above(figure, ax)
+    _say_standing(figure, found)
     paths = [folder / "nomogram.png", folder / "simplicity.png"]
     figure.savefig(paths[0], dpi=150)
     figure = Figure(figsize=(WIDTH_IN, _HEIGHT_IN), layout="constrained")
     (wicket, cole), (shifts, curves) = figure.subplots(2, 2)
     _each_alone(wicket, cole, curves, found)
     _shift_factors(shifts, found)
+    _say_standing(figure, found)
     figure.savefig(paths[1], dpi=150)
     return paths
+
+
+def _standing(found: Shifted) -> str:
+    """What a figure has to say of its law, where that is not simply the material's; empty where it is."""
+    if found.verdict.simple is False:
+        return "refused: no one law serves all these temperatures, the one drawn is not to be used"
+    if not found.verdict.law_stands:
+        return "not to be used: nothing explains these readings as they are"
+    return f"counted in at all temperatures: {story(found.cause)}" if found.cause is not None else ""
+
+
+def _say_standing(figure: Figure, found: Shifted) -> None:
+    """Below the panels, whoever cuts a figure out of its folder."""
+    said = _standing(found)
+    if said:
+        figure.supxlabel(fill(said, _LINE), fontsize=9, color="#b00020")
 
 
 def _nomogram(ax: Axes, found: Shifted) -> None:

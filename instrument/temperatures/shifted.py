@@ -73,7 +73,9 @@ class Shifted:
         if any(low > before for (low, _), before in zip(reduced[1:], reach, strict=False)):
             said.append("data do not overlap in reduced frequency: there the shift rests on the law's form")
         known = self.fit.stated_covariance if self.adjusted else None
-        if not self.verdict.law_stands:
+        if self.verdict.simple is False:
+            said.insert(0, Doubt(f"one law for all temperatures is refused: it is not to be used, {BIASED}"))
+        elif not self.verdict.law_stands:
             words = f"no law explains these readings as they are: this one is not to be used, {BIASED}"
             said.insert(0, Doubt(words))
         elif self.verdict.simple is None and self.cause is not None:

@@ -25,6 +25,7 @@ from instrument.cli import identify_shifted as shifting
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.finding.modal import TablesDiagnosed
+from instrument.material.found_law import read_law
 from instrument.results import shifted_figures
 from instrument.temperatures.shifted import Shifted
 
@@ -185,8 +186,8 @@ def found(monkeypatch):
     band = LawBand(f, G, eta, 0.01 * G, 0.01 * eta)
     asked, told = [], []
 
-    def make(simple=True, softens=True, *, stands=True, otherwise=""):
-        words = "one law serves" if simple else "no one law serves"
+    def make(simple=True, softens=True, *, stands=True, otherwise="", advice=""):
+        words = ("one law serves" if simple else "no one law serves") + advice
         verdict = Verdict(simple, 0.4, 1.2, words, law_stands=stands)
 
         def identify(sweeps, specimens, kind, reference_c, progress, *, vertical, hammer, temperature_k):
@@ -272,17 +273,25 @@ def test_figures_are_said_to_be_saved_after_the_results(capsys, monkeypatch, zn1
     assert 0 < said.index("the law at 20 degC") < said.index("saved ")
 
 
-def test_a_law_that_is_not_simple_is_refused_after_its_figures_are_saved(
+def test_a_law_that_is_not_simple_is_refused_after_its_figures_and_json_are_written(
     capsys, monkeypatch, zn1, found, tmp_path
 ):
-    found(simple=False)
+    found(simple=False, advice="; try --shift free")
     saved = [tmp_path / "nomogram.png"]
     monkeypatch.setattr(shifted_figures, "save_shifted_figures", lambda found, folder: saved)
     out = Output(str(tmp_path / "a.json"))
-    with pytest.raises(OutsideModel, match="no one law serves"):
+    with pytest.raises(OutsideModel, match=r"^no one law serves$"):
         shift([given(zn1, k) for k in range(3)], tmp_path, out)
-    assert f"saved {saved[0]}" in "".join(capsys.readouterr().out.splitlines())
-    assert not (tmp_path / "a.json").exists()
+    said = capsys.readouterr().out
+    assert f"saved {saved[0]}" in "".join(said.splitlines())
+    notes = [line for line in said.splitlines() if line.startswith("note: ")]
+    assert notes[0] == "note: try --shift free"
+    assert notes[1].startswith("note: the specimen is taken to have stayed where it was")
+    written = json.loads((tmp_path / "a.json").read_text())
+    assert (written["simple"], written["words"]) == (False, "no one law serves; try --shift free")
+    assert "one law for all temperatures is refused" in written["doubts"][0]
+    with pytest.raises(BadInput, match=r"a\.json: one law for all its temperatures was refused"):
+        read_law(tmp_path / "a.json")
 
 
 def test_the_first_file_s_hammer_test_is_that_of_all_and_of_sessions_that_is_said(capsys, zn1, found):

@@ -1,14 +1,17 @@
 """Figures of plans, of a core band by band and of several temperatures: what is drawn where."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from shear_pair_temperatures import LOG_A, REFERENCE, T, alone, fitted, shifted
 
+from fitting.effects import CATALOGUE
 from fitting.identification.pointwise import PointwiseLaw
 from fitting.identification.result import LawBand
 from fitting.numerics.chances import Z_95
+from fitting.temperature.simple import Verdict
 from instrument.errors import BadInput
 from instrument.facts.plan import LawOutlook, PlannedStep, PlanResult, SpotCompared
 from instrument.finding.pointwise import Pointwise
@@ -143,7 +146,7 @@ def temperatures():
     f = np.geomspace(50, 4000, 9)
     G, eta = fit.law.storage_and_loss(2 * np.pi * f)
     band = LawBand(f, G, eta, 0.01 * G, 0.01 * eta)
-    return Shifted(fit, None, band, alone(each), None, 1.0)
+    return Shifted(fit, Verdict(True, 0.5, 1.0, "simple"), band, alone(each), None, 1.0)
 
 
 def test_the_nomogram_has_a_diagonal_for_each_temperature(temperatures, saved, tmp_path):
@@ -174,6 +177,23 @@ def test_the_nomogram_has_a_diagonal_for_each_temperature(temperatures, saved, t
     for line, log_a in zip(right.lines, temperatures.fit.log_shift, strict=True):
         reduced, plain = line.get_data()
         np.testing.assert_allclose(np.log(reduced / plain), log_a)
+
+
+def test_figures_say_that_their_law_is_refused_or_which_effect_is_counted_in(temperatures, saved, tmp_path):
+    u = SimpleNamespace(of=lambda effect: np.array([q.typical for q in effect.parameters]))
+    late = SimpleNamespace(effect=CATALOGUE["channel_delay"], fit=SimpleNamespace(one=u))
+    refused, useless = Verdict(False, 0.0, 9.0, ""), Verdict(None, 0.0, 9.0, "", law_stands=False)
+    for changed, said in (
+        ({}, ""),
+        ({"verdict": refused}, "refused: no one law serves"),
+        ({"verdict": useless}, "not to be used: nothing explains"),
+        ({"cause": late}, "counted in at all temperatures: the velocity channel"),
+    ):
+        saved.clear()
+        save_shifted_figures(replace(temperatures, **changed), tmp_path)
+        for figure in saved.values():
+            assert figure.get_supxlabel().startswith(said)
+            assert bool(figure.get_supxlabel()) == bool(said)
 
 
 def test_curves_of_all_temperatures_fall_on_one_where_the_material_is_simple(temperatures, saved, tmp_path):
