@@ -18,7 +18,7 @@ from instrument.results.diagnosis_words import (
     verdict_line,
     with_verdict,
 )
-from instrument.results.foretelling import is_foretold
+from instrument.results.foretelling import NOT_FORETOLD, is_foretold
 from instrument.results.next_words import (
     NEXT_COLUMNS,
     NEXT_TITLE,
@@ -56,6 +56,8 @@ def print_diagnosis(out: Output, found: DiagnosisResult) -> None:
 def print_story(out: Output, found: DiagnosisResult) -> None:
     """The verdict, what speaks for it, and what to measure next."""
     out.say(verdict_line(found))
+    if found.files is not None and len(found.files) > 1:
+        out.say("; ".join(f"file {k}: {name}" for k, name in enumerate(found.files, start=1)))
     out.say()
     for text in found.explanation:
         out.say(textwrap.fill(text, _WIDTH))
@@ -113,6 +115,8 @@ def print_before_after(out: Output, found: DiagnosisResult) -> None:
     if one_by_one[0] is not None:
         rows.append(["each point from the others, rms/%", *(_two(v) for v in one_by_one), ""])
     out.table("what the fit leaves", ["", "before", "after", "noise alone"], rows)
+    if any(not is_foretold(found, a.segment) for a in found.after.held_out):
+        out.say(NOT_FORETOLD)
     resampled = resampling_words(found)
     if resampled:
         out.say(f"by resampling: {resampled}")

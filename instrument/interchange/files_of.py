@@ -10,7 +10,7 @@ from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
 from instrument.impact.mobility import DELAY_S, GAIN
 from instrument.models.files import File, spots_of
-from instrument.session.points import by_mounting, with_spots
+from instrument.session.points import by_mounting, place_of, with_spots
 from instrument.stream.derived import PointMeasured, StruckFound
 
 
@@ -25,9 +25,11 @@ def files_of(
         return [File(sweep, specimen)]
     plate = with_spots(specimen, points)
     groups = by_mounting(points, plate)
+    # One file alone needs no name.
+    names = [_name(points[places[0]]) if len(groups) + len(struck) > 1 else "" for places, _ in groups]
     driven = [
-        (points[places[0]].mounting, spots_of(sweep.take(np.array(places)), with_mass, "", number))
-        for number, (places, with_mass) in enumerate(groups, start=1)
+        (points[places[0]].mounting, spots_of(sweep.take(np.array(places)), with_mass, name, number))
+        for number, ((places, with_mass), name) in enumerate(zip(groups, names, strict=True), start=1)
     ]
     found, last = [], len(driven)
     clamped = [one for one in struck if one.held == "clamped"]
@@ -40,6 +42,11 @@ def files_of(
                     last += 1
                     found.append(_struck_file(one, specimen, last))
     return [*found, *(_struck_file(one, specimen, last + k) for k, one in enumerate(free, start=1))]
+
+
+def _name(first: PointMeasured) -> str:
+    """What was done to the plate; where it was read is another thing, of one file's spots."""
+    return ", ".join(filter(None, ("sweep", place_of(replace(first, spot_mm=None)))))
 
 
 def _struck_file(struck: StruckFound, specimen: PlateSpecimen, number: int) -> File:
@@ -63,7 +70,7 @@ def _struck_file(struck: StruckFound, specimen: PlateSpecimen, number: int) -> F
         gripped = length_m - specimen.length_m
         masses = tuple(replace(m, x_m=m.x_m + gripped) for m in specimen.masses)
         plate = replace(plate, boundary="free", modal_ratios=(), length_m=length_m, masses=masses)
-    return File(sweep, plate, "", number)
+    return File(sweep, plate, "struck, hung free" if struck.held == "free" else "struck in its clamp", number)
 
 
 def _m(place_mm: tuple[float, float]) -> tuple[float, float]:

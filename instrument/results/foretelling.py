@@ -3,6 +3,11 @@
 from fitting.diagnosis.several.parts_with import PartWith, part_with
 from instrument.facts.diagnosis import DiagnosisResult, EffectFound
 
+NOT_FORETOLD = (
+    "-: the effect shows there alone, or with a size of its own, which no other segment can foretell"
+)
+"""Why a segment held out has no error after a diagnosis."""
+
 
 def is_foretold(found: DiagnosisResult, segment: int) -> bool:
     """Whether the other segments show what is accepted too.

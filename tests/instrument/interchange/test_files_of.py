@@ -35,6 +35,7 @@ def test_an_undisturbed_plate_is_one_file_as_it_is_stated(plate):
     assert only.specimen == plate
     assert len(only.sweep) == 3
     assert only.sweep.pickup is None
+    assert only.name == ""
 
 
 def test_a_spot_is_a_part_of_the_same_file_read_elsewhere(plate):
@@ -50,6 +51,9 @@ def test_a_plate_clamped_anew_is_another_file_of_the_same_plate(plate):
     assert (first.number, second.number, with_mass.number) == (1, 2, 3)
     assert second.specimen == first.specimen == plate
     assert len(with_mass.specimen.masses) == 1
+    assert first.name == "sweep"
+    assert second.name == "sweep, clamped anew"
+    assert with_mass.name == "sweep, 5 g at 280, 100 mm, clamped anew"
 
 
 def test_a_known_mass_makes_another_file_of_the_same_plate(plate):
@@ -68,6 +72,7 @@ def with_struck(plate, changes, *found):
 def test_a_plate_that_was_hung_and_struck_is_a_file_of_the_same_plate_as_long_as_it_is(plate):
     files = with_struck(plate, [{}, SPOT], struck())
     free = files[-1]
+    assert [one.name for one in files] == ["sweep", "sweep", "struck, hung free"]
     assert one_plate(files)
     assert numbers_of(files) == [1, 1, 2]
     s = free.specimen

@@ -7,7 +7,7 @@ from diagnosis_cases import diagnosis
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.facts.diagnosis import ParameterFound
-from instrument.facts.rows import StretchSetAside
+from instrument.facts.rows import HeldOut, StretchSetAside
 from instrument.results.diagnosis_figures import law_figure
 from instrument.results.diagnosis_words import (
     log_odds,
@@ -17,6 +17,7 @@ from instrument.results.diagnosis_words import (
     set_aside_words,
     with_verdict,
 )
+from instrument.results.foretelling import NOT_FORETOLD
 
 
 @pytest.mark.parametrize(
@@ -141,3 +142,18 @@ def test_stretches_of_files_are_said_by_their_file_and_not_point_by_point():
         points=used, set_aside_hz=(20.0, 20.2, 30.0, 40.0, 60.0, 65.0, 100.0), set_aside=tuple(stretches)
     )
     assert set_aside_words(found) == "Set aside: 100 Hz; in a.csv 20 to 40 Hz; in b.csv 60 to 65 Hz."
+
+
+def test_files_are_named_and_why_a_segment_is_not_foretold_is_said(capsys, monkeypatch):
+    found = diagnosis()
+    print_diagnosis(Output(None), found.but(files=("sweep",)))
+    said = capsys.readouterr().out
+    assert "file 1" not in said
+    assert NOT_FORETOLD not in said
+    monkeypatch.setattr("instrument.cli.print_diagnosis.is_foretold", lambda *_: False)
+    held_out = (HeldOut(segment=1, rms_percent=2.0, noise_percent=1.0),)
+    stages = {"before": found.before.but(held_out=held_out), "after": found.after.but(held_out=held_out)}
+    print_diagnosis(Output(None), found.but(files=("sweep", "sweep, clamped anew"), **stages))
+    said = capsys.readouterr().out
+    assert "file 1: sweep; file 2: sweep, clamped anew" in said
+    assert NOT_FORETOLD in said
