@@ -1,6 +1,6 @@
 """Abaqus: *ELASTIC with instantaneous moduli, *VISCOELASTIC, TIME=PRONY."""
 
-from instrument.cards.card import Card
+from instrument.cards.card import Card, commented
 
 
 def abaqus(card: Card) -> str:
@@ -20,7 +20,7 @@ def abaqus(card: Card) -> str:
         trs = ["*TRS, DEFINITION=WLF", f"{shift.reference_c:.9g}, {c1:.9E}, {c2:.9E}"]
     return "\n".join(
         [
-            *(f"** {line}" for line in lines),
+            *commented("**", lines),
             "*MATERIAL, NAME=VISCOELASTIC_CORE",
             "*ELASTIC, MODULI=INSTANTANEOUS",
             f"{card.young_pa(p.g_0_pa):.9E}, {card.poisson:.9g}",

@@ -1,7 +1,7 @@
 """Ansys Mechanical APDL: material 1 by TB,PRONY, material 2 by TB,EXPERIMENTAL."""
 
 from fitting.arrays import Array
-from instrument.cards.card import Card
+from instrument.cards.card import Card, commented
 
 _AT_ONCE = 6
 """Constants of one TBDATA."""
@@ -15,7 +15,7 @@ def ansys(card: Card) -> str:
         "material 2: complex moduli by frequency (harmonic analyses); " + card.about_table(),
         "EX is instantaneous: 2 (1 + nu) G0; shares are of G0 and K0",
     ]
-    return "\n".join([*(f"! {line}" for line in lines), "/UNITS,SI", *_by_series(card), *_by_table(card), ""])
+    return "\n".join([*commented("!", lines), "/UNITS,SI", *_by_series(card), *_by_table(card), ""])
 
 
 def _elastic(card: Card, material: int) -> list[str]:

@@ -1,7 +1,9 @@
 """What every card is made of: the law, its series, Poisson's ratio, and the lines it begins with."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib.metadata import version
+from textwrap import wrap
 
 import numpy as np
 
@@ -20,8 +22,16 @@ _AT_ONE = (
     "moduli by its b_T, where there is one)"
 )
 """Of a law over reduced frequency, in formats that know of no shift."""
+_LONGEST = 240
+"""Letters of a comment's line: Abaqus takes 256."""
 _NOTHING = 1e-6
 """Of the instantaneous modulus: less is none."""
+
+
+def commented(sign: str, lines: Iterable[str]) -> list[str]:
+    """Lines behind a format's comment sign; long ones go on in a comment of their own."""
+    parts = (part for line in lines for part in wrap(line, _LONGEST, break_on_hyphens=False))
+    return [f"{sign} {part}" for part in parts]
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """COMSOL: a text file for an interpolation function (spreadsheet), the series in its comments."""
 
-from instrument.cards.card import Card
+from instrument.cards.card import Card, commented
 
 
 def comsol(card: Card) -> str:
@@ -16,6 +16,4 @@ def comsol(card: Card) -> str:
         "f Gp Gpp eta",
     ]
     rows = zip(card.law.frequency_hz, card.storage, card.loss, card.law.loss_factor, strict=True)
-    return "\n".join(
-        [*(f"% {line}" for line in lines), *(" ".join(f"{v:.9E}" for v in row) for row in rows), ""]
-    )
+    return "\n".join([*commented("%", lines), *(" ".join(f"{v:.9E}" for v in row) for row in rows), ""])

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from fitting.arrays import Array
-from instrument.cards.card import Card
+from instrument.cards.card import Card, commented
 
 _MATERIAL, _YOUNG, _SHEAR, _DAMPING = 1, 101, 102, 103
 _WIDE, _NAME, _FIELDS = 16, 8, 4
@@ -23,7 +23,7 @@ def nastran(card: Card) -> str:
     f = law.frequency_hz
     return "\n".join(
         [
-            *(f"$ {line}" for line in lines),
+            *commented("$", lines),
             *_entry("MAT1", [_MATERIAL, card.young_pa(G), G, card.poisson, None, None, None, eta]),
             *_entry("MATF1", [_MATERIAL, _YOUNG, _SHEAR, None, None, None, None, _DAMPING]),
             *_table(_YOUNG, f, 2 * (1 + card.poisson) * card.storage),

@@ -15,12 +15,18 @@ _KEYS = (
     "loss_factor_standard_error",
 )
 
+_REDUCED = "reduced_frequency_hz"
+
 
 def as_csv(card: Card) -> str:
-    """G' and eta with standard errors; nothing where there is none."""
+    """G' and eta with standard errors; nothing where there is none.
+
+    Of a law over temperatures the frequencies are named as the reduced ones that they are.
+    """
+    names = [_REDUCED if key == _KEYS[0] and card.law.shift is not None else key for key in _KEYS]
     columns = [getattr(card.law, key).tolist() for key in _KEYS]
     rows = [",".join("" if v != v else repr(v) for v in row) for row in zip(*columns, strict=True)]
-    return "\n".join([*(f"# {line}" for line in card.header()), ",".join(_KEYS), *rows, ""])
+    return "\n".join([*(f"# {line}" for line in card.header()), ",".join(names), *rows, ""])
 
 
 def card_result(card: Card) -> CardResult:
@@ -47,6 +53,7 @@ def card_result(card: Card) -> CardResult:
             terms=tuple(PronyTerm(g_pa=G, share=share, tau_s=tau) for G, share, tau in terms),
             max_error_percent=100 * p.max_error,
             rms_error_percent=100 * p.rms_error,
+            words=card.about_series(),
         ),
     )
 

@@ -25,6 +25,8 @@ class PronySeries(Result):
     max_error_percent: Number
     """Of G*, over the band."""
     rms_error_percent: Number
+    words: str | None = None
+    """How well it stands for the law, and what is left at rest; None in files of older versions."""
 
 
 class CardResult(Result):

@@ -10,6 +10,7 @@ import pytest
 from diagnosed_session import diagnosed_session
 from paper_law import TABLE_4
 
+from fitting.laws.fractional_zener import FractionalZener
 from fitting.laws.prony import MOST_TERMS, fit_prony
 from instrument.cards.card import Card
 from instrument.cli.main import run
@@ -261,6 +262,8 @@ def test_a_law_over_temperatures_says_its_reference_its_reduced_band_and_its_shi
     assert "log10 a_T = -4 (T - 20) / (60 + T - 20)" in text
     assert "measured from 5 to 36 degrees C" in text
     assert "verdict: thermorheologically simple" in text
+    if to == "csv":
+        assert "\nreduced_frequency_hz,storage_modulus_pa," in text
 
 
 @pytest.mark.parametrize("to", FORMATS)
@@ -276,6 +279,28 @@ def test_a_law_that_rests_on_a_common_cause_says_which_how_large_and_warns(tmp_p
     assert "beyond its band: the hours were many" in text
     path.write_text(json.dumps(facts(**SHIFT, common_cause=None)), encoding="utf-8")
     assert "WARNING" not in card(path, to)
+
+
+@pytest.mark.parametrize("to", ["abaqus", "ansys", "nastran", "comsol"])
+def test_a_long_warning_goes_on_in_comments_of_their_own(tmp_path, to):
+    words = [f"reason{k:03d}" for k in range(60)]
+    path = tmp_path / "doubted.json"
+    path.write_text(json.dumps(facts(warnings=[" ".join(words)], doubts=[" ".join(words)])))
+    lines = card(path, to).splitlines()
+    assert max(map(len, lines)) < 256
+    sign = lines[0].split()[0]
+    told = [line for line in lines if "reason" in line]
+    assert len(told) > 2
+    assert all(line.startswith(f"{sign} ") for line in told)
+    assert re.findall(r"reason\d+", " ".join(told)) == words
+
+
+def test_a_series_that_leaves_nothing_at_rest_says_so_in_json_too(tmp_path):
+    path = tmp_path / "found.json"
+    path.write_text(json.dumps(facts(law=FractionalZener(g0_pa=200.0, ginf_pa=4e9, tau_s=1e-3, alpha=0.9))))
+    series = json.loads(card(path, "json"))["prony"]
+    assert sum(term["share"] for term in series["terms"]) == pytest.approx(1.0, abs=1e-6)
+    assert "at rest nothing is left: not for static loads" in series["words"]
 
 
 def test_abaqus_shifts_by_wlf_itself_as_the_law_does(tmp_path):
