@@ -266,7 +266,7 @@ class Effect:
         """`u` with the effect `a` times as strong, by a linear guess. Shape (parameters,)."""
         found = u.copy()
         for k, q in enumerate(self.parameters):
-            if not q.says_how_much:
+            if q.neutral is None or not q.says_how_much:
                 continue
             found[k] = u[k] / a if np.isinf(q.neutral) else q.neutral + a * (u[k] - q.neutral)
         return found

@@ -13,13 +13,13 @@ from fitting.laws.kraus import Kraus
 _AT_REST = 1e-10
 """A step of the strain over the reference, at most, for the last one."""
 _ITERATIONS = 60
-"""Half steps would come within 1e-10 in 34 where strain hardly falls, secants mostly do in 8 to 20. A bound."""
+"""Half steps would come within 1e-10 in 34 where strain hardly falls, secants do in 8 to 20. A bound."""
 _PASSES = 8
 """Over what is kept: a point that comes to be the largest softens those after it. Two do, mostly."""
 _OFF = 1e-7
 """Of a strain, that it may be off what it makes of itself: far below any noise."""
 _FARTHEST, _NEAREST = 40.0, 1e-4
-"""Times the strain of a core that does not soften: how far another may lie, and of that the least looked at."""
+"""Times the strain of a core that does not soften: how far another may lie, of that the least looked at."""
 _PLACES, _HALVES = 120, 50
 """Looked at between them, 8 % from one to the next; then halves of a gap, below the last digit of any."""
 _SMALL = 1e-12
@@ -112,7 +112,7 @@ class SoftenedCore:
         return self._halved(s, earlier)
 
     def _halved(self, s: Array, earlier: Array) -> Array:
-        """The same where steps came to no end: the least strain at rest, between one that rises and one that falls.
+        """The same where steps came to no end: the least strain between one that rises and one that falls.
 
         Beside a fold steps creep or go round: there a core may be at rest at two strains, or has just jumped.
         """

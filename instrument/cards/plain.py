@@ -16,6 +16,7 @@ _KEYS = (
 )
 
 _REDUCED = "reduced_frequency_hz"
+"""Of a law over temperatures; `[core.law]` reads them back."""
 
 
 def as_csv(card: Card) -> str:

@@ -18,6 +18,8 @@ Kind = Literal["shear", "tension", "bending"]
 KINDS: tuple[str, ...] = get_args(Kind)
 _ABOVE_ZERO = ("frequency_hz", "storage_modulus_pa", "storage_modulus_std_pa", "loss_factor_std")
 _NUMBERS = (*_ABOVE_ZERO, "temperature_c", "loss_factor", "loss_modulus_pa")
+_REDUCED = "reduced_frequency_hz"
+"""As `viscorig card` names them."""
 _SAID = re.compile(r"^\s*#\s*(kind|poisson)\s*:\s*(\S+)\s*$", re.MULTILINE)
 
 _PA = {"kpa": 1e3, "mpa": 1e6, "gpa": 1e9}
@@ -52,7 +54,8 @@ class DmaTable:
 def read_dma(path: Path, poisson: float) -> DmaTable:
     """Read a table. `poisson` is the core's own, where the file does not say another. Raises `BadInput`."""
     refuse_another(path, "a table", "a table of moduli over frequency")
-    header, rows = read_rows(path, lambda header: _check(path, header))
+    header, rows = read_rows(path, lambda header: _check(path, _plainly(header)))
+    header = _plainly(header)
     columns = {
         name: np.array([_number(path, line, name, row[k]) for line, row in rows])
         for k, name in enumerate(header)
@@ -87,6 +90,13 @@ def read_dma(path: Path, poisson: float) -> DmaTable:
         columns["storage_modulus_std_pa"] / storage if "storage_modulus_std_pa" in columns else nothing,
         columns.get("loss_factor_std", nothing),
     )
+
+
+def _plainly(header: list[str]) -> list[str]:
+    """Of a card of a law over temperatures the reduced frequencies are those at its reference."""
+    if "frequency_hz" in header:
+        return header
+    return ["frequency_hz" if name == _REDUCED else name for name in header]
 
 
 def _check(path: Path, header: list[str]) -> None:

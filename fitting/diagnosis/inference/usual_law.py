@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from scipy.optimize import least_squares
+from scipy.optimize import OptimizeResult, least_squares
 
 from fitting.arrays import Array
 from fitting.diagnosis.executor import ALONE, Executor
@@ -31,6 +31,10 @@ _FAR_OF_STRAIN = 0.002
 """The same where softening is told for the strain under the law that its fit starts from."""
 _MOST_POINTS = 48
 """Of a sweep that a law is compared at: moduli are smooth. A choice."""
+_NEAR = 0.1
+"""In ln G* at any frequency: as far as a usual law may be off another and be a place to begin beside it."""
+_INSIDE = float(np.log(3))
+"""Of a parameter's logarithm: so far within its limits is no limit. A choice."""
 _OPEN = 1e-9
 """A range of one value is none for a bounded fit."""
 
@@ -148,7 +152,8 @@ def followed_to_convergence(
 def within_search(law: CoreLaw, omega: Array) -> CoreLaw:
     """The law of the ranges that are searched whose modulus is nearest to a law's; itself where it is one.
 
-    `omega` in rad/s, shape (points,).
+    Where none of them is near, as of a core much stiffer than usual ones, ranges reach as far as its own
+    parameters do. `omega` in rad/s, shape (points,).
     """
     low, high = np.log([q.search for q in law.limits]).T
     logs = np.log(law.values)
@@ -174,6 +179,14 @@ def _nearest_within(law: CoreLaw, omega_bytes: bytes) -> CoreLaw:
         d = one.jacobian(omega) * one.values[:, None] / one.modulus(omega)
         return np.concatenate([d.real, d.imag], axis=1).T
 
-    bounds = (low - _OPEN, high + _OPEN)
-    start = np.clip(np.log(law.values), low, high)
-    return law.with_logs(least_squares(off, start, jac=slope, bounds=bounds).x)
+    def nearest(low: Array, high: Array) -> OptimizeResult:
+        bounds = (low - _OPEN, high + _OPEN)
+        return least_squares(off, np.clip(own, low, high), jac=slope, bounds=bounds)
+
+    own = np.log(law.values)
+    found = nearest(low, high)
+    if np.max(np.abs(found.fun)) > _NEAR:
+        least, most = law.log_limits
+        reach_down = np.minimum(low, np.maximum(own, least + _INSIDE))
+        found = nearest(reach_down, np.maximum(high, np.minimum(own, most - _INSIDE)))
+    return law.with_logs(found.x)

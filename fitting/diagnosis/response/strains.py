@@ -30,8 +30,8 @@ core softens: times the distance it is smooth, in the frequency and in the share
 _GAINED = np.array([0.0, 0.15, 0.3])
 """The same of the loss modulus that it gains, in shares of sqrt(G' G''): a parabola through them serves.
 
-A rubber that loses a fifth of its modulus gains some 0.25. Times the squared distance from its pole a strain's
-slope is quadratic in the gain, as the pole moves with it: a line left slopes 4 to 6 % off.
+A rubber that loses a fifth of its modulus gains some 0.25. Times the squared distance from its pole a slope
+is quadratic in the gain, as the pole moves with it: a line left slopes 4 to 6 % off.
 """
 _MOST_LOG = 50.0
 """Of the logarithm of a strain: no core is so strained, and beyond it numbers end."""

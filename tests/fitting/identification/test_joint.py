@@ -192,6 +192,19 @@ def test_one_beyond_them_is_brought_in_by_its_modulus():
     np.testing.assert_allclose(near.modulus(OMEGA), far.modulus(OMEGA), rtol=0.02)
 
 
+def test_one_far_beyond_them_keeps_its_modulus():
+    """No usual law is as stiff as a free layer: a place to begin ten times softer is none."""
+    stiff = FractionalZener(0.15e9, 1.3e9, 3e-5, 0.5)
+    np.testing.assert_allclose(within_search(stiff, OMEGA).modulus(OMEGA), stiff.modulus(OMEGA), rtol=0.01)
+
+
+def test_one_far_beyond_them_begins_off_its_limits():
+    stiff = FractionalZener(0.15e9, 1e11, 3e-10, 0.5)
+    near = within_search(stiff, OMEGA)
+    assert near.ginf_pa < 0.5e11
+    np.testing.assert_allclose(near.modulus(OMEGA), stiff.modulus(OMEGA), rtol=0.05)
+
+
 def test_where_the_law_alone_began_from_does_not_matter_to_what_has_come_to_its_end(ready):
     begun = Drawn(ready, 0).begun
     cut_short = replace(begun, first=replace(begun.first, converged=False))

@@ -102,6 +102,13 @@ def test_a_material_card_is_a_table(folder):
     assert read_structure(folder / "carded.toml").core.law == read_structure(folder / "beam.toml").core.law
 
 
+def test_a_card_of_a_law_over_temperatures_is_a_table_at_its_reference(folder):
+    text = (folder / "tables" / "law.csv").read_text()
+    (folder / "card.csv").write_text(text.replace("frequency_hz", "reduced_frequency_hz", 1))
+    (folder / "carded.toml").write_text(BEAM.replace("tables/law.csv", "card.csv"))
+    assert read_structure(folder / "carded.toml").core.law == read_structure(folder / "beam.toml").core.law
+
+
 PLATE = (
     BEAM.replace("[beam]", "[plate]").replace("clamped-free", "cantilever").replace("20.0\n", "100.0\n", 1)
 )
