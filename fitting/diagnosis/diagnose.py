@@ -16,7 +16,7 @@ from fitting.diagnosis.search.singles import Singles
 from fitting.diagnosis.search.with_pairs import with_pairs
 from fitting.diagnosis.verdict import text
 from fitting.diagnosis.verdict.case import DiagnosisCase
-from fitting.diagnosis.verdict.cautions import warnings_of
+from fitting.diagnosis.verdict.cautions import moved_beside, warnings_of
 from fitting.diagnosis.verdict.judgement import (
     Judgement,
     beside_another_law,
@@ -226,7 +226,7 @@ def _diagnosis(decided: _Decided, case: DiagnosisCase, channels: ChannelsSeen, r
             *text.explain(problem, judgement, before, after, found),
         ),
         why_aside=channels.why_aside,
-        warnings=warnings_of(search, judgement),
+        warnings=(*warnings_of(search, judgement), *moved_beside(judgement.verdict, after.adjusted)),
         by_hand=judgement.by_hand,
         p_value=decided.resampled.p_value,
         resamples=decided.resampled.repeats,

@@ -193,16 +193,9 @@ def moved_too_far(numbers: Sequence[Adjusted], covariance: Array | None) -> list
 
     `covariance` of them in tolerances, shape (numbers, numbers); None where it is not known.
     """
-    pulled = sorted((one for one in numbers if abs(one.pull) > _PULLED), key=lambda one: -abs(one.pull))
-    if pulled:
-        named = ", ".join(f"{one.name} by {one.pull:+.1f}" for one in pulled)
-        return [
-            Doubt(
-                f"stated numbers had to be moved further than their tolerances say ({named} standard "
-                f"deviations, limit {_PULLED:g}): they are stated wrongly or the model lacks something, and "
-                f"{BIASED}; see 'viscorig diagnose'"
-            )
-        ]
+    if said := pulled_too_far(numbers):
+        why = "they are stated wrongly or the model lacks something"
+        return [Doubt(f"{said}: {why}, and {BIASED}; see 'viscorig diagnose'")]
     if covariance is None or not numbers:
         return []
     z = np.array([one.pull for one in numbers])
@@ -218,6 +211,16 @@ def moved_too_far(numbers: Sequence[Adjusted], covariance: Array | None) -> list
             f"stated wrongly or the model lacks something, and {BIASED}; see 'viscorig diagnose'"
         )
     ]
+
+
+def pulled_too_far(numbers: Sequence[Adjusted]) -> str:
+    """Which of them were moved further by themselves than they may be; empty for none."""
+    pulled = sorted((one for one in numbers if abs(one.pull) > _PULLED), key=lambda one: -abs(one.pull))
+    named = ", ".join(f"{one.name} by {one.pull:+.1f}" for one in pulled)
+    return named and (
+        f"stated numbers had to be moved further than their tolerances say ({named} standard "
+        f"deviations, limit {_PULLED:g})"
+    )
 
 
 def _law_warnings(fitted: CoreLaw, uncertainty: Uncertainty) -> list[str]:

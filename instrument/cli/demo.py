@@ -24,7 +24,7 @@ from instrument.run.experiment import Finished, run_experiment
 from instrument.session.configuration import read_whole_experiment
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
-from instrument.simulated_case import DEFAULT_EFFECT, chosen_effect, write_case
+from instrument.simulated_case import DEFAULT_EFFECT, chosen_effect, refuse_edited, write_case
 
 
 @click.command()
@@ -72,10 +72,10 @@ def _to_change_it(folder: Path) -> str:
 
 
 def _run_rig(out: Output, folder: Path, effect: str | None, seed: int) -> RunResult:
-    case = write_case(folder, seed=seed, effect=effect)
+    refuse_edited(folder)
     out.say("The simulated rig: bare plate, hammer; damped plate, stepped sine at 1 g.")
     out.say(f"Hidden in it: {effect or 'nothing'}. The model is not told.\n")
-    experiment = read_whole_experiment(case)
+    experiment = read_whole_experiment(write_case(folder, seed=seed, effect=effect))
     control = RunControl()
     with safe_stop(control), Watcher() as watch:
         finished = run_experiment(

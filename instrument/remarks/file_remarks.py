@@ -5,6 +5,7 @@ from collections.abc import Collection, Sequence
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.data.levels import count_of_levels
 from fitting.data.noise import noise_of
 from fitting.data.strays import strays
 from fitting.digits import two_digits
@@ -13,6 +14,7 @@ from fitting.identification.validation import HeldOutSegment, rms
 from fitting.laws import CoreLaw
 from fitting.structures import AnySpecimen, Beam, ShearPair
 from fitting.structures.shear_pair import EDGE
+from fitting.sweep import Sweep
 from instrument.models.files import File
 from instrument.remarks.as_given import (
     remarks_on_law,
@@ -57,6 +59,8 @@ def remarks_on_files(files: Sequence[File]) -> tuple[str, ...]:
         for text in of_law:
             named.setdefault(text, {})
     everyone = {file.name for file in files}
+    for text in remarks_on_strain(files):
+        named.setdefault(text, {})
     return tuple(_of(names, everyone) + text for text, names in named.items())
 
 
@@ -105,6 +109,27 @@ def _beyond_edges(pair: ShearPair) -> tuple[str, ...]:
         "as of thinner ones, and G' may be low (of full discs by 4 % at 1.5 times, by 9 % at 2); take "
         "thinner discs",
     )
+
+
+def remarks_on_strain(files: Sequence[File]) -> tuple[str, ...]:
+    """That the law of pads at one level is that of their strains: softening is not told from another law."""
+    pairs = [(file.sweep, s) for file in files if isinstance(s := file.specimen, ShearPair)]
+    driven = [pair for pair in pairs if pair[1].drive == "base" and not pair[1].exact]
+    if not driven or count_of_levels(np.concatenate([s.commanded_m_s2 for s, _ in driven])) > 1:
+        return ()
+    strain = np.concatenate([_strain(sweep, pair) for sweep, pair in driven])
+    least, most = (f"{100 * v:.2g}" for v in (strain.min(), strain.max()))
+    return (
+        f"one level: the law is that of the strains it was measured at ({least} to {most} % in the pads), "
+        "and softening with strain is not told from another law; a second level, three times lower, tells",
+    )
+
+
+def _strain(sweep: Sweep, pair: ShearPair) -> Array:
+    """Amplitude of the pads' shear strain. Shape (points,)."""
+    omega = sweep.omega
+    base = sweep.commanded_m_s2 / (1j * omega) if pair.reads == "absolute" else 0.0
+    return np.asarray(np.abs(sweep.velocity_m_s - base) / (omega * pair.core.thickness_m))
 
 
 def remarks_on_one_specimen(files: Sequence[File], rms_percent: float) -> tuple[str, ...]:

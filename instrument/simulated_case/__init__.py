@@ -56,24 +56,29 @@ def case_file(name: str) -> Path:
 
 
 def write_case(folder: Path, *, seed: int = 1, effect: str | None = None) -> Path:
-    """The case as files to run and to edit; the experiment's path.
+    """The case as files to run and to edit, over any that are there; the experiment's path.
 
-    Raises `BadInput`, also where such a file has been edited, or is another one.
+    Raises `BadInput`.
     """
     if effect is not None and effect not in EFFECTS:
         raise BadInput(f"effect {effect!r}, expected one of {', '.join(sorted(EFFECTS))}")
     hidden = f"effects.{effect} = {{ {EFFECTS[effect]} }}\n" if effect is not None else ""
     try:
         texts = {name: read_text(case_file(name)) for name in FILES}
-        for name, text in texts.items():
-            if (folder / name).is_file() and _as_given(read_text(folder / name)) != _as_given(text):
-                refuse_another_file(folder / name)
         texts["rig.toml"] = texts["rig.toml"].replace("seed = 1\n", f"seed = {seed}\n{hidden}")
         for name, text in texts.items():
             (folder / name).write_text(text, encoding="utf-8")
     except OSError as error:
         raise BadInput(f"{folder}: {system_words(error)}") from None
     return folder / "experiment.toml"
+
+
+def refuse_edited(folder: Path) -> None:
+    """Raise `BadInput` where a file that `write_case` would write has been edited, or is another."""
+    for name in FILES:
+        there = folder / name
+        if there.is_file() and _as_given(read_text(there)) != _as_given(read_text(case_file(name))):
+            refuse_another_file(there)
 
 
 def _as_given(text: str) -> str:

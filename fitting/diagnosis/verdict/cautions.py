@@ -1,11 +1,16 @@
 """What is to be borne in mind beside a verdict."""
 
+from collections.abc import Sequence
+
 from fitting.diagnosis.checks.stretches import words_of_stretches
 from fitting.diagnosis.inference.freer_law import freedom_of
 from fitting.diagnosis.search.catalogue_search import ScoredFit, Search
 from fitting.diagnosis.verdict.judgement import Judgement
 from fitting.diagnosis.verdict.refusing import against_by_checks
+from fitting.diagnosis.verdict.result import Verdict
+from fitting.identification.adjusted import Adjusted
 from fitting.identification.doubt import BIASED, Doubt
+from fitting.identification.result import pulled_too_far
 
 _NO_TIME, _NO_SECONDS = "the points carry no time", "the points' times are all one or no seconds"
 _NOT_CONSIDERED = (
@@ -23,6 +28,12 @@ def at_its_limit(accepted: ScoredFit) -> tuple[Doubt, ...]:
         return ()
     what = f"{accepted.too_large} ends at the limit of what is plausible"
     return (Doubt(f"{what}: there is more of it, or it is something else, and {BIASED}"),)
+
+
+def moved_beside(verdict: Verdict, numbers: Sequence[Adjusted]) -> tuple[Doubt, ...]:
+    """Where what is named, or nothing, holds only by stated numbers that lie far outside their tolerances."""
+    said = "" if verdict == "unknown" else pulled_too_far(numbers)
+    return (Doubt(f"{said}: they are stated wrongly or more is amiss, and {BIASED}"),) if said else ()
 
 
 def warnings_of(search: Search, judgement: Judgement) -> tuple[str, ...]:

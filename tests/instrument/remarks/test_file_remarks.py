@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from shear_pair_cases import sweep
+from shear_pair_cases import sweep, transmissibility
 
 from fitting.identification.validation import HeldOutSegment
 from fitting.laws.constant import ConstantModulus
@@ -18,6 +18,7 @@ from instrument.remarks.file_remarks import (
     remarks_on_one_specimen,
     remarks_on_rest,
     remarks_on_scale,
+    remarks_on_strain,
 )
 
 CORE = Core(6e-3, 0.5, 1100.0, ConstantModulus(5e6, 0.3))
@@ -82,6 +83,20 @@ def test_what_holds_of_all_files_is_said_once_and_of_some_by_their_names():
     both, alone = edges_of(a, b, c)
     assert both.startswith("a, b: what the discs'")
     assert alone.startswith("c: what the discs'")
+
+
+def test_of_one_level_the_strains_are_said_that_its_law_is_of():
+    resting = replace(PAIR, reads="relative")
+    at_one = [File(sweep(PAIR, points=30, noise=0.0, level=one), PAIR) for one in (9.81, 9.7)]
+    (said,) = remarks_on_strain(at_one)
+    T = transmissibility(PAIR, at_one[0].sweep.frequency_hz, CORE.law.modulus(at_one[0].sweep.omega))
+    most = 100 * np.max(np.abs(T - 1) * 9.81 / at_one[0].sweep.omega ** 2 / CORE.thickness_m)
+    assert float(said.split(" to ")[1].split(" %")[0]) == pytest.approx(most, rel=0.06)
+    assert remarks_on_strain([at_one[0], File(sweep(PAIR, points=30, level=3.0), PAIR)]) == ()
+    assert remarks_on_strain([File(at_one[0].sweep, replace(PAIR, exact=True))]) == ()
+    # What is read relative to the base is the strain itself.
+    moving = File(replace(at_one[0].sweep, velocity_m_s=1j * at_one[0].sweep.omega * 6e-5), resting)
+    assert "(1 to 1 % in the pads)" in remarks_on_strain([moving])[0]
 
 
 def test_files_far_off_one_law_that_share_one_pair_are_asked_whether_they_do():

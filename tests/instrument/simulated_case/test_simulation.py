@@ -8,7 +8,7 @@ from drivers.simulated.plant.sandwich import sandwich
 from instrument.errors import BadInput
 from instrument.files.rig_file import RigDocument
 from instrument.files.toml import read_document
-from instrument.simulated_case import write_case
+from instrument.simulated_case import refuse_edited, write_case
 from instrument.simulated_case.simulation import published_mount, simulated_rig
 from instrument.simulated_case.stated import CHANNEL_EFFECTS, effects_of
 
@@ -24,16 +24,19 @@ def stated(rig, **changes):
     return document.model_copy(update={"simulation": document.simulation.model_copy(update=changes)})
 
 
-def test_a_case_is_written_over_one_nobody_has_edited(tmp_path):
+def test_a_case_that_nobody_has_edited_may_be_written_over(tmp_path):
+    refuse_edited(tmp_path)
     write_case(tmp_path, effect="added_mass")
+    refuse_edited(tmp_path)
     write_case(tmp_path, seed=12)
+    refuse_edited(tmp_path)
     rig = tmp_path / "rig.toml"
     assert "\nseed = 12\n" in rig.read_text()
     assert "effects." not in "".join(line for line in rig.read_text().splitlines() if line[:1] != "#")
     rig.write_text(rig.read_text().replace('model = "OFV-5000"', 'model = "OFV-505"'))
     edited = {path.name: path.read_text() for path in tmp_path.iterdir()}
     with pytest.raises(BadInput, match=r"rig\.toml: a rig stands there and is not written over"):
-        write_case(tmp_path)
+        refuse_edited(tmp_path)
     assert {path.name: path.read_text() for path in tmp_path.iterdir()} == edited
 
 

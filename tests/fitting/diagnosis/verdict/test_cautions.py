@@ -4,8 +4,9 @@ from types import SimpleNamespace as Like
 
 import numpy as np
 
-from fitting.diagnosis.verdict.cautions import NO_DRIFT, warnings_of
+from fitting.diagnosis.verdict.cautions import NO_DRIFT, moved_beside, warnings_of
 from fitting.effects import CATALOGUE
+from fitting.identification.adjusted import Adjusted
 from fitting.identification.doubt import doubts_among
 from fitting.laws import LAWS
 from fitting.sweep import Sweep
@@ -27,6 +28,18 @@ def test_an_effect_that_ends_where_no_more_of_it_is_plausible_leaves_its_law_in_
     (said,) = said_of("core_thickness")
     assert said.startswith("core_thickness ends at the limit of what is plausible")
     assert doubts_among([said])
+
+
+def test_a_stated_number_far_outside_its_tolerance_leaves_what_is_named_in_doubt():
+    numbers = [
+        Adjusted(f"mass [{k}]", 0.4, 0.004, 0.4, 0.001, pull, "kg") for k, pull in ((1, -2.7), (2, 6.6))
+    ]
+    (said,) = moved_beside("effect", numbers)
+    assert "mass [2] by +6.6" in said
+    assert "mass [1]" not in said
+    assert doubts_among([said])
+    assert moved_beside("none", numbers[:1]) == ()
+    assert moved_beside("unknown", numbers) == ()
 
 
 def test_what_a_mass_leaves_out_is_said_and_is_no_doubt_by_itself():
