@@ -10,12 +10,16 @@ _PULLED = 12.30 / 4.730**4
 Blevins, Formulas for Natural Frequency and Mode Shape, table 8-1)."""
 _WORTH_SAYING = 1e-3
 """Of a resonance."""
+_UNGRIPPED, _OF_MODULUS = 7.0, 0.01
+"""Times thickness over length, how much lower G' of a free layer is found that ends at its clamp: of 2 mm on
+steel and 3 mm on aluminium, 200 mm long, as solids, 7 and 11 %; and the least share worth saying."""
 
 
 def remarks_on_clamps(specimen: AnySpecimen) -> tuple[str, ...]:
     """What clamps do that nobody states."""
     if isinstance(specimen, Beam):
-        return (*_on_held_width(specimen), *_on_pulled_beam(specimen), *_on_ends_of_treatment(specimen))
+        ends = (*_on_ends_of_treatment(specimen), *_on_end_of_free_layer(specimen))
+        return (*_on_held_width(specimen), *_on_pulled_beam(specimen), *ends)
     return _on_pulled_plate(specimen) if isinstance(specimen, PlateSpecimen) else ()
 
 
@@ -32,6 +36,21 @@ def _on_ends_of_treatment(beam: Beam) -> tuple[str, ...]:
     return (
         "both clamps are taken to grip the constraining layer: where it ends short of both nothing shows, "
         "and the first loss factor is found up to 60 % too low; look, or clamp one end alone",
+    )
+
+
+def _on_end_of_free_layer(beam: Beam) -> tuple[str, ...]:
+    """It takes about its own thickness to be strained as its metal is."""
+    if beam.core is None or beam.constraining is not None or beam.exact:
+        return ()
+    if not beam.boundary.startswith("clamped"):
+        return ()
+    lower = _UNGRIPPED * beam.core.thickness_m / beam.length_m
+    if lower < _OF_MODULUS:
+        return ()
+    return (
+        "the clamp is taken to grip the free layer with its metal: where the layer ends at the clamp G' is "
+        f"found some {100 * lower:.0f} % too low, and nothing shows",
     )
 
 

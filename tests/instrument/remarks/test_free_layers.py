@@ -57,9 +57,9 @@ def test_metal_two_tolerances_thicker_leaves_the_loss_factor_inside_the_interval
 def test_a_law_from_tables_says_so_and_so_does_their_diagnosis():
     stated = free(1.5e-3)
     tables = [table_of(stated, thicker=1.01)]
-    (identified,) = (r for r in identify_tables(tables, [stated]).remarks if "free layer" in r)
+    (identified,) = (r for r in identify_tables(tables, [stated]).remarks if "of a free layer" in r)
     others = frozenset(e.name for e in standing([stated])) - {"added_mass"}
-    (diagnosed,) = (r for r in diagnose_tables(tables, [stated], others).remarks if "free layer" in r)
+    (diagnosed,) = (r for r in diagnose_tables(tables, [stated], others).remarks if "of a free layer" in r)
     assert "with 95 % " in identified
     assert "with 95 % " in diagnosed
 
