@@ -112,7 +112,7 @@ def _beyond_edges(pair: ShearPair) -> tuple[str, ...]:
 
 
 def remarks_on_strain(files: Sequence[File]) -> tuple[str, ...]:
-    """That the law of pads at one level is that of their strains: softening is not told from another law."""
+    """Which strains pads had whose law is of one level: there softening is not told from another law."""
     pairs = [(file.sweep, s) for file in files if isinstance(s := file.specimen, ShearPair)]
     driven = [pair for pair in pairs if pair[1].drive == "base" and not pair[1].exact]
     if not driven or count_of_levels(np.concatenate([s.commanded_m_s2 for s, _ in driven])) > 1:
