@@ -69,6 +69,17 @@ def misread(form: Shift, own: ShiftedFit) -> Misread | None:
     return None
 
 
+def off_any_curve(free: ShiftedFit) -> Misread | None:
+    """Of free factors the one without which all others lie on a WLF curve; None where all do, or none.
+
+    No form was asked for: this is how a wrong temperature, the reference's among them, shows all the same.
+    """
+    shift = free.shift
+    if shift.kind != "free":
+        return None
+    return misread(Shift("wlf", shift.temperature_c, shift.reference_c, shift.error_k), free)
+
+
 def _misread(form: Shift, log_a: Array, errors: Array, its: list[int]) -> Misread:
     """Sweeps of one stated temperature, and where the form through the others has them."""
     T = form.temperature_c

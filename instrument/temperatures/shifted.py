@@ -23,7 +23,7 @@ from fitting.temperature.shifted_fit import ShiftedFit
 from fitting.temperature.shifts import Kind, Shift
 from fitting.temperature.simple import OddOne, Verdict, in_doubt, judge, serving, story
 from fitting.temperature.spots import spots_apart_m
-from fitting.temperature.thermometers import rising
+from fitting.temperature.thermometers import Misread, off_any_curve, rising
 from instrument.errors import BadInput
 from instrument.models.set_up import Hammer
 from instrument.progress import Progress, quiet
@@ -106,6 +106,8 @@ class Shifted:
             said.append(_doubt_of_temperatures(fit))
         if self.stiffens is not None:
             said.append(self.stiffens)
+        elif (wrong := off_any_curve(fit)) is not None:
+            said.append(_doubt_of_factors(wrong))
         return tuple(said)
 
     @property
@@ -139,6 +141,16 @@ def _doubt_of_temperatures(fit: ShiftedFit) -> Doubt:
     return Doubt(
         f"{words}, as if one were stated wrongly: {which}{several}: {check}; errors of law and shift are "
         f"widened by it, but {BIASED}"
+    )
+
+
+def _doubt_of_factors(wrong: Misread) -> Doubt:
+    """Which of the free factors lies off the curve of the others, and where they have its temperature."""
+    each = (wrong, *wrong.rivals)
+    which = " or ".join(f"{m.stated_c:.4g} degC ({m.read_c:.1f} by the others)" for m in each)
+    return Doubt(
+        f"free factors lie on no WLF curve, as if one temperature were stated wrongly: {which}: check it, "
+        f"the reference's own makes all of G' wrong, and {BIASED}; or a transition lies between them"
     )
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fitting.temperature.shifts import Shift
-from fitting.temperature.thermometers import each_its_own, misread, rising
+from fitting.temperature.thermometers import each_its_own, misread, off_any_curve, rising
 
 T = np.array([0.0, 10.0, 20.0, 30.0, 40.0])
 FORMS = {"wlf": np.array([9.0, 110.0]), "arrhenius": np.array([1.2e5])}
@@ -45,6 +45,25 @@ def test_right_temperatures_too_few_and_two_wrong_ones_name_nobody():
         misread(Shift("free", T, 20.0, 0.3), own(factors("wlf", T + np.array([0.0, 0.0, 20.0, 0.0, 0.0]))))
         is None
     )
+
+
+@pytest.mark.parametrize("kind", FORMS)
+@pytest.mark.parametrize("k", [1, 2, 4])
+def test_of_free_factors_one_that_lies_off_the_curve_of_the_others_is_named(kind, k):
+    """The second is the reference here: its own error is in all other factors alike."""
+
+    def free(true_c, kind_said="free"):
+        of_form = own(factors(kind, true_c))
+        of_form.shift = Shift(kind_said, T, 10.0, 0.3)
+        return of_form
+
+    off = T.copy()
+    off[k] += 8.0
+    found = off_any_curve(free(off))
+    assert found.stated_c == T[k]
+    assert found.read_c == pytest.approx(T[k] + 8.0, abs=0.7)
+    assert off_any_curve(free(T)) is None
+    assert off_any_curve(free(off, "wlf")) is None
 
 
 def test_specimens_that_were_wrong_together_are_named_by_the_first_of_them():

@@ -12,6 +12,7 @@ from fitting.identification.adjusted import Adjusted
 from fitting.identification.doubt import doubts_among
 from fitting.identification.result import LawBand
 from fitting.temperature.simple import judge
+from fitting.temperature.thermometers import Misread
 from instrument.temperatures.shifted import Shifted
 
 F_HZ = np.geomspace(50, 4000, 5)
@@ -87,3 +88,12 @@ def test_temperatures_that_may_be_wrong_are_a_doubt_with_what_the_others_make_of
     )
     monkeypatch.setitem(vars(fit_and_each[0]), "suspects", [])
     assert not any("farther from" in one for one in made(fit_and_each).warnings)
+
+
+def test_a_free_factor_off_the_curve_of_the_others_is_a_doubt(monkeypatch, fit_and_each):
+    wrong = Misread(1, 20.0, 23.5, 0, (Misread(2, 30.0, 26.0),))
+    plain = made(fit_and_each)
+    assert not any("free factors" in one for one in plain.warnings)
+    monkeypatch.setattr("instrument.temperatures.shifted.off_any_curve", lambda fit: wrong)
+    (said,) = [one for one in doubts_among(made(fit_and_each).warnings) if "free factors" in one]
+    assert "stated wrongly: 20 degC (23.5 by the others) or 30 degC (26.0 by the others): check" in said
