@@ -6,6 +6,7 @@ from math import nan
 from instrument.cards.card import Card
 from instrument.facts.card import CardResult, PronySeries, PronyTerm
 from instrument.facts.rows import LawRow
+from instrument.files.dma_file import REDUCED
 
 _KEYS = (
     "frequency_hz",
@@ -15,16 +16,13 @@ _KEYS = (
     "loss_factor_standard_error",
 )
 
-_REDUCED = "reduced_frequency_hz"
-"""Of a law over temperatures; `[core.law]` reads them back."""
-
 
 def as_csv(card: Card) -> str:
     """G' and eta with standard errors; nothing where there is none.
 
     Of a law over temperatures the frequencies are named as the reduced ones that they are.
     """
-    names = [_REDUCED if key == _KEYS[0] and card.law.shift is not None else key for key in _KEYS]
+    names = [REDUCED if key == _KEYS[0] and card.law.shift is not None else key for key in _KEYS]
     columns = [getattr(card.law, key).tolist() for key in _KEYS]
     rows = [",".join("" if v != v else repr(v) for v in row) for row in zip(*columns, strict=True)]
     return "\n".join([*(f"# {line}" for line in card.header()), ",".join(names), *rows, ""])

@@ -18,8 +18,8 @@ Kind = Literal["shear", "tension", "bending"]
 KINDS: tuple[str, ...] = get_args(Kind)
 _ABOVE_ZERO = ("frequency_hz", "storage_modulus_pa", "storage_modulus_std_pa", "loss_factor_std")
 _NUMBERS = (*_ABOVE_ZERO, "temperature_c", "loss_factor", "loss_modulus_pa")
-_REDUCED = "reduced_frequency_hz"
-"""As `viscorig card` names them."""
+REDUCED = "reduced_frequency_hz"
+"""As a card of a law over temperatures names its frequencies."""
 _SAID = re.compile(r"^\s*#\s*(kind|poisson)\s*:\s*(\S+)\s*$", re.MULTILINE)
 
 _PA = {"kpa": 1e3, "mpa": 1e6, "gpa": 1e9}
@@ -96,7 +96,7 @@ def _plainly(header: list[str]) -> list[str]:
     """Of a card of a law over temperatures the reduced frequencies are those at its reference."""
     if "frequency_hz" in header:
         return header
-    return ["frequency_hz" if name == _REDUCED else name for name in header]
+    return ["frequency_hz" if name == REDUCED else name for name in header]
 
 
 def _check(path: Path, header: list[str]) -> None:
