@@ -8,7 +8,7 @@ import numpy as np
 
 from fitting.arrays import Array, Integers
 from fitting.diagnosis.problem.base import DiagnosisProblem, NodeGrid, points_of
-from fitting.diagnosis.problem.nodes import Nodes
+from fitting.diagnosis.problem.every_point import EveryPoint
 from fitting.nuisances.nuisances import nuisances_of
 from fitting.reduced.rational import rational_sweep
 from fitting.reduced.reduced_plate import ReducedPlate
@@ -37,7 +37,7 @@ def exact_problem(
         time_s=time_s,
     )
     rational = rational_sweep(reduced, sweep.omega)
-    nodes = _every_point(sweep.omega)
+    nodes = EveryPoint.at(sweep.omega)
     grid = NodeGrid(nodes, rational)
     return DiagnosisProblem(
         sweep=sweep,
@@ -47,15 +47,6 @@ def exact_problem(
         rational=rational,
         fine=grid,
         coarse=grid,
-        passes=grid,
         dense=nodes,
         nuisances=nuisances_of(specimen, plate, has_phase=True),
     )
-
-
-def _every_point(omega: Array) -> Nodes:
-    """A node at every point: nothing is interpolated."""
-    count, none = len(omega), np.empty(0, dtype=np.intp)
-    one = np.eye(count)
-    cluster = np.zeros(count, dtype=np.intp)
-    return Nodes(omega, omega, one, one, cluster, np.empty(0, complex), none)

@@ -9,6 +9,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.data.times import is_timed
+from fitting.diagnosis.problem.every_point import EveryPoint
 from fitting.diagnosis.problem.narrow_resonances import Errs, narrow_of
 from fitting.diagnosis.problem.nodes import HZ_A_NODE, Nodes
 from fitting.diagnosis.problem.plate_poles import PlatePoles, cuts_between
@@ -78,8 +79,6 @@ class DiagnosisProblem:
     """The unchanged plate's exact answer at every point."""
     fine: NodeGrid
     coarse: NodeGrid
-    passes: NodeGrid
-    """Dense, every pass of a segment for itself."""
     dense: Nodes
     """For strains of the core, which are squares of motions."""
     nuisances: Nuisances
@@ -105,7 +104,6 @@ class DiagnosisProblem:
         grids = [
             Nodes.of(sweep.omega, FINE, cuts=cuts),
             Nodes.of(sweep.omega, COARSE, cuts=cuts, hz_a_node=2 * HZ_A_NODE),
-            Nodes.of(sweep.omega, DENSE, sweep.sweep, cuts=cuts),
         ]
         omega = np.unique(np.concatenate([sweep.omega, *(g.omega for g in grids)]))
         whole = rational(omega)
@@ -113,10 +111,15 @@ class DiagnosisProblem:
         def at(some: Array) -> RationalSweep:
             return whole.at(np.searchsorted(omega, some * (1 - 1e-12)))
 
-        fine, coarse, passes = (NodeGrid(g, at(g.omega)) for g in grids)
+        fine, coarse = (NodeGrid(g, at(g.omega)) for g in grids)
         points, dense = points_of(sweep, specimen), Nodes.of(sweep.omega, DENSE, cuts=cuts)
         nuisances = nuisances_of(specimen, plate, has_phase=sweep.has_phase, reference=reference)
-        return cls(sweep, specimen, plate, points, at(sweep.omega), fine, coarse, passes, dense, nuisances)
+        return cls(sweep, specimen, plate, points, at(sweep.omega), fine, coarse, dense, nuisances)
+
+    @cached_property
+    def each_point(self) -> NodeGrid:
+        """Every point for itself, as where an effect gives each a modulus of its own."""
+        return NodeGrid(EveryPoint.at(self.sweep.omega), self.rational)
 
     @property
     def files_without_time(self) -> tuple[int, ...]:
@@ -269,8 +272,8 @@ class DiagnosisProblem:
             p, reach = found.near(low, high), _BESIDE * (high - low)
             return p[(p.real > low - reach) & (p.real < high + reach)]
 
-        fine, coarse, passes = (made_for(g) for g in (self.fine, self.coarse, self.passes))
-        return replace(self, fine=fine, coarse=coarse, passes=passes, dense=self.dense.around(close))
+        fine, coarse = (made_for(g) for g in (self.fine, self.coarse))
+        return replace(self, fine=fine, coarse=coarse, dense=self.dense.around(close))
 
 
 def points_of(sweep: Sweep, specimen: StatedSpecimen) -> Points:

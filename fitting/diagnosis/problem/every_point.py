@@ -19,12 +19,12 @@ class EveryPoint(Nodes):
         """Of a sweep's points in rad/s. Shape (points,)."""
         same = sp.eye_array(len(omega), format="csr")
         none = np.empty(0, dtype=np.intp)
-        return cls(omega, omega, same, same, np.zeros(len(omega), np.intp), np.empty(0, complex), none)
+        return cls(omega, omega, same, np.zeros(len(omega), np.intp), np.empty(0, complex), none)
 
     def around(self, poles: Callable[[float, float], Complex]) -> "EveryPoint":
         """No pole matters where nothing is interpolated."""
         return self
 
-    def spread(self, values: Complex, first: Complex, second: Complex, *, twice: bool = False) -> Complex:
+    def spread(self, values: Complex, first: Complex, second: Complex) -> Complex:
         """The values as they are. Shape (points,) at the end."""
         return values

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.polynomial.chebyshev import chebvander
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, Places, as_slice
@@ -22,9 +21,6 @@ _AT_A_NODE = 1e-9
 """Relative distance within which a place is a node itself: the formula would divide by it."""
 MOST_POLES = 4
 """Taken out of a cluster: those in it and one on either side; more make the weights lose digits."""
-_STEADIEST = 10.0
-"""Times that the way back from points to nodes may magnify what a polynomial does not follow. High degrees
-through evenly spaced points magnify without bound (Runge; 56 nodes from 77 points: 8e7). A choice."""
 _FARTHEST, _LEAST_DAMPED = 0.4, 0.25
 """A pole followed further than this from the unchanged one, or losing more of its damping (relative), is
 another mode's."""
@@ -53,8 +49,6 @@ class Nodes:
     """rad/s, as the sweep has them. Shape (points,)."""
     plain: Array
     """Interpolates what has no poles. Shape (points, nodes)."""
-    fit: Array
-    """The way back: least squares of what has no poles and is smooth. Shape (nodes, points)."""
     cluster: NDArray[np.intp]
     """Number of each node's cluster. Shape (nodes,)."""
     poles: Complex
@@ -67,25 +61,21 @@ class Nodes:
         cls,
         omega: Array,
         least: int,
-        passes: NDArray[np.intp] | None = None,
         *,
         cuts: Array | None = None,
         hz_a_node: float = HZ_A_NODE,
     ) -> "Nodes":
         """At least `least` nodes a cluster, more where it is wide; no more than it has frequencies.
 
-        `passes` numbers the points (shape (points,)): each has clusters of its own. `cuts` (rad/s, ascending,
-        shape (any,)) part clusters that hold more poles than can be taken out.
+        `cuts` (rad/s, ascending, shape (any,)) part clusters that hold more poles than can be taken out.
         """
         numbers = segments_by_gap(omega / (2 * np.pi))
         if cuts is not None and len(cuts):
             numbers = np.unique(
                 np.stack([numbers, np.searchsorted(cuts, omega)]), axis=1, return_inverse=True
             )[1]
-        if passes is not None:
-            _, numbers = np.unique(np.stack([numbers, passes]), axis=1, return_inverse=True)
         nodes, clusters = [], []
-        plain, fit = np.zeros((len(omega), 0)), np.zeros((0, len(omega)))
+        plain = np.zeros((len(omega), 0))
         for number in np.unique(numbers):
             inside = numbers == number
             known = np.unique(omega[inside])
@@ -94,9 +84,7 @@ class Nodes:
             at = known if len(known) <= wanted else _chebyshev(known[0], known[-1], wanted)
             block = np.zeros((len(omega), len(at)))
             block[inside] = _interpolation(at, omega[inside])
-            back = np.zeros((len(at), len(omega)))
-            back[:, inside] = _smoothing(at, omega[inside], block[inside])
-            plain, fit = np.hstack([plain, block]), np.vstack([fit, back])
+            plain = np.hstack([plain, block])
             nodes.append(at)
             clusters.append(np.full(len(at), number))
         none = np.empty(0, dtype=np.intp)
@@ -104,7 +92,6 @@ class Nodes:
             np.concatenate(nodes),
             omega,
             plain,
-            fit,
             np.concatenate(clusters),
             np.empty(0, complex),
             none,
@@ -140,8 +127,8 @@ class Nodes:
         before, after = self._neighbours
         return np.asarray((values[after] - values[before]) / (self.omega[after] - self.omega[before]))
 
-    def spread(self, values: Complex, first: Complex, second: Complex, *, twice: bool = False) -> Complex:
-        """From nodes to points of what has two sets of poles, `twice`: double ones.
+    def spread(self, values: Complex, first: Complex, second: Complex) -> Complex:
+        """From nodes to points of what has two sets of poles.
 
         Shapes (..., nodes) to (..., points).
         """
@@ -155,7 +142,6 @@ class Nodes:
             # (w^2 - p^2) (w^2 - p'^2) over |p|^4 for its every pole.
             mine = c.poles
             at = ((c.squares - p[mine]) * (c.squares - q[mine]) * per_size[mine]).prod(axis=0)
-            at = at**2 if twice else at
             weighted = values[..., c.nodes] * at[: c.plain.shape[1]]
             found[..., c.points] = (weighted @ c.plain.T) * (1 / at[c.plain.shape[1] :])
         return found
@@ -203,18 +189,6 @@ class Nodes:
         far = np.abs(moved - self.poles) > _FARTHEST * np.abs(self.poles)
         lost = far | (moved.imag < _LEAST_DAMPED * self.poles.imag)
         return np.where(lost, otherwise, moved)
-
-
-def _smoothing(nodes: Array, points: Array, plain: Array) -> Array:
-    """From points to nodes, by the highest degree that does not magnify. `plain` of shape (points, nodes)."""
-    found = np.asarray(np.linalg.pinv(plain))
-    middle, half = (nodes[0] + nodes[-1]) / 2, (nodes[-1] - nodes[0]) / 2
-    for degree in range(len(nodes) - 2, -1, -1):
-        if np.abs(found).sum(axis=1).max() <= _STEADIEST:
-            break
-        at_nodes, at_points = (chebvander((w - middle) / half, degree) for w in (nodes, points))
-        found = at_nodes @ np.linalg.pinv(at_points)
-    return found
 
 
 def _chebyshev(low: float, high: float, count: int) -> Array:

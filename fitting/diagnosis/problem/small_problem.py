@@ -91,7 +91,7 @@ class SmallProblem(DiagnosisProblem):
         grid = NodeGrid(nodes, rational)
         points = points_of(sweep, specimen)
         stated = nuisances_of(specimen, parts, has_phase=sweep.has_phase)
-        return cls(sweep, specimen, system, points, rational, grid, grid, grid, nodes, stated)
+        return cls(sweep, specimen, system, points, rational, grid, grid, nodes, stated)
 
     def condensed(self, law: CoreLaw, sides: Sequence[Array] = ()) -> "SmallProblem":
         """A beam condensed to moduli about a law's; a pair is small as it is."""

@@ -3,7 +3,7 @@
 The stated numbers come first among the unknowns (`fitting.nuisances.nuisances`), then those of each effect.
 
 The unchanged plate is exact at every point (a rational sum in G*). What effects change of the plate is
-solved at a few nodes and interpolated, to first order in how far a point's modulus is off the law's.
+solved at a few nodes and interpolated; at every point where an effect gives each a modulus of its own.
 Channels, sharp factors, a part that swings (`swinging_part`) and the law itself act at every point.
 """
 
@@ -73,9 +73,9 @@ class SweepResponse:
         self._moving_it = [n for k in self._changes.effects for n in self._fitted_of(k)]
         self._of_part = self._fitted_of(self._part.of) if self._part else []
         self.grid = grid or problem.fine
-        if self._modulus.effects and self._moves:
-            # The modulus is another one in every pass.
-            self.grid = problem.passes
+        if self._modulus.effects:
+            # Each point has a modulus of its own: nothing is smooth between them.
+            self.grid = problem.each_point
         self._last: tuple[bytes, OfPlate] | None = None
         self._latest: tuple[CoreLaw, Array, At] | None = None
         self._ready: tuple[Array, Asked, Motions] | None = None
@@ -114,7 +114,7 @@ class SweepResponse:
         at = others._at(law, known)
         grid, last = others.grid, self.effects[-1]
         found = [others._changes.of(k, known, self.plate) for k in others._changes.effects]
-        G, _ = others._bearing(law, others._modulus.of_law(law), at.plate.G)
+        G = others._at_nodes(law, at.plate.G)
         change = reduce(Change.and_then, [*found, *self._changes.stated(known)], Change())
         asked = self._asked(G, change, others._place(self.plate, known), grid)
         each = [self._changes.moving(last.coming_in(self.plate, u)) for u in starts]
@@ -168,41 +168,26 @@ class SweepResponse:
         G_law = self._modulus.of_law(law)
         key = self._key(G_law, u)
         if self._last is None or self._last[0] != key:
-            self._last = key, self._of_plate_anew(law, u, G_law)
+            self._last = key, self._of_plate_anew(law, u)
         return self._last[1]
 
-    def _of_plate_anew(self, law: CoreLaw, u: Array, G_law: Complex) -> OfPlate:
+    def _of_plate_anew(self, law: CoreLaw, u: Array) -> OfPlate:
         G = self._modulus.at(law, u)
         x, slope = self.problem.rational.with_derivative(G)
         if not self._moves:
             return OfPlate(G, x, slope, np.zeros(len(G), complex), None, None, None)
-        G_nodes, smooth = self._bearing(law, G_law, G)
+        G_nodes = self._at_nodes(law, G)
         asked, moved = self._solved(u, G_nodes)
         solved, nodes = PlateAnswer(asked, moved), self.grid.nodes
         pitch = 0 * G_nodes if solved.pitch is None else solved.pitch.value
         changed = np.array([solved.heave.value - self.grid.rational.displacement(G_nodes), pitch])
         more, turned = nodes.spread(changed, self.grid.unchanged_poles(G_nodes), solved.poles)
         x = x + more
-        if self._modulus.effects:
-            _, unchanged = self.grid.rational.with_derivative(G_nodes)
-            poles = self.grid.unchanged_poles(G_nodes), solved.poles
-            more_slope = nodes.spread(solved.heave.by_G - unchanged, *poles, twice=True)
-            x, slope = x + more_slope * (G - smooth), slope + more_slope
         if self._part is None:
             return OfPlate(G, x, slope, turned, (asked, moved), None, None)
-        off = G - smooth if self._modulus.effects else None
-        part = self._part.on(self.plate, u, x, turned, *self._of_place(solved, off))
+        of_place = self._spread(np.array([r.value for r in solved.of_place]), solved)
+        part = self._part.on(self.plate, u, x, turned, *of_place)
         return OfPlate(G, part.heave.x, slope, part.turned.x, (asked, moved), None, part)
-
-    def _of_place(self, solved: PlateAnswer, off: Complex | None) -> Complex:
-        """Receptances of the part's place at every point, to first order in how far a modulus is `off`.
-
-        Shapes (points,) to (receptances, points).
-        """
-        found = self._spread(np.array([r.value for r in solved.of_place]), solved)
-        if off is None:
-            return found
-        return np.asarray(found + off * self._spread(np.array([r.by_G for r in solved.of_place]), solved))
 
     def _along(
         self, solved: PlateAnswer, part: WithPart | None, rows: Callable[[Receptance], Complex]
@@ -246,20 +231,11 @@ class SweepResponse:
                 np.vstack([by.heave, *(heave for heave, _ in own)]),
                 np.vstack([by.turned, *(turned for _, turned in own)]),
             )
-        slope = heave[0]
-        if self._modulus.effects:
-            # Known at the modulus itself, where the nodes' is the smooth one's.
-            slope = slope + plate.slope - self._spread(solved.heave.by_G, solved)
-        return replace(plate, slope=slope, turned_slope=turned[0], by=by)
+        return replace(plate, slope=heave[0], turned_slope=turned[0], by=by)
 
-    def _bearing(self, law: CoreLaw, G_law: Complex, G: Complex) -> tuple[Complex, Complex]:
-        """The modulus at the nodes, and the smooth one at every point that goes through it."""
-        nodes = self.grid.nodes
-        at_nodes = law.modulus(nodes.omega)
-        if not self._modulus.effects:
-            return at_nodes, G_law
-        share = nodes.fit @ (G / G_law)
-        return at_nodes * share, G_law * (nodes.plain @ share)
+    def _at_nodes(self, law: CoreLaw, G: Complex) -> Complex:
+        """The modulus at the nodes, of one at every point."""
+        return G if self._modulus.effects else law.modulus(self.grid.nodes.omega)
 
     def _solved(self, u: Array, G: Complex) -> tuple[Asked, Motions]:
         """What was asked at the nodes, and how it moves."""
@@ -303,7 +279,7 @@ class SweepResponse:
         G_law = self._modulus.of_law(law)
         if self._last is not None and self._last[0] == self._key(G_law, u):
             return None
-        G, _ = self._bearing(law, G_law, self._modulus.at(law, u))
+        G = self._at_nodes(law, self._modulus.at(law, u))
         return self._asked(G, self._changes.every(u), self._place(self.plate, u))
 
     def know(self, asked: Asked, moved: Motions, u: Array) -> None:

@@ -106,7 +106,6 @@ class SeveralProblem(DiagnosisProblem):
             rational,
             grid,
             grid,
-            grid,
             nodes,
             SharedNuisances(first.nuisances.specimen, each, first=first.nuisances, places=places[0]),
             tuple(members),

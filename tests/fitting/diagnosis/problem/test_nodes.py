@@ -25,15 +25,6 @@ def test_a_change_of_sharp_resonances_is_carried_from_few_nodes_to_all_points():
     assert np.abs(found - expected).max() < 1e-6 * np.abs(expected).max()
 
 
-def test_a_change_of_what_has_double_poles_is_carried_as_well():
-    nodes = Nodes.of(OMEGA, 16).around(between)
-    at_nodes, expected = (response(w, MOVED) ** 2 - response(w, POLES) ** 2 for w in (nodes.omega, OMEGA))
-    found = nodes.spread(at_nodes, POLES, MOVED, twice=True)
-    assert np.abs(found - expected).max() < 1e-6 * np.abs(expected).max()
-    once = nodes.spread(at_nodes, POLES, MOVED)
-    assert np.abs(once - expected).max() > 1e-5 * np.abs(expected).max()
-
-
 def test_without_the_poles_the_same_nodes_do_not_suffice():
     nodes = Nodes.of(OMEGA, 16)
     change = response(nodes.omega, MOVED) - response(nodes.omega, POLES)
@@ -71,20 +62,6 @@ def test_two_frequencies_a_radian_a_second_apart_are_their_own_nodes_without_a_w
     with np.errstate(all="raise"):
         nodes = Nodes.of(omega, 8)
     assert nodes.plain.tolist() == [[1.0, 0.0], [0.0, 1.0]]
-
-
-@pytest.mark.parametrize(
-    ("low", "high", "points"), [(380, 575, 77), (20, 40, 20), (20, 40, 25), (14, 26, 118)]
-)
-def test_the_way_back_from_points_to_nodes_magnifies_nothing(low, high, points):
-    """Evenly spaced points bear no high degrees: what jumps between them would be all there is."""
-    omega = 2 * np.pi * np.linspace(low, high, points)
-    nodes = Nodes.of(omega, 16)
-    jumps = 1e-3 * np.where(np.arange(points) % 2, 1, -1)
-    assert np.abs(nodes.plain @ (nodes.fit @ jumps)).max() < 2e-2
-    t = (nodes.omega - omega.mean()) / np.ptp(omega), (omega - omega.mean()) / np.ptp(omega)
-    smooth = [1 - 0.1 * x + 0.05 * x**2 - 0.02 * x**6 for x in t]
-    assert nodes.fit @ smooth[1] == pytest.approx(smooth[0], rel=1e-9)
 
 
 def test_a_wide_cluster_has_nodes_as_close_as_is_asked():
