@@ -1,6 +1,7 @@
 """The core softens with strain (Payne effect): the harder the plate is driven, the softer it is."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from itertools import product
 
 import scipy.sparse as sp
@@ -107,10 +108,19 @@ class AmplitudeSofteningEffect(Effect):
         lost, gained = core.along(ways(core.lost, core.gained if core.curve.loss else None))
         return strained_along(G(), lost, gained)
 
+    def modulus_by(self, G: ModulusAt, points: Points, u: Array, step: Array) -> Complex:
+        core = self._core(G, points, u)
+        beside = [replace(core, curve=self._curve(v), kept=self._kept(v)) for v in (u + step, u - step)]
+        lost, gained = core.along_own(beside)
+        return strained_along(G(), lost, gained)
+
     def _core(self, G: ModulusAt, points: Points, u: Array) -> SoftenedCore:
-        kept = float(u[-1]) if self.keeps else 0.0
+        kept = self._kept(u)
         time_s = points.time_s.tobytes() if kept else b""
         return softened_core(self._curve(u), G.strain, len(points.omega), kept, time_s)
+
+    def _kept(self, u: Array) -> float:
+        return float(u[-1]) if self.keeps else 0.0
 
     def _curve(self, u: Array) -> Kraus:
         of = dict(zip((q.key for q in self.parameters), map(float, u), strict=True))

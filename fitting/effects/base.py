@@ -305,6 +305,14 @@ class Effect:
         """
         return None
 
+    def modulus_by(self, G: ModulusAt, points: Points, u: Array, step: Array) -> Complex | None:
+        """What `modulus` differs by from a step below to one above in its own numbers; None as `modulus`.
+
+        Shape (points,), of `step` as of `u`.
+        """
+        up, down = (self.modulus(G, points, one) for one in (u + step, u - step))
+        return None if up is None or down is None else up - down
+
     def pitch(self, omega: Array, u: Array) -> Complex | None:
         """Angular acceleration of the base over its acceleration, rad/m. Shape of `omega`."""
         return None

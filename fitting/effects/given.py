@@ -70,7 +70,8 @@ class Strain(Protocol):
     def __call__(self, softened: Array, gained: Array | None = None) -> Array:
         """Of a core that is softened by fractions of its modulus, its loss modulus being larger by `gained`.
 
-        In shares of sqrt(G' G'') before it softens. Shape (points,) each.
+        In shares of sqrt(G' G'') before it softens. Shape (..., points) each: ways to soften it are asked
+        for in one go.
         """
 
     def __hash__(self) -> int:

@@ -1,5 +1,6 @@
 """A core as soft as its own strain makes it, and how that moves as something strains it otherwise."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -20,8 +21,12 @@ _OFF = 1e-7
 """Of a strain, that it may be off what it makes of itself: far below any noise."""
 _FARTHEST, _NEAREST = 40.0, 1e-4
 """Times the strain of a core that does not soften: how far another may lie, of that the least looked at."""
-_PLACES, _HALVES = 120, 50
-"""Looked at between them, 8 % from one to the next; then halves of a gap, below the last digit of any."""
+_PLACES = 120
+"""Looked at between them, 8 % from one to the next."""
+_SHARES = np.arange(1, 8)[:, None] / 8
+"""Of a gap, looked at in one go. Shape (places, 1)."""
+_ROUNDS = 10
+"""Of that, in each an eighth of the gap is left: 1e-10 of a strain in the end."""
 _SMALL = 1e-12
 """A change of what is off from which a secant says nothing."""
 _FULL = (0.25, 2.0)
@@ -68,6 +73,25 @@ class SoftenedCore:
 
     def along(self, ways: Array) -> tuple[Array, Array]:
         """Derivatives of both as ln strain at the same softness moves. Shape (ways, points) each."""
+        how = self._gives_way
+        alone = ways / how.held
+        then = np.where(how.first, alone, alone + how.by_earlier / how.held * alone[:, self._largest])
+        return how.lost * then + how.lost_before * then[:, self._largest], how.gained * then
+
+    def along_own(self, beside: Sequence["SoftenedCore"]) -> tuple[Array, Array]:
+        """What both differ by between two cores `beside` it, a small step in its own numbers above and below.
+
+        These are not brought to rest: what they would be at this one's strain says how that moves. Shape
+        (points,) each.
+        """
+        s, earlier = self._s, self._s[self._largest]
+        above, below = ((one._lost(s, earlier), one.curve.gained(s)) for one in beside)
+        strains = [one._under(*at) for one, at in zip(beside, (above, below), strict=True)]
+        lost, gained = self.along((_log(strains[0]) - _log(strains[1]))[None])
+        return lost[0] + above[0] - below[0], gained[0] + above[1] - below[1]
+
+    @cached_property
+    def _gives_way(self) -> "_GivesWay":
         s, earlier = self._s, self._s[self._largest]
         lost, gained = self._lost(s * (1 + _H), earlier), self.curve.gained(s * (1 + _H))
         before = self._lost(s, earlier * (1 + _H))
@@ -78,11 +102,13 @@ class SoftenedCore:
         # What is the largest so far depends on itself alone, and others on it.
         held = 1 - by_own - np.where(first, by_earlier, 0.0)
         held = np.where(np.abs(held) < _LEAST_HELD, np.copysign(_LEAST_HELD, held), held)
-        alone = ways / held
-        then = np.where(first, alone, alone + by_earlier / held * alone[:, self._largest])
-        return (
-            ((lost - self.lost) * then + (before - self.lost) * then[:, self._largest]) / _H,
-            (gained - self.gained) * then / _H,
+        return _GivesWay(
+            held,
+            by_earlier,
+            first,
+            (lost - self.lost) / _H,
+            (before - self.lost) / _H,
+            (gained - self.gained) / _H,
         )
 
     @cached_property
@@ -120,14 +146,12 @@ class SoftenedCore:
         if not off.any():
             return s
         most = _FARTHEST * np.maximum(self._then(np.zeros(self.points), earlier), s)
-        places = np.concatenate([[0.0], np.geomspace(_NEAREST, 1.0, _PLACES)])
-        rises = np.array([self._then(place * most, earlier) > place * most for place in places])
-        last = np.argmax(rises[:-1] & ~rises[1:], axis=0)
-        low, high = places[last] * most, places[last + 1] * most
-        for _ in range(_HALVES):
-            middle = (low + high) / 2
-            up = self._then(middle, earlier) > middle
-            low, high = np.where(up, middle, low), np.where(up, high, middle)
+        places = np.concatenate([[0.0], np.geomspace(_NEAREST, 1.0, _PLACES)])[:, None] * most
+        for _ in range(_ROUNDS + 1):
+            rises = self._then(places, earlier) > places
+            last = np.argmax(rises[:-1] & ~rises[1:], axis=0)
+            low, high = (np.take_along_axis(places, k[None], axis=0)[0] for k in (last, last + 1))
+            places = np.concatenate([low[None], low + (high - low) * _SHARES, high[None]])
         return np.where(off, (low + high) / 2, s)
 
     @cached_property
@@ -144,6 +168,22 @@ class SoftenedCore:
     def _lost(self, s: Array, largest: Array) -> Array:
         lost = self.curve.lost(s)
         return self.kept * self.curve.lost(largest) + (1 - self.kept) * lost if self.kept else lost
+
+
+@dataclass(frozen=True)
+class _GivesWay:
+    """How a core gives way to its own strain, per logarithm of it. Shape (points,) each."""
+
+    held: Array
+    """What ln strain would move by, over what it does, as it gives way to itself."""
+    by_earlier: Array
+    """Of ln strain, to the largest before."""
+    first: NDArray[np.bool_]
+    """Whether it is the largest so far."""
+    lost: Array
+    lost_before: Array
+    """Of what is lost, to the largest before."""
+    gained: Array
 
 
 def _largest_so_far(s: Array, time_s: Array) -> NDArray[np.intp]:

@@ -152,7 +152,7 @@ class Nodes:
         """|w^2 - p^2| over |p|^2 of each cluster's poles, multiplied: at its points, or at its nodes.
 
         `squares` gives those of some poles, by their numbers, as they have moved for some places. Shape
-        (poles, places), or (poles, 1) where they are the same for all.
+        (..., poles, places), or (poles, 1) where they are the same for all, to (..., points) or (nodes,).
         """
         found = np.ones(len(self.omega if at_nodes else self.points))
         size = np.abs(self.poles) ** 2
@@ -161,7 +161,10 @@ class Nodes:
             places, w = (c.nodes, c.squares[:count]) if at_nodes else (c.points, c.squares[count:])
             p = squares(c.poles, places)
             # Parts by themselves: complex numbers multiply slowly.
-            found[places] = np.sqrt(((w - p.real) ** 2 + p.imag**2).prod(axis=0)) / size[c.poles].prod()
+            away = np.sqrt(((w - p.real) ** 2 + p.imag**2).prod(axis=-2)) / size[c.poles].prod()
+            if away.ndim > found.ndim:
+                found = np.ones((*away.shape[:-1], len(found)))
+            found[..., places] = away
         return found
 
     @cached_property

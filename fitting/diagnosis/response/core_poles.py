@@ -29,9 +29,9 @@ def compliances(plate: EnrichedReducedPlate, change: Change, omega: Array) -> Co
 def away_from_poles(by_G: Complex, G: Complex) -> Array:
     """The determinant over all powers of the modulus but one: 1/G where inertia does not count.
 
-    Shapes (points, k) and (points,) in Pa, to (points,).
+    Shapes (points, k) and (..., points) in Pa, to (..., points).
     """
-    share = np.abs(by_G * G[:, None])
-    sheared = share > _RIGID * share.max(axis=1, keepdims=True)
-    each = np.abs(1 + by_G * G[:, None]) / np.where(sheared, share, 1.0)
-    return np.asarray(each.prod(axis=1) * np.abs(G))
+    share = np.abs(by_G * G[..., None])
+    sheared = share > _RIGID * share.max(axis=-1, keepdims=True)
+    each = np.abs(1 + by_G * G[..., None]) / np.where(sheared, share, 1.0)
+    return np.asarray(each.prod(axis=-1) * np.abs(G))

@@ -72,6 +72,21 @@ class PointModulus:
         """
         return np.asarray(self._along(law, u, lambda core: core.by(nearby)[None])[0])
 
+    def by_own(self, k: int, law: CoreLaw, u: Array, step: Array) -> Complex:
+        """What it differs by from a `step` below to one above in numbers of effect k. Shape (points,).
+
+        `step` of shape (unknowns,).
+        """
+        at, effect = ModulusAt(law, self._points, self._strain(law, u)), self._unknowns.effects[k]
+        own = self._unknowns.of(k, u)
+        by, shifted = (
+            effect.modulus_by(at, self._points, own, self._unknowns.of(k, step)),
+            effect.modulus(at, self._points, own),
+        )
+        assert by is not None
+        assert shifted is not None
+        return np.asarray(self.at(law, u) * (by / shifted))
+
     def by_stated(self, law: CoreLaw, u: Array) -> Complex:
         """Derivatives to the stated numbers, in standard deviations, as they strain the core otherwise.
 

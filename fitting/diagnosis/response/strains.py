@@ -50,7 +50,10 @@ class Reference:
 
 
 FromPoles = Callable[[Array, Array], Array]
-"""Distance from the poles of every point, its core softened by its share and gained. Shape (points,) each."""
+"""Distance from the poles of every point, its core softened by its share and gained.
+
+Shape (..., points) each.
+"""
 
 
 @dataclass(frozen=True)
@@ -125,7 +128,7 @@ class Strains:
 
         def strain(softened: Array, gained: Array | None = None) -> Array:
             gains = gained is not None
-            known, more = of(gains), np.zeros(len(softened)) if gained is None else gained
+            known, more = of(gains), np.zeros(softened.shape) if gained is None else gained
             away = known.from_poles(softened, more)
             logs_here = _at(known.cubics, softened, more)
             assert self._reference.strain is not None
@@ -174,7 +177,9 @@ class Strains:
         cubics = _through(squares.reshape(gains, len(_SOFTENED), *squares.shape[1:]))
 
         def away(softened: Array, gained: Array) -> Array:
-            return dense.away(lambda mine, at: _at(cubics[:, :, mine, None], softened[at], gained[at]))
+            return dense.away(
+                lambda mine, at: _at(cubics[:, :, mine, None], softened[..., None, at], gained[..., None, at])
+            )
 
         return away, np.concatenate([self._away_at_nodes(p) for p in squares])
 

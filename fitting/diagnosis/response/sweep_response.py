@@ -312,8 +312,7 @@ class SweepResponse:
             nearby = more, less, 2 * h
             found = found + at.per_G * self._modulus.along(law, u, nearby)
         if k in self._modulus.effects:
-            dG = (self._modulus.at(law, up) - self._modulus.at(law, down)) / (2 * h)
-            found = found + at.per_G * dG
+            found = found + at.per_G * self._modulus.by_own(k, law, u, up - u) / (2 * h)
         return found
 
     def _by_stated(self, law: CoreLaw, u: Array, at: At) -> Complex:
