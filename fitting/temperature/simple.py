@@ -41,11 +41,19 @@ class Verdict:
     p_value: float
     wicket_percent: float
     """Largest distance of eta from the joint law's, at one G', over all temperatures."""
-    words: str
+    said: str
+    """What was found."""
+    advice: tuple[str, ...] = ()
+    """What to do about it, or what else to know; nothing of it belongs to the sentence of `said`."""
     wrong: Misread | None = None
     """The one temperature that does not go with the others."""
     law_stands: bool = True
     """False where nothing explains the readings: then the law of the fit is no material's."""
+
+    @property
+    def words(self) -> str:
+        """Finding and advice in one line."""
+        return "; ".join((self.said, *self.advice))
 
 
 def in_doubt(fit: ShiftedFit) -> bool:
@@ -86,9 +94,9 @@ def judge(
         return found
     words = (
         "whether one shifted law serves cannot be told: the errors of the modes are not stated; were they "
-        f"the usual ones: {found.words}"
+        f"the usual ones: {found.said}"
     )
-    return replace(found, simple=None, words=words)
+    return replace(found, simple=None, said=words)
 
 
 def _judged(
@@ -106,8 +114,8 @@ def _judged(
         return _beside_a_cause(fit, able)
     if apart is not None and not in_doubt(apart):
         wrong = misread(fit.shift, apart)
-        words = _temperatures_refused(fit, apart, wrong, names)
-        return Verdict(False, fit.p_value, _wicket(apart)[0], words, wrong)
+        words, *advice = _temperatures_refused(fit, apart, wrong, names)
+        return Verdict(False, fit.p_value, _wicket(apart)[0], words, tuple(advice), wrong)
     nearly = next((c for c in causes if c.may_serve), None)
     if nearly is not None:
         # A fit that is still on its way refuses no material.
@@ -119,13 +127,13 @@ def _judged(
         return Verdict(None, fit.p_value, _wicket(fit)[0], words, law_stands=False)
     if explains(fit):
         off, at = _wicket(fit if apart is None else apart)
-        whose = _whose(fit, odd_ones, names) if odd_ones else None
-        words = _refusal(fit, f"differs by up to {two_digits(off)} % at {at:g} degC", whose)
-        return Verdict(False, fit.p_value, off, words)
+        instead = _whose(fit, odd_ones, names) if odd_ones else _instead(fit)
+        words = _refusal(fit, f"differs by up to {two_digits(off)} % at {at:g} degC")
+        return Verdict(False, fit.p_value, off, words, instead)
     other = next((c for c in causes if explains(c.fit)), None)
     if other is not None:
         words = _refusal(other.fit, f"differs even where {story(other)} at all temperatures")
-        return Verdict(False, other.fit.p_value, _wicket(fit)[0], words)
+        return Verdict(False, other.fit.p_value, _wicket(fit)[0], words, _instead(other.fit))
     words = (
         "whether one shifted law serves cannot be told: not even a law for each temperature explains the "
         f"readings (chi-square per degree of freedom {fit.own_chi2_per_dof:.3g}), nor one effect at "
@@ -168,60 +176,58 @@ def _gain(fit: ShiftedFit) -> str:
     return said if fit.noise_known else f"{said}, noise being what a law for each temperature leaves"
 
 
-def _whose(fit: ShiftedFit, odd_ones: Sequence[OddOne], names: Sequence[str]) -> str:
+def _whose(fit: ShiftedFit, odd_ones: Sequence[OddOne], names: Sequence[str]) -> tuple[str, ...]:
     name, T = (names or range(1, len(fit.shift.temperature_c) + 1)), fit.shift.temperature_c
     each = [f"without {name[o.place]} ({T[o.place]:g} degC, p {o.p_value:.2g})" for o in odd_ones]
     return (
         f"{' or '.join(each)} one law explains all others: something may be off there alone (a mass, a "
-        "mount, another specimen), or the material is not simple there; identify it by itself, and the others"
+        "mount, another specimen), or the material is not simple there",
+        "identify it by itself, and the others",
     )
 
 
-def _refusal(fit: ShiftedFit, difference: str, whose: str | None = None) -> str:
+def _refusal(fit: ShiftedFit, difference: str) -> str:
     how = {"wlf": "by WLF", "arrhenius": "by Arrhenius", "free": "freely"}[fit.shift.kind]
-    words = (
+    return (
         f"no one law shifted {how} explains all temperatures ({_gain(fit)}): at the same G' the loss factor "
-        f"{difference}; "
+        f"{difference}"
     )
-    if whose is not None:
-        return words + whose
+
+
+def _instead(fit: ShiftedFit) -> tuple[str]:
+    """What to try where the material is refused."""
     if fit.shift.kind == "free":
         return (
-            words
-            + "the material is not thermorheologically simple here, or not one material, or a specimen is "
-            "not as stated at some temperatures: identify each alone"
+            "the material is not thermorheologically simple here, or not one material, or a specimen is "
+            "not as stated at some temperatures: identify each alone",
         )
     return (
-        words
-        + "try --shift free: if it is refused too, the material is not thermorheologically simple, or not "
-        "one material, or a specimen is not as stated at some temperatures"
+        "try --shift free: if it is refused too, the material is not thermorheologically simple, or not "
+        "one material, or a specimen is not as stated at some temperatures",
     )
 
 
 def _temperatures_refused(
     fit: ShiftedFit, apart: ShiftedFit, wrong: Misread | None, names: Sequence[str]
-) -> str:
+) -> tuple[str, ...]:
+    """What is refused, then what to do about it."""
     how = {"wlf": "WLF", "arrhenius": "Arrhenius", "free": "one factor a temperature"}[fit.shift.kind]
     words = (
         f"the temperatures as stated do not go with {how} ({_gain(fit)}), the material with one law does, "
-        f"each of the data shifted by a factor of its own ({_gain(apart)}): "
+        f"each of the data shifted by a factor of its own ({_gain(apart)})"
     )
     if wrong is not None:
         said = " or ".join(_wrong(one, names) for one in (wrong, *wrong.rivals))
         which = ", of which one is wrong" if wrong.rivals else ""
-        return words + (
-            f"{said}{which}, check it; until then this law, which is of all temperatures as stated, is not "
-            "to be used"
-        )
+        until = "until then this law, which is of all temperatures as stated, is not to be used"
+        return f"{words}: {said}{which}, check it", until
     if fit.shift.kind == "free":
-        return words + "data stated at one temperature were not at one, check them"
+        return (f"{words}: data stated at one temperature were not at one, check them",)
+    check = "check the temperatures, or say with --temperature-k how well they are known"
     upwards = rising(fit.shift, apart.log_shift)
     if upwards is not None:
-        words += f"the factor of {upwards[1]:g} degC is above that of {upwards[0]:g} degC; "
-    return words + (
-        "check the temperatures, or say with --temperature-k how well they are known; --shift free takes "
-        "the factors as they are"
-    )
+        words += f": the factor of {upwards[1]:g} degC is above that of {upwards[0]:g} degC"
+    return words, check, "--shift free takes the factors as they are"
 
 
 def _wrong(wrong: Misread, names: Sequence[str]) -> str:

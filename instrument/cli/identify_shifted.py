@@ -120,10 +120,9 @@ def _tell(out: Output, found: Shifted, every: Sequence[AtTemperature], asked: As
     if found.verdict.simple is False:
         _draw(out, found, asked)
         out.result(result)
-        refused, *advice = (result.words + _if_mounted_anew(every)).split("; ")
-        for line in advice:
+        for line in (*found.verdict.advice, *_if_mounted_anew(every)):
             out.say(f"note: {line}")
-        raise OutsideModel(refused)
+        raise OutsideModel(found.verdict.said)
     print_shifted(out, result, law_stands=found.verdict.law_stands)
     if asked.depths:
         b = found.band.frequency_hz
@@ -134,11 +133,11 @@ def _tell(out: Output, found: Shifted, every: Sequence[AtTemperature], asked: As
     out.result(result)
 
 
-def _if_mounted_anew(every: Sequence[AtTemperature]) -> str:
+def _if_mounted_anew(every: Sequence[AtTemperature]) -> tuple[str, ...]:
     """What else to try of one specimen, said to have stayed where it was."""
     if len({one.specimen for one in every}) > 1 or len({one.name for one in every}) == 1:
-        return ""
+        return ()
     return (
-        "; the specimen is taken to have stayed where it was: if it was mounted anew at each temperature, "
-        "state it for each file (--specimen as often, copies of its file under other names)"
+        "the specimen is taken to have stayed where it was: if it was mounted anew at each temperature, "
+        "state it for each file (--specimen as often, copies of its file under other names)",
     )

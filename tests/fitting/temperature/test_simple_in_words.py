@@ -126,6 +126,18 @@ def test_a_temperature_without_which_one_law_serves_is_named_before_the_material
     assert "not one material" in judge(fit(p=1e-5)).words
 
 
+def test_what_was_found_and_what_to_do_about_it_are_apart_whatever_a_file_is_called():
+    odd = judge(fit(p=1e-5), names=["cold.csv", "warm; wet.csv"], odd_ones=[OddOne(1, 0.4)])
+    assert "the loss factor differs by up to" in odd.said
+    assert odd.advice[0].startswith("without warm; wet.csv (20 degC, p 0.4) one law explains all others")
+    assert odd.advice[1:] == ("identify it by itself, and the others",)
+    assert odd.words == "; ".join((odd.said, *odd.advice))
+    refused = judge(fit(p=1e-5, off=1.2))
+    assert "differs" in refused.said
+    assert [words.split(":")[0] for words in refused.advice] == ["try --shift free"]
+    assert judge(fit()).advice == ()
+
+
 @pytest.mark.parametrize(("degrees", "said"), [(1.2, "1 parameter fewer"), (4.0, "4 parameters fewer")])
 def test_one_parameter_is_singular(degrees, said):
     refused = fit(p=REFUSED / 2, off=1.2)

@@ -186,9 +186,9 @@ def found(monkeypatch):
     band = LawBand(f, G, eta, 0.01 * G, 0.01 * eta)
     asked, told = [], []
 
-    def make(simple=True, softens=True, *, stands=True, otherwise="", advice=""):
-        words = ("one law serves" if simple else "no one law serves") + advice
-        verdict = Verdict(simple, 0.4, 1.2, words, law_stands=stands)
+    def make(simple=True, softens=True, *, stands=True, otherwise="", cause="", advice=()):
+        words = ("one law serves" if simple else "no one law serves") + cause
+        verdict = Verdict(simple, 0.4, 1.2, words, advice, law_stands=stands)
 
         def identify(sweeps, specimens, kind, reference_c, progress, *, vertical, hammer, temperature_k):
             asked.append(([s.name for s in sweeps], kind, reference_c, vertical, hammer))
@@ -276,11 +276,11 @@ def test_figures_are_said_to_be_saved_after_the_results(capsys, monkeypatch, zn1
 def test_a_law_that_is_not_simple_is_refused_after_its_figures_and_json_are_written(
     capsys, monkeypatch, zn1, found, tmp_path
 ):
-    found(simple=False, advice="; try --shift free")
+    found(simple=False, cause=": plate; clamp", advice=("try --shift free",))
     saved = [tmp_path / "nomogram.png"]
     monkeypatch.setattr(shifted_figures, "save_shifted_figures", lambda found, folder: saved)
     out = Output(str(tmp_path / "a.json"))
-    with pytest.raises(OutsideModel, match=r"^no one law serves$"):
+    with pytest.raises(OutsideModel, match=r"^no one law serves: plate; clamp$"):
         shift([given(zn1, k) for k in range(3)], tmp_path, out)
     said = capsys.readouterr().out
     assert f"saved {saved[0]}" in "".join(said.splitlines())
@@ -288,7 +288,10 @@ def test_a_law_that_is_not_simple_is_refused_after_its_figures_and_json_are_writ
     assert notes[0] == "note: try --shift free"
     assert notes[1].startswith("note: the specimen is taken to have stayed where it was")
     written = json.loads((tmp_path / "a.json").read_text())
-    assert (written["simple"], written["words"]) == (False, "no one law serves; try --shift free")
+    assert (written["simple"], written["words"]) == (
+        False,
+        "no one law serves: plate; clamp; try --shift free",
+    )
     assert "one law for all temperatures is refused" in written["doubts"][0]
     with pytest.raises(BadInput, match=r"a\.json: one law for all its temperatures was refused"):
         read_law(tmp_path / "a.json")
