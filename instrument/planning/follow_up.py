@@ -15,6 +15,7 @@ from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.follow_up import FollowUp
 from instrument.finding.diagnosis import Diagnosed
 from instrument.planning.damped_struck import damped_struck
+from instrument.planning.made_before import made_before
 from instrument.planning.measurable import Template
 from instrument.planning.measurement import HANDS_S, Measurable
 from instrument.planning.order import Asked, best_courses
@@ -49,6 +50,8 @@ class Possible:
     """What one of them may take, hands included."""
     whole_length_m: float | None = None
     """Of the treated plate, what its clamp grips included; None: as it stands out of it."""
+    done: tuple[FollowUp, ...] = ()
+    """What was measured after earlier diagnoses of the same data: it is not asked for once more."""
 
 
 def rank_follow_ups(diagnosed: Diagnosed, possible: Possible | None = None) -> tuple[FollowUp, ...]:
@@ -97,6 +100,8 @@ def _doubtful(diagnosed: Diagnosed, rivals: Rivals) -> bool:
 
 def _asked(expecting: RivalForecasts, possible: Possible) -> Iterator[Asked]:
     for measurable, forecasts in _forecast(expecting, possible):
+        if made_before(measurable, possible.done):
+            continue
         told = outcome(forecasts, expecting.probabilities, expecting.temper, VERDICT.credible, expecting.of)
         yield Asked(measurable, forecasts, told)
 

@@ -6,6 +6,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 from fitting.errors import TooFewPoints
+from instrument.facts.follow_up import FollowUp
 from instrument.hammer_test.analysis import HammerAnalysis
 from instrument.hammer_test.struck import StruckAnalysis
 from instrument.run.refused_calibration import refused
@@ -27,6 +28,8 @@ from instrument.stream.raw import (
     AcquisitionBegan,
     BlockAcquired,
     ClampedAnew,
+    FollowUpDecided,
+    FollowUpProposed,
     HammerTestEnded,
     Held,
     MassPut,
@@ -79,6 +82,9 @@ class Analysis:
         self.damping: DampingFound | None = None
         self.struck: list[StruckFound] = []
         """What blows on the treated plate gave; of one place and mounting the last time."""
+        self._proposed: FollowUpProposed | None = None
+        self.followed: list[FollowUp] = []
+        """What was decided to be measured after diagnoses, in order."""
 
     def feed(self, event: Event) -> list[Derived]:
         """Take a raw event; what follows from it."""
@@ -95,6 +101,8 @@ class Analysis:
             self._keep(event)
         elif isinstance(event, ClampedAnew):
             self._mounting = event.mounting
+        elif isinstance(event, FollowUpProposed | FollowUpDecided):
+            self._follows(event)
 
     @property
     def wanted(self) -> int:
@@ -137,6 +145,8 @@ class Analysis:
                 self._mass = event
             case ClampedAnew():
                 self._mounting = event.mounting
+            case FollowUpProposed() | FollowUpDecided():
+                self._follows(event)
             case StrikingBegan():
                 self._striking = event
             case OperatorDid() if event.what in ("mounted", "aimed"):
@@ -157,6 +167,12 @@ class Analysis:
             case HammerTestEnded() if self.hammer is not None:
                 return self.hammer.ended(event)
         return []
+
+    def _follows(self, event: FollowUpProposed | FollowUpDecided) -> None:
+        if isinstance(event, FollowUpProposed):
+            self._proposed = event
+        elif event.agreed and self._proposed is not None:
+            self.followed.append(self._proposed.offers[event.offer])
 
     def _keep(self, event: Derived) -> list[Derived]:
         """What is remembered of derived events, and what follows from them in turn."""

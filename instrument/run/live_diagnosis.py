@@ -11,6 +11,7 @@ from fitting.errors import FittingError
 from fitting.structures import AnySpecimen
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.follow_up import FollowUp
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.hammer_file import accepted_modes
 from instrument.finding.diagnosis import diagnose
@@ -59,16 +60,20 @@ class ToDiagnose:
 Diagnoser = Callable[[ToDiagnose], DiagnosisFound]
 
 
-def able(document: ExperimentDocument, settings: SweepSettings, number: int) -> Possible:
+def able(
+    document: ExperimentDocument, settings: SweepSettings, number: int, done: Sequence[FollowUp] = ()
+) -> Possible:
     """What may follow the diagnosis of a number, of a run that steps so: as much as it still allows.
 
-    Once it allows nothing more a person may measure as after any diagnosis.
+    Once it allows nothing more a person may measure as after any diagnosis; what is `done` is not advised
+    once more.
     """
-    table, whole = document.diagnosis, document.whole_length_m
+    table, whole, made = document.diagnosis, document.whole_length_m, tuple(done)
     left = table.follow_up_at_most + 1 - number
     if table.follow_up == "none" or left < 1:
-        return Possible(settings, whole_length_m=whole)
-    return Possible(settings, measurements=left, most_s=table.follow_up_most_s, whole_length_m=whole)
+        return Possible(settings, whole_length_m=whole, done=made)
+    most_s = table.follow_up_most_s
+    return Possible(settings, measurements=left, most_s=most_s, whole_length_m=whole, done=made)
 
 
 def diagnose_points(asked: ToDiagnose, progress: Progress = quiet) -> DiagnosisFound:

@@ -112,7 +112,7 @@ def _replay(
             apart[StepsChosen, event.number] = chosen
             derived = [*derived, chosen]
         elif isinstance(event, DiagnosisStarted):
-            possible = able(configuration.experiment, setup.sweep, event.number)
+            possible = able(configuration.experiment, setup.sweep, event.number, analysis.followed)
             again.diagnosis = diagnose(ToDiagnose.of(analysis, event, specimen, possible))
             apart[DiagnosisFound, event.number] = again.diagnosis
             derived = [*derived, again.diagnosis]

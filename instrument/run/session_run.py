@@ -247,7 +247,7 @@ class SessionRun:
         started = DiagnosisStarted(number, last)
         self._record(started)
         specimen = self._configuration.the_specimen()
-        possible = able(self._experiment.document, self._setup.sweep, number)
+        possible = able(self._experiment.document, self._setup.sweep, number, self.analysis.followed)
         asked = ToDiagnose.of(self.analysis, started, specimen, possible)
         found = apart(lambda: self._request.diagnose(asked))
         self._record(found)

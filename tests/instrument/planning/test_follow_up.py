@@ -102,6 +102,12 @@ def test_what_takes_longer_than_it_may_is_not_proposed(rivals, ranked):
     assert max(f.seconds for f in short) <= most_s
 
 
+def test_what_was_just_measured_is_not_proposed_once_more(rivals):
+    alone = rank_follow_ups(ambiguous(rivals), Possible(hands=False))
+    again = rank_follow_ups(ambiguous(rivals), Possible(hands=False, done=alone))
+    assert not {f.todo for f in alone} & {f.todo for f in again}
+
+
 def test_nothing_follows_the_last_that_may_be_made(rivals, ranked):
     assert any(f.then for f in ranked if not f.needs_hands)
     last = rank_follow_ups(ambiguous(rivals), Possible(hands=False, measurements=1))

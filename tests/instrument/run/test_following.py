@@ -28,6 +28,7 @@ from run_at_point import RunAtPoint
 from instrument.errors import RigStopped
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl
+from instrument.run.experiment import run_experiment
 from instrument.run.following import Earlier
 from instrument.run.operator import SimulatedOperator
 from instrument.run.replay import replay
@@ -125,6 +126,20 @@ def test_its_points_are_a_pass_of_their_own_and_know_their_spot(finished):
 def test_a_replay_gives_the_same_to_the_bit(finished):
     with SessionFile(finished.session) as file:
         assert replay(file, fit=a_law, diagnose=grouped(BACKWARDS, SPOT)).differences == []
+
+
+def test_each_diagnosis_knows_what_was_measured_before_it_in_a_replay_too(rig, tmp_path):
+    told = []
+
+    def knowing(asked):
+        told.append([one.kind for one in asked.possible.done])
+        return grouped(BACKWARDS, SPOT)(asked)
+
+    _, experiment = rig
+    finished = run_experiment(experiment, tmp_path, ("sweep",), fit=a_law, diagnose=knowing)
+    with SessionFile(finished.session) as file:
+        assert replay(file, fit=a_law, diagnose=knowing).differences == []
+    assert told == 2 * [[], ["reversed"], ["reversed", "spot"]]
 
 
 def test_a_proposal_comes_back_from_its_line(finished):
