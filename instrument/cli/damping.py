@@ -76,7 +76,7 @@ def _at(_: click.Context, __: click.Parameter, text: str | None) -> tuple[float,
     metavar="PERCENT",
     help="Exponential window ending at this, its damping taken off again. Half power always has one (1 %).",
 )
-@figures_option("Folder for figures.")
+@figures_option("Folder for figures.", "frf.png", "hits.png", "modes.png")
 @json_option
 def damping(
     records: tuple[Path, ...],
@@ -115,9 +115,10 @@ def damping(
             found = damping_of_hits(judged, band_hz=band, at_hz=at, estimator=estimator, end_value=end)
     _print(out, found)
     if figures is not None:
-        from instrument.impact.figures import save_figures
+        from instrument.impact.figures import damping_figures
+        from instrument.results.saved_figures import save_figures
 
-        for path in save_figures(found, figures):
+        for path in save_figures(damping_figures(found), figures, 130):
             out.say(f"saved {path}")
     out.result(damping_from(found))
 

@@ -50,7 +50,12 @@ from instrument.results.session_result import Conditions, result_of
     type=click.Path(path_type=Path),
     help="Write what is advised first as the [sweep] of this experiment file; a new one where there is none.",
 )
-@figures_option("Save residual, evidence and law as PNG.")
+@figures_option(
+    "Save residual, evidence and law as PNG.",
+    "diagnosis-residual.png",
+    "diagnosis-evidence.png",
+    "diagnosis-law.png",
+)
 @json_option
 @naming_files
 def diagnose(

@@ -94,7 +94,13 @@ from instrument.files.repeated import refuse_repeats
     help="With a treated beam's table of modes: the bare beam's, for the formulas of ASTM E756 beside the "
     "full model.",
 )
-@figures_option("With --pointwise, --with or --shift: save figures as PNG.")
+@figures_option(
+    "With --pointwise, --with or --shift: save figures as PNG.",
+    "pointwise-law.png",
+    "with-dma.png",
+    "nomogram.png",
+    "simplicity.png",
+)
 @json_option
 @naming_files
 def identify(

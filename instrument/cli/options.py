@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.errors import BadInput
 from instrument.files.acceleration import UNITS, USUAL, show_acceleration_in
+from instrument.files.replaceable import FIGURE, refuse_to_lose
 from instrument.files.table import LOWEST_HZ
 
 _MOST_FREQUENCIES = 100_000
@@ -103,10 +104,21 @@ class Level(click.ParamType):  # type: ignore[type-arg]
         return level
 
 
-def figures_option(said: str) -> Any:
-    """A folder for figures."""
+def figures_option(said: str, *names: str) -> Any:
+    """A folder for figures of these names: nobody else's pictures are written over, which is said at once."""
+
+    def keep(_: click.Context, __: click.Parameter, folder: Path | None) -> Path | None:
+        if folder is not None:
+            for name in names:
+                refuse_to_lose(folder / name, FIGURE)
+        return folder
+
     return click.option(
-        "--figures", type=click.Path(path_type=Path, file_okay=False), metavar="FOLDER", help=said
+        "--figures",
+        type=click.Path(path_type=Path, file_okay=False),
+        metavar="FOLDER",
+        help=said,
+        callback=keep,
     )
 
 

@@ -108,7 +108,9 @@ class Band(click.ParamType):  # type: ignore[type-arg]
 )
 @force_option
 @acceleration_option
-@figures_option("Save the plan on the response, and the map of spots, as PNG.")
+@figures_option(
+    "Save the plan on the response, and the map of spots, as PNG.", "plan-errors.png", "plan-spots.png"
+)
 @json_option
 @naming_files
 def plan(

@@ -53,6 +53,32 @@ RESULTS: dict[str, type[Result]] = {
 """By command; `hammer`, `sweep`, `demo` say what `run` does; `identify-modes` is of tables of modes,
 `identify-shift` of `identify --shift`."""
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
+_OWN = {
+    "identify": ("identify", "identify-modes", "identify-shift"),
+    **dict.fromkeys(("hammer", "sweep", "demo"), ("run",)),
+}
+"""Results of commands that write another one than that of their name."""
+
+
+def command_of(facts: Any) -> str:
+    """By which of `RESULTS` a JSON was written: the one that knows most of its keys; empty for none."""
+    keys = set(facts) if isinstance(facts, dict) else set()
+    fitting = [
+        (len(keys & set(result.model_fields)), -len(result.model_fields), command)
+        for command, result in RESULTS.items()
+        if keys >= _required(result)
+    ]
+    known, _, command = max(fitting, default=(0, 0, ""))
+    return command if 2 * known > len(keys) else ""
+
+
+def is_of(facts: Any, command: str) -> bool:
+    """Whether a JSON is a result that the command writes."""
+    return command_of(facts) in _OWN.get(command, (command,))
+
+
+def _required(result: type[Result]) -> set[str]:
+    return {key for key, field in result.model_fields.items() if field.is_required()}
 
 
 def schema_of(command: str) -> dict[str, Any]:

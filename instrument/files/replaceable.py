@@ -1,12 +1,15 @@
 """What may stand where a file is to be written: nothing, or what was written so before."""
 
+import json
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NoReturn
 
 from instrument.errors import BadInput, system_words
 from instrument.files.file_kind import kind_of_file
+from instrument.files.text import read_text
 
 _BEGINNING = 4096
 """Bytes of a file that are looked at: a table's head, or the first comments of a card."""
@@ -29,6 +32,8 @@ JSON = Written(re.compile(rb"(\xef\xbb\xbf)?\s*\{"), (".json",))
 PAGE = Written(re.compile(rb"\s*<"), (".html", ".htm"))
 PDF = Written(re.compile(rb"%PDF-"), (".pdf",))
 PNG = Written(re.compile(rb"\x89PNG"), (".png",))
+FIGURE = Written(re.compile(rb"\x89PNG.*Software\x00viscorig", re.DOTALL), (".png",))
+"""A picture that says in its head who has drawn it."""
 
 
 def refuse_ending(path: Path, endings: Iterable[str]) -> None:
@@ -46,6 +51,22 @@ def refuse_for_json(path: Path) -> None:
     if path.suffix.lower() in _OF_OTHER_FILES:
         refuse_ending(path, JSON.endings)
     refuse_to_lose(path, JSON)
+
+
+def refuse_another_result(path: Path, command: str) -> None:
+    """Raise `BadInput` for a JSON that stands there and is not of the command that is to write one."""
+    if not path.is_file() or path.stat().st_size == 0:
+        return
+    # Only where something stands there: it loads the results of all commands.
+    from instrument.facts.schema import command_of, is_of
+
+    try:
+        facts = json.loads(read_text(path))
+    except (BadInput, ValueError, RecursionError):
+        refuse_another_file(path)
+    if not is_of(facts, command):
+        other = command_of(facts).partition("-")[0]
+        refuse_another_file(path, f"a result of 'viscorig {other}'" if other else "")
 
 
 def refuse_to_lose(path: Path, kind: Written) -> None:
@@ -67,7 +88,7 @@ def refuse_another_text(path: Path, text: str) -> None:
         refuse_another_file(path)
 
 
-def refuse_another_file(path: Path) -> None:
-    """Raises `BadInput`: what stands there is kept."""
-    what = kind_of_file(path) or "another file"
+def refuse_another_file(path: Path, what: str = "") -> NoReturn:
+    """Raises `BadInput`: what stands there is kept. `what` it is, where that is known."""
+    what = what or kind_of_file(path) or "another file"
     raise BadInput(f"{path}: {what} stands there and is not written over, expected another name or folder")

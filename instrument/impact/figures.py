@@ -1,13 +1,10 @@
 """Figures of an impact test: time traces, FRF with half-power marks and fits, coherence, decays."""
 
-from pathlib import Path
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fitting.modal.frf import Motion
-from instrument.errors import BadInput, system_words
 from instrument.impact.damping import Damping, marks
 from instrument.impact.mode import Mode
 
@@ -28,22 +25,14 @@ def highest_hz(found: Damping) -> float:
     return _BEYOND * max((m.frequency_hz for m in found.modes), default=0.0)
 
 
-def save_figures(found: Damping, folder: Path) -> list[Path]:
-    """Write what there is to draw as PNG. Raises `BadInput` where the folder cannot be made."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise BadInput(f"{folder}: {system_words(error)}") from None
+def damping_figures(found: Damping) -> dict[str, Figure]:
+    """What there is to draw, by the names of its files."""
     drawn = {"frf.png": frf_figure(found)}
     if found.hits:
         drawn["hits.png"] = hits_figure(found)
     if any(m.fit for m in found.modes):
         drawn["modes.png"] = modes_figure(found)
-    paths = []
-    for name, figure in drawn.items():
-        figure.savefig(folder / name, dpi=130)
-        paths.append(folder / name)
-    return paths
+    return drawn
 
 
 def frf_figure(found: Damping) -> Figure:

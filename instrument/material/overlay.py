@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 
 from fitting.numerics.chances import Z_95
-from instrument.errors import BadInput, system_words
 from instrument.files.dma_file import DmaTable
 from instrument.material.found_law import MaterialLaw
 from instrument.results.drawing import DATA, frequency_in_octaves, label, legend, panels
+from instrument.results.saved_figures import save_figures
 
 _MARKS = "osD^v<>ph*"
 
@@ -40,10 +40,5 @@ def save_overlay(law: MaterialLaw, table: DmaTable, folder: Path) -> Path:
         frequency_in_octaves(ax)
         label(ax, x="Frequency / Hz", y=y)
     legend(left)
-    path = folder / "with-dma.png"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        figure.savefig(path, dpi=110)
-    except OSError as error:
-        raise BadInput(f"{folder}: {system_words(error)}") from None
+    (path,) = save_figures({"with-dma.png": figure}, folder, 110)
     return path

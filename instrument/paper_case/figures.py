@@ -1,6 +1,5 @@
 """The paper's figures redrawn from what was computed here. No figure knows how its numbers were found."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,6 +16,7 @@ from instrument.models.specimen_models import Models
 from instrument.paper_case import TABLE_4, case_file
 from instrument.paper_case.demo import PaperRun
 from instrument.progress import Progress, quiet
+from instrument.results.saved_figures import save_figures as saved_figures
 
 _DIRECT, _SECOND, _PRINTED, _MEASURED = "#0b63a5", "#c2571a", "#5b8c2a", "#222222"
 _RESULT = "#555555"
@@ -25,17 +25,12 @@ _TITLES = ("First resonance region", "Third resonance region", "Fifth resonance 
 
 def save_figures(run: PaperRun, folder: Path, progress: Progress = quiet) -> list[Path]:
     """Fig. 6, 9 and 10 as PNG."""
-    drawn: dict[str, Callable[[], Figure]] = {
-        "fig06-two-dampings.png": lambda: figure_6(progress),
-        "fig09-response.png": lambda: figure_9(run, progress),
-        "fig10-material.png": lambda: figure_10(run),
+    drawn = {
+        "fig06-two-dampings.png": figure_6(progress),
+        "fig09-response.png": figure_9(run, progress),
+        "fig10-material.png": figure_10(run),
     }
-    paths = []
-    for name, draw in drawn.items():
-        path = folder / name
-        draw().savefig(path, dpi=130)
-        paths.append(path)
-    return paths
+    return saved_figures(drawn, folder, 130)
 
 
 def figure_6(progress: Progress = quiet) -> Figure:

@@ -12,7 +12,6 @@ from fitting.arrays import Array
 from fitting.digits import two_digits
 from fitting.numerics.chances import Z_95
 from fitting.sweep import segments_by_gap
-from instrument.errors import BadInput, system_words
 from instrument.facts.diagnosis import DiagnosisResult, PointLeft, StageName
 from instrument.facts.result import Result
 from instrument.results.diagnosis_words import log_odds, probability_words, segment_place, with_verdict
@@ -27,6 +26,7 @@ from instrument.results.drawing import (
     legend_above,
     mark_set_aside,
 )
+from instrument.results.saved_figures import save_figures
 from instrument.results.standing import (
     Standing,
     is_one_of_several,
@@ -55,13 +55,7 @@ def save_diagnosis_figures(found: DiagnosisResult, folder: Path) -> list[Path]:
         "diagnosis-evidence.png": evidence_figure(found),
         "diagnosis-law.png": law_figure(found),
     }
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, figure in drawn.items():
-            figure.savefig(folder / name, dpi=110)
-    except OSError as error:
-        raise BadInput(f"{folder}: {system_words(error)}") from None
-    return [folder / name for name in drawn]
+    return save_figures(drawn, folder, 110)
 
 
 def residual_figure(found: DiagnosisResult) -> Figure:

@@ -6,7 +6,6 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from fitting.digits import two_digits
-from instrument.errors import BadInput, system_words
 from instrument.facts.plan import PlanResult
 from instrument.results.drawing import (
     DATA,
@@ -18,6 +17,7 @@ from instrument.results.drawing import (
     label,
     legend,
 )
+from instrument.results.saved_figures import save_figures
 
 
 def save_plan_figures(found: PlanResult, folder: Path) -> list[Path]:
@@ -25,13 +25,7 @@ def save_plan_figures(found: PlanResult, folder: Path) -> list[Path]:
     drawn = {"plan-errors.png": errors_figure(found)}
     if found.spots:
         drawn["plan-spots.png"] = spots_figure(found)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, figure in drawn.items():
-            figure.savefig(folder / name, dpi=110)
-    except OSError as error:
-        raise BadInput(f"{folder}: {system_words(error)}") from None
-    return [folder / name for name in drawn]
+    return save_figures(drawn, folder, 110)
 
 
 def errors_figure(found: PlanResult) -> Figure:

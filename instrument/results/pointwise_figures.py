@@ -11,7 +11,6 @@ from fitting.identification.kramers_kronig import FIRST_ORDER, KramersKronig
 from fitting.identification.pointwise import PointwiseLaw
 from fitting.identification.result import LawBand
 from fitting.numerics.chances import Z_95
-from instrument.errors import BadInput, system_words
 from instrument.finding.pointwise import Pointwise
 from instrument.results.drawing import (
     DATA,
@@ -22,6 +21,7 @@ from instrument.results.drawing import (
     legend_above,
     panels,
 )
+from instrument.results.saved_figures import save_figures
 
 _FAINT = 0.3
 _ROOM = 1.6
@@ -31,12 +31,8 @@ _NOT_HERE = "#888888"
 
 def save_pointwise_figure(found: Pointwise, band: LawBand, folder: Path) -> Path:
     """One PNG. Raises `BadInput` where the folder cannot be written."""
-    path = folder / "pointwise-law.png"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        pointwise_figure(found.law, band, found.causal).savefig(path, dpi=110)
-    except OSError as error:
-        raise BadInput(f"{folder}: {system_words(error)}") from None
+    drawn = {"pointwise-law.png": pointwise_figure(found.law, band, found.causal)}
+    (path,) = save_figures(drawn, folder, 110)
     return path
 
 

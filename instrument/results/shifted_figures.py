@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from fitting.numerics.chances import Z_95
 from fitting.temperature.simple import story
 from instrument.results.drawing import DATA, MODEL, WIDTH_IN, label, legend, legend_above, panels
+from instrument.results.saved_figures import save_figures
 from instrument.temperatures.shifted import Shifted
 
 _POINTS = 40
@@ -24,21 +25,20 @@ _LINE = 95
 
 
 def save_shifted_figures(found: Shifted, folder: Path) -> list[Path]:
-    """`nomogram.png` (ISO 10112, ASTM E756) and `simplicity.png`."""
-    folder.mkdir(parents=True, exist_ok=True)
-    figure, ((ax,),) = panels(1, 1, 6.5)
+    """`nomogram.png` (ISO 10112, ASTM E756) and `simplicity.png`.
+
+    Raises `BadInput` where the folder cannot be written.
+    """
+    nomogram, ((ax,),) = panels(1, 1, 6.5)
     _nomogram(ax, found)
-    legend_above(figure, ax)
-    _say_standing(figure, found)
-    paths = [folder / "nomogram.png", folder / "simplicity.png"]
-    figure.savefig(paths[0], dpi=150)
+    legend_above(nomogram, ax)
+    _say_standing(nomogram, found)
     figure = Figure(figsize=(WIDTH_IN, _HEIGHT_IN), layout="constrained")
     (wicket, cole), (shifts, curves) = figure.subplots(2, 2)
     _each_alone(wicket, cole, curves, found)
     _shift_factors(shifts, found)
     _say_standing(figure, found)
-    figure.savefig(paths[1], dpi=150)
-    return paths
+    return save_figures({"nomogram.png": nomogram, "simplicity.png": figure}, folder, 150)
 
 
 def _standing(found: Shifted) -> str:

@@ -12,7 +12,7 @@ from sessions import contents_in
 def saved(monkeypatch):
     """Figures by the name of their files, none of them rendered."""
     figures = {}
-    monkeypatch.setattr(Figure, "savefig", lambda f, path, dpi: figures.setdefault(Path(path).name, f))
+    monkeypatch.setattr(Figure, "savefig", lambda f, path, **_: figures.setdefault(Path(path).name, f))
     return figures
 
 

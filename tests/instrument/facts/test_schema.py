@@ -11,7 +11,7 @@ from kept_numbers import KEPT, load
 from paper_law import TABLE_4
 
 from instrument.cli.main import run
-from instrument.facts.schema import RESULTS, schema_of, write_schemas
+from instrument.facts.schema import RESULTS, command_of, is_of, schema_of, write_schemas
 
 PUBLISHED = Path(__file__).parents[3] / "docs" / "schema"
 KEPT_RESULTS = {
@@ -37,7 +37,10 @@ def said(capsys, *arguments):
     status = run([*map(str, arguments), "--json", "-"])
     captured = capsys.readouterr()
     assert status == 0, captured.err
-    return json.loads(captured.out)
+    found = json.loads(captured.out)
+    # So that it may be written over by the same command.
+    assert is_of(found, arguments[0])
+    return found
 
 
 def test_the_published_schemas_are_those_of_the_models(tmp_path):
@@ -52,6 +55,7 @@ def test_a_result_is_as_its_schema_says(name):
     found, command = load(name)["facts"], KEPT_RESULTS[name]
     assert faults(found, schema_of(command)) == []
     assert not set(found) - set(RESULTS[command].model_fields)
+    assert command_of(found) == command
 
 
 @pytest.mark.parametrize(

@@ -8,9 +8,8 @@ from impact_cases import AMPLITUDES, BARE_HZ, TABLE_3, clean_hit, noisy_hits
 
 from fitting.dynamics.bare_modes import CarriedSensor
 from fitting.modal.frf import DampingEstimate, Frf, Refusal
-from instrument.errors import BadInput
 from instrument.impact.damping import damping_of_frfs, damping_of_hits
-from instrument.impact.figures import frf_figure, highest_hz, hits_figure, modes_figure, save_figures
+from instrument.impact.figures import damping_figures, frf_figure, highest_hz, hits_figure, modes_figure
 from instrument.impact.judge import judge
 from instrument.impact.result import damping_from, sensor_from
 
@@ -133,14 +132,6 @@ def test_each_mode_has_its_lines_its_fit_and_its_half_power_marks(found):
         assert low.get_xdata()[0] < mode.frequency_hz < high.get_xdata()[0]
 
 
-def test_only_what_there_is_to_draw_is_saved(found, saved, tmp_path):
-    assert [p.name for p in save_figures(found, tmp_path / "new")] == ["frf.png", "hits.png", "modes.png"]
-    saved.clear()
-    bare = replace(plain(), modes=())
-    assert [p.name for p in save_figures(bare, tmp_path)] == list(saved) == ["frf.png"]
-
-
-def test_a_folder_that_cannot_be_made_is_refused(tmp_path):
-    (tmp_path / "taken").write_text("a file")
-    with pytest.raises(BadInput, match="taken"):
-        save_figures(plain(), tmp_path / "taken" / "below")
+def test_only_what_there_is_to_draw_is_drawn(found):
+    assert list(damping_figures(found)) == ["frf.png", "hits.png", "modes.png"]
+    assert list(damping_figures(replace(plain(), modes=()))) == ["frf.png"]

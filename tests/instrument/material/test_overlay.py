@@ -43,7 +43,7 @@ def table(*temperatures):
 def drawn(monkeypatch, tmp_path):
     """The axes of both panels, nothing rendered."""
     figures = []
-    monkeypatch.setattr(Figure, "savefig", lambda figure, path, dpi: figures.append((figure, path)))
+    monkeypatch.setattr(Figure, "savefig", lambda figure, path, **_: figures.append((figure, path)))
 
     def draw(law, beside):
         path = save_overlay(law, beside, tmp_path / "new")

@@ -125,7 +125,7 @@ def test_all_three_figures_are_saved_under_the_paper_s_numbers(monkeypatch, run,
     for name in ("figure_6", "figure_9", "figure_10"):
         monkeypatch.setattr(figures, name, lambda *_: Figure(figsize=(0.1, 0.1)))
     saved = []
-    monkeypatch.setattr(Figure, "savefig", lambda figure, path, dpi: saved.append(Path(path).name))
+    monkeypatch.setattr(Figure, "savefig", lambda figure, path, **_: saved.append(Path(path).name))
     paths = figures.save_figures(run, tmp_path)
     assert [p.name for p in paths] == saved
     assert [name[:5] for name in saved] == ["fig06", "fig09", "fig10"]
