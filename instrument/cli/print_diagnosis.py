@@ -18,7 +18,7 @@ from instrument.results.diagnosis_words import (
     verdict_line,
     with_verdict,
 )
-from instrument.results.foretelling import NOT_FORETOLD, is_foretold
+from instrument.results.foretelling import is_foretold, why_not_foretold
 from instrument.results.next_words import (
     NEXT_COLUMNS,
     NEXT_TITLE,
@@ -115,8 +115,8 @@ def print_before_after(out: Output, found: DiagnosisResult) -> None:
     if one_by_one[0] is not None:
         rows.append(["each point from the others, rms/%", *(_two(v) for v in one_by_one), ""])
     out.table("what the fit leaves", ["", "before", "after", "noise alone"], rows)
-    if any(not is_foretold(found, a.segment) for a in found.after.held_out):
-        out.say(NOT_FORETOLD)
+    for why in why_not_foretold(found):
+        out.say(why)
     resampled = resampling_words(found)
     if resampled:
         out.say(f"by resampling: {resampled}")

@@ -20,7 +20,7 @@ from instrument.results.diagnosis_words import (
     with_verdict,
 )
 from instrument.results.followed import followed_of, measured_words
-from instrument.results.foretelling import is_foretold
+from instrument.results.foretelling import is_foretold, why_not_foretold
 from instrument.results.next_words import NEXT_COLUMNS, NEXT_TITLE, beyond_words, next_row, separated_words
 from instrument.results.numbers import format_number, with_error
 from instrument.results.offer_sketch import offer_view
@@ -59,6 +59,7 @@ def diagnosis_sections(contents: Contents) -> list[ReportSection]:
     blocks += [Sentence(f"By resampling: {resampled}.")] if resampled else []
     blocks += [
         _before_after(found),
+        *(Sentence(f"{capitalised(why)}.", "note") for why in why_not_foretold(found)),
         FigureBlock(residual_figure(found), f"Residual {when}; predicted over measured, less one"),
         _candidates(found),
         FigureBlock(evidence_figure(found), "Evidence for each candidate"),
@@ -110,6 +111,8 @@ def _before_after(found: DiagnosisResult) -> TableBlock:
         ("chi² per degree of freedom", before.chi2_per_dof, after.chi2_per_dof),
         ("predicted from the others, rms / %", before.held_out_rms_percent, after.held_out_rms_percent),
     )
+    if before.held_out_rms_percent is None and after.held_out_rms_percent is None:
+        said = said[:-1]
     rows: list[tuple[str, ...]] = [
         (name, format_number(one, 3), format_number(other, 3), "") for name, one, other in said
     ]

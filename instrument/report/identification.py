@@ -20,6 +20,7 @@ from instrument.report.law_to_use import TITLE, found_with_effect
 from instrument.report.measured import Measured, segments_of
 from instrument.results.adjusted_words import COLUMNS, adjusted_rows
 from instrument.results.diagnosis_words import UNKNOWN, with_verdict
+from instrument.results.foretelling import why_nothing_is_held_out
 from instrument.results.law_words import sources_words
 from instrument.results.numbers import format_number, with_error
 from instrument.results.session_result import (
@@ -118,6 +119,8 @@ def unexplained_section(fitted: ReportedFit) -> ReportSection:
         rows.append(
             ("each point predicted from the others", f"{written_out(v.leave_one_out_rms_percent, 3)} % rms")
         )
+    if v.held_out_rms_percent is None and v.leave_one_out_rms_percent is None:
+        rows.append(("error on data held out", f"none: {why_nothing_is_held_out(len(r.measured_m_s))}"))
     blocks: list[Block] = [
         Sentence(f"Before: the model has no further effects than {_parts(fitted.fit.files[0].specimen)}."),
         FactsBlock("", tuple(rows)),

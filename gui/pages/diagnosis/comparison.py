@@ -3,7 +3,7 @@
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QSplitter, QVBoxLayout, QWidget
 
-from gui.pages.diagnosis.stages import ComparedMeasure, compared, laws, references_hz
+from gui.pages.diagnosis.stages import ComparedMeasure, compared, lacking, laws, references_hz
 from gui.pages.law.curve import At
 from gui.pages.law.plots import LawLine, LawPlots
 from gui.style.theme import Role
@@ -63,7 +63,8 @@ class HeldOutBars(QWidget):
             for v in (r.before, r.after if after else None, r.noise)
             if v is not None
         ]
-        self.said.setText(_BARS if after else f"{_BARS} {_one_fit(found)}")
+        said = [_BARS, *([] if after else [_one_fit(found)]), *(f"{capitalised(w)}." for w in lacking(found))]
+        self.said.setText(" ".join(said))
         cells = [_error_cells(row, max(percents, default=1.0)) for row in rows]
         self.table.show_rows(cells if after else [[*r[:3], Cell("-"), r[4]] for r in cells])
 

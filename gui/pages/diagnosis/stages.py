@@ -6,7 +6,7 @@ from fitting.identification.quoted import quoted_hz
 from gui.pages.law.curve import LawCurve
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import percent_of
-from instrument.results.foretelling import is_foretold
+from instrument.results.foretelling import is_foretold, why_not_foretold
 
 
 @dataclass(frozen=True)
@@ -49,6 +49,11 @@ def compared(found: DiagnosisResult) -> list[ComparedMeasure]:
         ComparedMeasure(largest, "%", before.max_percent, after.max_percent),
         ComparedMeasure(chi2, "", before.chi2_per_dof, after.chi2_per_dof, 1.0),
     ]
+
+
+def lacking(found: DiagnosisResult) -> tuple[str, ...]:
+    """Why errors of them are missing, a sentence each."""
+    return why_not_foretold(found)
 
 
 def laws(found: DiagnosisResult) -> tuple[LawCurve, LawCurve]:

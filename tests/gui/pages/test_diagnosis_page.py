@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QLabel
 
 from gui.actions.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from gui.pages.diagnosis import DiagnosisPage
+from gui.pages.diagnosis.comparison import HeldOutBars
 from gui.pages.diagnosis.next_table import NextTable
 from gui.pages.diagnosis.unseen_table import UnseenTable
 from gui.pages.material import MaterialPage
@@ -147,6 +148,15 @@ def test_the_error_is_shown_beside_noise(looked_at):
     page.views.setCurrentWidget(page.held_out)
     first = [page.held_out.table.cell(0, k).text for k in range(5)]
     assert first == ["segment 1, predicted from the others", "% rms", "11.2", "0.224", "0.1"]
+    assert "no other segment can foretell" not in page.held_out.said.text()
+
+
+def test_why_an_error_on_data_held_out_is_missing_is_said_below_it(qtbot, monkeypatch):
+    monkeypatch.setattr("instrument.results.foretelling.is_foretold", lambda *_: False)
+    bars = HeldOutBars()
+    qtbot.addWidget(bars)
+    bars.show_diagnosis(diagnosis())
+    assert "no other segment can foretell." in bars.said.text()
 
 
 def test_the_law_is_shown_before_and_after(looked_at):

@@ -219,6 +219,12 @@ def test_what_is_left_is_three_numbers_and_each_segment_from_the_others():
         assert rows["chi² per degree of freedom"].startswith(words)
 
 
+def test_why_nothing_is_held_out_is_said():
+    made = unexplained_section(reported(found()))
+    (facts,) = (b for b in made.blocks if isinstance(b, FactsBlock))
+    assert dict(facts.rows)["error on data held out"].startswith("none: ")
+
+
 def test_the_model_of_a_pair_is_not_called_a_plate():
     pair = SimpleNamespace(kind="shear-pair")
     of_pair = reported(found(), specimen=pair)

@@ -17,7 +17,7 @@ from instrument.results.diagnosis_words import (
     set_aside_words,
     with_verdict,
 )
-from instrument.results.foretelling import NOT_FORETOLD
+from instrument.results.foretelling import NOT_FORETOLD, why_not_foretold
 
 
 @pytest.mark.parametrize(
@@ -150,10 +150,37 @@ def test_files_are_named_and_why_a_segment_is_not_foretold_is_said(capsys, monke
     said = capsys.readouterr().out
     assert "file 1" not in said
     assert NOT_FORETOLD not in said
-    monkeypatch.setattr("instrument.cli.print_diagnosis.is_foretold", lambda *_: False)
+    monkeypatch.setattr("instrument.results.foretelling.is_foretold", lambda *_: False)
     held_out = (HeldOut(segment=1, rms_percent=2.0, noise_percent=1.0),)
     stages = {"before": found.before.but(held_out=held_out), "after": found.after.but(held_out=held_out)}
     print_diagnosis(Output(None), found.but(files=("sweep", "sweep, clamped anew"), **stages))
     said = capsys.readouterr().out
     assert "file 1: sweep; file 2: sweep, clamped anew" in said
     assert NOT_FORETOLD in said
+
+
+@pytest.mark.parametrize(
+    ("points", "why"),
+    [
+        (0, "modes are few, none is left out"),
+        (5, "5 points are too few to leave one out"),
+        (40, "one segment alone, no other foretells it"),
+    ],
+)
+def test_why_there_is_no_error_on_data_held_out_is_said(points, why):
+    found = diagnosis()
+    assert why_not_foretold(found) == ()
+    nothing = {"held_out": (), "held_out_rms_percent": None, "leave_one_out_rms_percent": None}
+    stages = {name: getattr(found, name).but(**nothing) for name in ("before", "after")}
+    without = found.but(points=(*found.points, *found.points)[:points], **stages)
+    assert len(without.points) == points
+    assert why_not_foretold(without) == (f"no error on data held out: {why}",)
+
+
+def test_that_the_noise_of_held_out_data_is_not_known_is_said():
+    found = diagnosis()
+    held_out = (HeldOut(segment=1, rms_percent=2.0, noise_percent=float("nan")),)
+    stages = {name: getattr(found, name).but(held_out=held_out) for name in ("before", "after")}
+    assert why_not_foretold(found.but(**stages)) == (
+        "- for noise alone: the noise of these readings is not known",
+    )
