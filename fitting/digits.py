@@ -6,6 +6,8 @@ _WRITTEN = 1e4
 """Odds up to which they are written out: of larger ones the power of ten says enough."""
 _SELDOM = 1e-6
 """Chance below which its size says nothing more."""
+_TAIL = 1e-3
+"""The same of a p-value: it rests on errors that are known to a few tens of percent."""
 
 
 def written_out(value: float, digits: int) -> str:
@@ -21,6 +23,17 @@ def all_digits(value: float, digits: int) -> str:
 def two_digits(value: float) -> str:
     """Two significant digits as `written_out` has them: 630 and not 6.3e+02; a share of 99.8 is 100."""
     return written_out(value, 2)
+
+
+def tail(chance: float, digits: int = 2) -> str:
+    """A p-value: `0.12`; one too small for its size to say anything is `< 0.001`, and never 0."""
+    return "< 0.001" if chance < _TAIL else f"{chance:.{digits}g}"
+
+
+def band(low: float, high: float) -> str:
+    """A range of frequencies in Hz, to four digits: `20 to 280 Hz`, and `478 Hz` where it is one."""
+    one, other = f"{low:.4g}", f"{high:.4g}"
+    return f"{one} Hz" if one == other else f"{one} to {other} Hz"
 
 
 def seldom(chance: float) -> str:

@@ -22,6 +22,8 @@ from instrument.impact.record import Hit as Record
 from instrument.impact.record import ResponseChannel
 from instrument.impact.result import damping_from
 from instrument.impact.spectra import Estimator
+from instrument.results.law_words import aligned
+from instrument.results.numbers import with_error
 from viscorig.checked import numbers
 from viscorig.facts import Facts
 from viscorig.shown import Columns
@@ -36,7 +38,7 @@ _SAME_RATE = 1e-4
 _NAMES = {"rational_fit": "rational fit", "half_power": "half power", "lscf": "LSCF"}
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Hit:
     """One blow: force and at least one motion that it caused, on one clock. Shape (samples,) each."""
 
@@ -47,6 +49,11 @@ class Hit:
     velocity_m_s: ArrayLike | None = None
     displacement_m: ArrayLike | None = None
     name: str = "hit"
+
+    def __repr__(self) -> str:
+        motions = [name for name in MOTIONS if getattr(self, name) is not None]
+        count, with_ = np.size(self.force_n), ", ".join(motions) or "no motion"
+        return f"<Hit: {self.name}, {count} samples at {self.sample_rate_hz:g} Hz, {with_}>"
 
     def record(self) -> Record:
         """A record as files have them. Raises `BadInput` without a motion, or where lengths differ."""
@@ -97,6 +104,16 @@ class Damping(Facts[DampingResult]):
     def lines(self) -> list[str]:
         """How many modes were accepted, and the warnings."""
         return [f"{len(self.result.accepted)} modes of {len(self.result.modes)} accepted", *self.warnings]
+
+    def printed(self) -> list[str]:
+        """Frequencies and adopted ratios of the accepted modes, with their standard errors."""
+        rows = []
+        for mode in self.result.accepted:
+            adopted = next((found for method in METHODS if (found := mode.by(method))), None)
+            error = adopted.standard_error if adopted else None
+            f = with_error(mode.frequency_hz, mode.frequency_standard_error_hz)
+            rows.append([f, with_error(mode.damping_ratio, error, 100)])
+        return aligned(["frequency/Hz", "damping ratio/%"], rows) if rows else []
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Ratios by the three methods over frequency, with one standard error; the axes."""

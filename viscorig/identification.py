@@ -95,13 +95,12 @@ class Identification(Facts[IdentificationResult]):
         notes = [f"note: {said}" for said in self.warnings]
         return [f"{self.result.law_kind}: {found}", f"difference in amplitude: {left}", *notes]
 
-    def __str__(self) -> str:
-        """As the command prints it: with G' and the loss factor at a few frequencies of the band."""
-        heading, *rest = self.lines()
+    def printed(self) -> list[str]:
+        """G' and the loss factor at a few frequencies of the band, as the command prints them."""
         rows = law_cells(a_few(self.result.law), sign="±")
         sources = sources_words(self.result.method, self.result.noise)
         title = f"the law in the measured band, ± one standard error ({sources})"
-        return "\n".join([heading, title, *aligned(LAW_COLUMNS, rows), *rest])
+        return [title, *aligned(LAW_COLUMNS, rows)]
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """G' and, on an axis of its own, the loss factor over frequency, with 95 % bands; the axes."""

@@ -10,6 +10,7 @@ from instrument.facts.modes import ModesResult
 from instrument.models.specimen_modes import edge_twist_remark, specimen_modes
 from instrument.progress import bar
 from instrument.remarks.theory import theory_remark
+from instrument.results.law_words import aligned
 from instrument.results.modes_from import modes_from
 from viscorig.facts import Facts
 from viscorig.shown import Columns, columns
@@ -43,6 +44,11 @@ class Modes(Facts[ModesResult]):
         """How many modes there are, and between which frequencies."""
         f = self.frequency_hz
         return [f"{len(f)} modes, {f.min():.4g} to {f.max():.4g} Hz" if len(f) else "no modes"]
+
+    def printed(self) -> list[str]:
+        """Frequencies and loss factors."""
+        rows = [[f"{m.frequency_hz:.5g}", f"{m.loss_factor:.4g}"] for m in self.result.modes]
+        return aligned(["frequency/Hz", "loss factor"], rows) if rows else []
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Loss factors over frequency; the axes."""

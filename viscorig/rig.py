@@ -16,7 +16,7 @@ from viscorig.session import Session, load_session
 _WHOLE: tuple[Part, ...] = ("hammer", "sweep")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Rig:
     """The instruments of a RIG.toml; those with the address "simulated" are stood up for each run."""
 
@@ -28,6 +28,10 @@ class Rig:
     def from_file(cls, path: str | Path) -> Self:
         """Read a RIG.toml. Raises `BadInput`."""
         return cls(Path(path), read_document(Path(path), RigDocument))
+
+    def __repr__(self) -> str:
+        how = "simulated" if self.is_simulated else "real instruments"
+        return f"<Rig: {self.document.name or self.path.stem}, {how}, {self.path}>"
 
     @property
     def is_simulated(self) -> bool:

@@ -58,7 +58,13 @@ class Shown:
         return f"<{type(self).__name__}: {self.lines()[0]}>"
 
     def __str__(self) -> str:
-        return "\n".join(self.lines())
+        """Heading, table where there is one to print, and the rest of what there is to say."""
+        heading, *rest = self.lines()
+        return "\n".join([heading, *self.printed(), *rest])
+
+    def printed(self) -> list[str]:
+        """Lines of a table as a terminal shows it; none where `lines` say it all."""
+        return []
 
     def _repr_html_(self) -> str:
         heading, *rest = (escape(line) for line in self.lines())

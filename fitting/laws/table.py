@@ -10,6 +10,7 @@ from scipy.interpolate import Akima1DInterpolator
 from scipy.optimize import least_squares
 
 from fitting.arrays import Array, Complex
+from fitting.digits import band
 from fitting.errors import OutsideModel
 from fitting.laws.base import CoreLaw, fixed
 from fitting.laws.fractional_zener import FractionalZener
@@ -90,7 +91,7 @@ class Tabulated(CoreLaw):
         if not len(off):
             return ""
         return (
-            f"{len(off)} of {len(f)} frequencies ({off.min():.4g} to {off.max():.4g} Hz) lie outside the "
+            f"{len(off)} of {len(f)} frequencies ({band(off.min(), off.max())}) lie outside the "
             f"core law's table, {low:.4g} to {high:.4g} Hz: there G' goes on straight in logarithms and eta "
             "as it ends, which no row supports"
         )

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fitting.digits import two_digits
+from fitting.digits import tail, two_digits
 from fitting.temperature.causes import Cause, explains, one_law_serves
 from fitting.temperature.shifted_fit import ShiftedFit
 from fitting.temperature.thermometers import Misread, misread, rising
@@ -172,13 +172,13 @@ def story(cause: Cause) -> str:
 def _gain(fit: ShiftedFit) -> str:
     more = fit.chi2 - fit.chi2_own
     fewer = f"{fit.degrees:.0f} parameter{'s' * (f'{fit.degrees:.0f}' != '1')}"
-    said = f"chi-square {more:+.1f} for {fewer} fewer, p {fit.p_value:.2g}"
+    said = f"chi-square {more:+.1f} for {fewer} fewer, p {tail(fit.p_value)}"
     return said if fit.noise_known else f"{said}, noise being what a law for each temperature leaves"
 
 
 def _whose(fit: ShiftedFit, odd_ones: Sequence[OddOne], names: Sequence[str]) -> tuple[str, ...]:
     name, T = (names or range(1, len(fit.shift.temperature_c) + 1)), fit.shift.temperature_c
-    each = [f"without {name[o.place]} ({T[o.place]:g} degC, p {o.p_value:.2g})" for o in odd_ones]
+    each = [f"without {name[o.place]} ({T[o.place]:g} degC, p {tail(o.p_value)})" for o in odd_ones]
     return (
         f"{' or '.join(each)} one law explains all others: something may be off there alone (a mass, a "
         "mount, another specimen), or the material is not simple there",

@@ -1,11 +1,13 @@
 """`viscorig compare`: which laws differ beyond their uncertainties, and where."""
 
+from functools import partial
 from itertools import combinations
 from pathlib import Path
 
 import click
 import numpy as np
 
+from fitting.digits import band, tail
 from instrument.cli.options import NumberRange, file_arguments, json_option
 from instrument.cli.output import Output
 from instrument.facts.comparison import CompareResult
@@ -16,6 +18,7 @@ from instrument.material.remarks import remarks_on_law, remarks_on_one_specimen,
 from instrument.material.spread import spread_of
 from instrument.material.spread_facts import spread_result
 from instrument.progress import bar
+from instrument.results.numbers import signed
 
 _SAYS = {True: "differ", False: "not told apart", None: "cannot be told"}
 
@@ -114,15 +117,15 @@ def _cells(c: Comparison) -> list[str]:
     dG = c.storage_difference[np.argmax(np.abs(c.storage_difference))]
     de = c.loss_factor_difference[np.argmax(np.abs(c.loss_factor_difference))]
     return [
-        f"{c.frequency_hz[0]:.4g} to {c.frequency_hz[-1]:.4g}",
+        band(c.frequency_hz[0], c.frequency_hz[-1]).removesuffix(" Hz"),
         *(
-            format(value, spec) if np.isfinite(value) else "not known"
-            for value, spec in (
-                (100 * dG, "+.2f"),
-                (de, "+.4f"),
-                (c.chi2, ".2f"),
-                (c.dof, ".1f"),
-                (c.p_value, ".3g"),
+            said(value) if np.isfinite(value) else "not known"
+            for value, said in (
+                (100 * dG, signed),
+                (de, partial(signed, places=4)),
+                (c.chi2, "{:.2f}".format),
+                (c.dof, "{:.1f}".format),
+                (c.p_value, partial(tail, digits=3)),
             )
         ),
         _SAYS[c.differs],

@@ -2,11 +2,12 @@
 
 import numpy as np
 
+from fitting.digits import tail
 from instrument.cli.output import Output
 from instrument.facts.beside import BesideTable
 from instrument.files.dma_file import DmaTable
 from instrument.material.beside import TableAtTemperature
-from instrument.results.numbers import format_number
+from instrument.results.numbers import signed
 
 _SAYS = {True: "differs", False: "agrees", None: "cannot be told"}
 
@@ -25,11 +26,11 @@ def print_beside(out: Output, table: DmaTable, found: list[TableAtTemperature], 
             [
                 warm,
                 str(at.rows),
-                f"{at.storage_modulus_mean_difference_percent:+.2f}",
+                signed(at.storage_modulus_mean_difference_percent),
                 f"{at.storage_modulus_rms_difference_percent:.2f}",
-                f"{at.loss_factor_mean_difference:+.4f}",
+                signed(at.loss_factor_mean_difference, 4),
                 f"{at.loss_factor_rms_difference:.4f}",
-                format_number(one.p_value, 3),
+                tail(one.p_value, 3) if np.isfinite(one.p_value) else "-",
                 _SAYS[one.differs],
             ]
         )

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from instrument.cli.output import Output
 from instrument.facts.shifted import ModeAt, ShiftAt, ShiftedResult
 from instrument.results.law_words import LAW_COLUMNS, law_cells
-from instrument.results.numbers import format_number, to_error, with_error
+from instrument.results.numbers import format_number, signed, to_error, with_error
 
 _ROWS = 9
 
@@ -44,7 +44,7 @@ def _factors(out: Output, result: ShiftedResult) -> None:
         row = [
             _names([each.name for each in its]),
             f"{one.temperature_c:g}",
-            f"{one.log10_shift:+.4f}",
+            signed(one.log10_shift, 4),
             f"{one.log10_shift_standard_error:.4f}",
             with_error(one.vertical, one.vertical_standard_error, sign="+-"),
         ]

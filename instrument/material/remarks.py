@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from fitting.digits import two_digits
+from fitting.digits import band, two_digits
 from instrument.interchange.questions import kelvin_doubt
 from instrument.material.alike import alike_in, stated_unlike
 from instrument.material.comparing import Comparison
@@ -36,7 +36,7 @@ def remarks_on_pair(c: Comparison) -> list[str]:
     if (warm := _unlike_temperatures(c)) is not None:
         said.append(f"of {warm[0]:.4g} and {warm[1]:.4g} degC, which alone makes laws differ")
     for what, z in (("G'", c.storage_z), ("eta", c.loss_factor_z)):
-        ranges = ", ".join(f"{low:.4g} to {high:.4g} Hz" for low, high in c.where(z))
+        ranges = ", ".join(band(low, high) for low, high in c.where(z))
         if ranges:
             said.append(f"{what} differs beyond 1.96 joint standard errors at {ranges}")
     if c.differs is False and (seen := c.would_be_seen) is not None:

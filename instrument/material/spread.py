@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 
 from fitting.arrays import Array, Mask
-from fitting.digits import two_digits
+from fitting.digits import tail, two_digits
 from instrument.errors import BadInput
 from instrument.material.alike import alike_in
 from instrument.material.apart import LEVEL_APART, means_of_others, p_values
@@ -90,7 +90,7 @@ class Apart:
         """One line; `called` are the others."""
         return (
             f"{self.name} is apart from the {others} other {called}: G' {100 * self.storage:+.2g} %, "
-            f"loss factor {100 * self.loss:+.2g} % at {at_hz:.4g} Hz (p = {self.p_value:.2g})"
+            f"loss factor {100 * self.loss:+.2g} % at {at_hz:.4g} Hz (p {tail(self.p_value)})"
         )
 
 

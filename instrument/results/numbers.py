@@ -62,5 +62,5 @@ def format_number(value: float | None, digits: int = 4) -> str:
 
 
 def signed(value: float, places: int = 2) -> str:
-    """With its sign."""
-    return f"{value:+.{places}f}"
+    """With its sign; what is rounded to nothing is +0."""
+    return f"{round(value, places) + 0.0:+.{places}f}"

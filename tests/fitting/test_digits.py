@@ -2,7 +2,7 @@
 
 import pytest
 
-from fitting.digits import all_digits, seldom, times, two_digits, written_out
+from fitting.digits import all_digits, band, seldom, tail, times, two_digits, written_out
 
 
 @pytest.mark.parametrize(
@@ -42,3 +42,11 @@ def test_odds_are_said_as_how_many_times_as_likely():
 )
 def test_a_chance_too_small_to_mean_anything_has_no_digits(chance, said):
     assert seldom(chance) == said
+
+
+def test_a_p_value_is_never_nought():
+    assert [tail(p) for p in (0.0, 9e-4, 0.00123, 0.5)] == ["< 0.001", "< 0.001", "0.0012", "0.5"]
+
+
+def test_a_range_that_is_one_frequency_is_said_as_one():
+    assert [band(478.01, 478.04), band(20.0, 280.0)] == ["478 Hz", "20 to 280 Hz"]

@@ -70,6 +70,31 @@ def test_everything_is_a_table_in_a_notebook(results):
         assert one.lines()[0] in repr(one)
 
 
+def test_what_is_printed_has_its_numbers(found, plate):
+    heading, columns, *rows = str(vr.modes(plate, 2)).splitlines()
+    assert heading.startswith("2 modes")
+    assert columns.split("/")[0].strip() == "frequency"
+    assert [float(row.split()[0]) for row in rows] == pytest.approx(vr.modes(plate, 2).frequency_hz, rel=1e-4)
+    mode = {"frequency_hz": 17.66, "frequency_standard_error_hz": 0.01, "damping_ratio": 0.012}
+    mode["rational_fit"] = {"ratio": 0.012, "standard_error": 0.0005}
+    refused = {"frequency_hz": 50.0, "accepted": False, "why": "too narrow"}
+    made = vr.Damping(DampingResult.model_validate({"modes": [mode, refused], "warnings": ["a remark"]}))
+    assert [" ".join(line.split()) for line in str(made).splitlines()] == [
+        "1 modes of 2 accepted",
+        "frequency/Hz damping ratio/%",
+        "17.660 ± 0.010 1.200 ± 0.050",
+        "a remark",
+    ]
+
+
+def test_what_holds_arrays_or_files_is_shown_in_a_line(tmp_path):
+    hit = vr.Hit(np.zeros(4096), 8192.0, velocity_m_s=np.zeros(4096), name="third")
+    assert repr(hit) == "<Hit: third, 4096 samples at 8192 Hz, velocity_m_s>"
+    path = tmp_path / "rig.toml"
+    path.write_bytes(vr.example_file("rig.toml").read_bytes())
+    assert repr(vr.Rig.from_file(path)) == f"<Rig: simulated rig, simulated, {path}>"
+
+
 def test_html_of_a_name_stays_text(plate):
     class Named(vr.Modes):
         def lines(self):

@@ -44,7 +44,7 @@ def folder(tmp_path):
 
 
 def json_of(words, tmp_path):
-    out = tmp_path / "out.json"
+    out = tmp_path / f"{words[0]}.json"
     assert run([*map(str, words), "--json", str(out)]) == 0
     return json.loads(out.read_text())
 
@@ -65,7 +65,7 @@ def test_a_prediction_outside_the_table_says_so(folder):
     within = json_of(["predict", beam, "--frequencies", "20,100"], folder)
     assert within["notes"] == []
     beyond = json_of(["predict", beam, "--frequencies", "20,3000"], folder)
-    assert "1 of 2 frequencies (3000 to 3000 Hz) lie outside the core law's table" in beyond["notes"][0]
+    assert "1 of 2 frequencies (3000 Hz) lie outside the core law's table" in beyond["notes"][0]
     assert "outside the core law's table" in json_of(["modes", beam, "--count", 8], folder)["notes"][0]
 
 

@@ -77,7 +77,7 @@ def test_the_commands_take_shear_pairs(tmp_path, capsys):
         ["modes", pair_toml],
         ["predict", pair_toml, "--frequencies", "50,100"],
     ):
-        assert run([*words, "--json", str(tmp_path / "out.json")]) == 0, words
+        assert run([*words, "--json", str(tmp_path / f"{words[0]}.json")]) == 0, words
     assert run(["identify", str(tmp_path / "a.csv"), *["--specimen", pair_toml] * 2]) == 2
     assert "2 times --specimen for 1 files" in capsys.readouterr().err
     words = ["identify", str(tmp_path / "a.csv"), "--specimen", pair_toml, "--uncertainty", "bootstrap"]

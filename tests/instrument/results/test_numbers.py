@@ -54,6 +54,7 @@ def test_a_value_in_a_column_of_its_own_has_the_digits_its_error_leaves(value, e
 def test_plain_and_signed():
     assert (format_number(0.123456), format_number(None), format_number(math.inf)) == ("0.1235", "-", "-")
     assert signed(0.5) == "+0.50"
+    assert signed(-1e-5, 4) == signed(-0.0, 4) == "+0.0000"
 
 
 @pytest.mark.parametrize(
