@@ -5,10 +5,12 @@ import subprocess
 import sys
 
 import pytest
+from plugin_sites import ROOT
 
 from fitting import plugins
 from fitting.plugins import NoPlugin, Registry
 from instrument.cli.main import run
+from instrument.interchange.readers import READERS
 
 GOOD = "def read(path):\n    return 'read'\n"
 BROKEN = "import no_such_library\n"
@@ -80,6 +82,16 @@ def test_what_cannot_be_used_is_left_out_with_one_line_that_names_it(package, ca
     assert line.startswith("plugin 'dat' of package bad-one (viscorig.readers) is left out: " + why)
     assert "\n" not in line
     assert why in found.expected("dat")
+
+
+def test_the_lines_in_the_documentation_are_those_that_are_said(package, caplog):
+    page = (ROOT / "docs" / "plugins.md").read_text(encoding="utf-8")
+    shown = [line.strip() for line in page.splitlines() if line.startswith("    plugin ")]
+    assert len(shown) == 2
+    package("other-readers", BROKEN, readers={"dat": "read", "xls": "read"})
+    own = {name: len for name in READERS if READERS.is_own(name)}
+    list(Registry("viscorig.readers", own, judged))
+    assert said(caplog) == shown
 
 
 def test_a_name_that_is_ours_stays_ours(package, caplog):
