@@ -1,7 +1,7 @@
 """Rows of a CSV with their line numbers: `#` comments, one header; sample rates as a file says them."""
 
+import cmath
 import csv
-import math
 import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -125,13 +125,16 @@ def number(path: Path, line: int, name: str, text: str) -> float:
         cure = f" (E before an exponent, not D); {IMPORT_READS}" if _FORTRAN.fullmatch(text) else ""
         cure = " with a decimal point" if _WITH_COMMA.fullmatch(text) else cure
         raise BadInput(f"{path}: line {line}: {name} = {shown(text)!r}, expected a number{cure}") from None
-    if not math.isfinite(value):
-        raise BadInput(f"{path}: line {line}: {name} = {shown(text)}, expected a finite number")
-    if abs(value) > LARGEST:
-        raise BadInput(
-            f"{path}: line {line}: {name} = {shown(text)}, expected nothing beyond {LARGEST:g} in size"
-        )
+    check_size(f"{path}: line {line}", name, value, shown(text))
     return value
+
+
+def check_size(where: str, name: str, value: complex, text: str) -> None:
+    """Raise `BadInput` for what is no finite number, or beyond all that is measured."""
+    if not cmath.isfinite(value):
+        raise BadInput(f"{where}: {name} = {text}, expected a finite number")
+    if abs(value) > LARGEST:
+        raise BadInput(f"{where}: {name} = {text}, expected nothing beyond {LARGEST:g} in size")
 
 
 def check_frequency(where: str, name: str, value: float, text: str) -> None:

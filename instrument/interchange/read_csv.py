@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from instrument.errors import BadInput
 from instrument.files.modal_table import read_said
 from instrument.files.sweep_file import reading_said
-from instrument.files.table import Rows, rate_stated_in, shown
+from instrument.files.table import Rows, check_size, rate_stated_in, shown
 from instrument.interchange.celsius import is_temperature
 from instrument.interchange.decoded import decoded
 from instrument.interchange.found import CARRIED, EXPECTED, Found
@@ -62,10 +62,8 @@ def read_csv(path: Path, naming: Naming | None = None) -> Found:
 def _refuse_infinite(path: Path, table: Named, found: Found) -> None:
     """Raise `BadInput` for the first cell that is no finite number, of columns with units before others."""
     for name, values in sorted(table.items(), key=lambda column: unit_in(column[0]) is None):
-        bad = np.flatnonzero(np.isinf(values))
-        if bad.size:
-            place = found.place(int(bad[0]), len(values))
-            raise BadInput(f"{path}: {place}: {name} = {values[bad[0]]:g}, expected a finite number")
+        for k in np.flatnonzero(np.isinf(values)):
+            check_size(f"{path}: {found.place(int(k), len(values))}", name, values[k], f"{values[k]:g}")
 
 
 def _nothing(path: Path, names: Sequence[str]) -> str:

@@ -11,7 +11,7 @@ from fitting.modal.frf import Motion
 from instrument.errors import BadInput
 from instrument.files.point_columns import understood
 from instrument.files.rates import CONTRADICTION
-from instrument.files.table import rate_of_times
+from instrument.files.table import check_above_zero, check_size, rate_of_times
 from instrument.files.units import DERIVATIVE, KNOWN, Quantity
 from instrument.interchange.celsius import with_celsius
 from instrument.interchange.columns_of_ours import with_columns_of_ours
@@ -238,13 +238,13 @@ def _check_sizes(source: str, reading: Signal, drive: Signal | None) -> None:
 
 def _check_rows(source: str, reading: Signal, f: Array, found: Found) -> None:
     """Raise `BadInput` for a row of a sweep that is none."""
-    for what, expected, bad in (
-        ("no number", "one in every row", ~np.isfinite(reading.values)),
-        ("a frequency not above 0", "frequencies above 0 Hz", ~(f > 0)),
-    ):
-        if bad.any():
-            place = found.place(int(np.flatnonzero(bad)[0]), len(f))
-            raise BadInput(f"{source}: {reading.name}: {what} in {place}, expected {expected}")
+    for name, values in ((reading.name, reading.values), ("frequency in Hz", f)):
+        for k in np.flatnonzero(~np.isfinite(values)):
+            # Of a complex one the part that is none.
+            x = values[k] if np.isrealobj(values) else np.abs(values[k])
+            check_size(f"{source}: {found.place(int(k), len(f))}", name, x, f"{x:g}")
+    for k in np.flatnonzero(f <= 0):
+        check_above_zero(f"{source}: {found.place(int(k), len(f))}", "frequency in Hz", f[k], f"{f[k]:g}")
 
 
 def _as(source: str, signal: Signal, wanted: Quantity, f: Array) -> NDArray[Any]:

@@ -10,7 +10,7 @@ import numpy as np
 from fitting.plugins import NoPlugin, Registry
 from instrument.errors import BadInput
 from instrument.files.guard import checked_frf, checked_hits, said_of
-from instrument.files.table import LARGEST
+from instrument.files.table import LARGEST, check_size
 from instrument.files.text import refuse_workbook
 from instrument.interchange.found import CARRIED, EXPECTED, Found
 from instrument.interchange.naming import OF_ARRAYS, Naming
@@ -99,12 +99,9 @@ def _checked(path: Path, found: Found) -> Found:
         checked_frf(path, name, frf)
     for columns in (*found.sweeps, *(m.columns for m in found.modes)):
         for name, values in columns.items():
-            size = np.abs(np.asarray(values, dtype=float))
-            known = size[~np.isnan(size)] if name in CARRIED else size
-            if not np.all(known <= LARGEST):
-                bad = ~(size <= LARGEST) & ~(np.isnan(size) & (name in CARRIED))
-                place = found.place(int(np.flatnonzero(bad)[0]), size.size)
-                raise BadInput(f"{path}: {name}: no number, or one beyond {LARGEST:g}, in {place}")
+            x = np.asarray(values, dtype=float)
+            for k in np.flatnonzero(~(np.abs(x) <= LARGEST) & ~(np.isnan(x) & (name in CARRIED))):
+                check_size(f"{path}: {found.place(int(k), x.size)}", name, x[k], f"{x[k]:g}")
     return found
 
 

@@ -132,7 +132,11 @@ def test_a_ratio_in_the_unit_of_one_signal_is_no_motion():
 
 @pytest.mark.parametrize(
     ("frequency_hz", "velocity", "said"),
-    [(F, np.where(F[2] == F, np.nan, V), "no number in row 3"), (F - F[0], V, "not above 0 in row 1")],
+    [
+        (F, np.where(F[2] == F, np.nan, V), "a: row 3 of 5: velocity_m_s = nan, expected a finite number"),
+        (F - F[0], V, "a: row 1 of 5: frequency in Hz = 0, expected more than 0"),
+        (np.where(F[2] == F, np.nan, F), V, "a: row 3 of 5: frequency in Hz = nan, expected a finite number"),
+    ],
 )
 def test_a_row_that_is_none_is_refused_by_its_place(frequency_hz, velocity, said):
     with pytest.raises(BadInput, match=said):
