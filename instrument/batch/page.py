@@ -1,5 +1,6 @@
 """batch.html: laws overlaid, verdicts counted, failures listed, all rows in a table; nothing is fetched."""
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from itertools import islice
@@ -9,7 +10,7 @@ from instrument.batch.between import Between
 from instrument.batch.columns import Cell, cells
 from instrument.batch.counted import Counted
 from instrument.batch.figure import MOST, laws_figure
-from instrument.batch.run import Rows
+from instrument.batch.run import BatchRow, Rows
 from instrument.facts.comparison import SpreadSize
 from instrument.files.at_once import write_at_once
 from instrument.report.blocks import Block, FactsBlock, FigureBlock, ReportSection, Sentence, TableBlock
@@ -18,6 +19,7 @@ from instrument.results.numbers import with_error
 
 HTML = "batch.html"
 _ROWS_SHOWN = 2000
+_AGAIN = "Remarks of several rows, which have their numbers below"
 _ERRORS = {
     "storage_modulus_pa": "storage_modulus_standard_error_pa",
     "loss_factor": "loss_factor_standard_error",
@@ -139,16 +141,37 @@ def _rows(rows: Rows) -> tuple[Block, ...]:
     shown = []
     some = list(islice(rows, _ROWS_SHOWN))
     names = short_names([row.task.data for row in some])
+    again = _said_again(some)
     for row, name in zip(some, names, strict=True):
         found = cells(row)
         if row.outcome["failed"]:
             found["warnings"] = row.outcome["failed"]
+        elif again:
+            found["warnings"] = _with_numbers(row.outcome["warnings"], again)
         shown.append((name, *(_text(found, key, scale) for key, _, scale in _SHOWN)))
     heads = ("data", *(head for _, head, _ in _SHOWN))
-    table = TableBlock("", heads, tuple(shown), words=("effects", "remarks"))
-    if len(rows) <= _ROWS_SHOWN:
-        return (table,)
-    return (Sentence(f"The first {_ROWS_SHOWN}; batch.csv has all of them.", "note"), table)
+    blocks: list[Block] = []
+    if len(rows) > _ROWS_SHOWN:
+        blocks.append(Sentence(f"The first {_ROWS_SHOWN}; batch.csv has all of them.", "note"))
+    if again:
+        said = tuple(
+            (f"[{k}]", remark, str(count)) for k, (remark, count) in enumerate(again.items(), start=1)
+        )
+        blocks.append(TableBlock(_AGAIN, ("", "remark", "rows"), said))
+    return (*blocks, TableBlock("", heads, tuple(shown), words=("effects", "remarks")))
+
+
+def _said_again(rows: Sequence[BatchRow]) -> dict[str, int]:
+    """Remarks that more than one row has, the most frequent first, and how many have them."""
+    count = Counter(remark for row in rows if not row.outcome["failed"] for remark in row.outcome["warnings"])
+    return {remark: n for remark, n in count.most_common() if n > 1}
+
+
+def _with_numbers(remarks: Sequence[str], again: Mapping[str, int]) -> str:
+    """A row's own in words, those of several by their numbers."""
+    number = {remark: f"[{k}]" for k, remark in enumerate(again, start=1)}
+    known = [number[remark] for remark in remarks if remark in number]
+    return "; ".join([*([" ".join(known)] if known else []), *(r for r in remarks if r not in number)])
 
 
 def _text(found: Mapping[str, Cell], key: str, scale: float) -> str:

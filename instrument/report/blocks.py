@@ -45,7 +45,7 @@ class FigureBlock:
     kind: ClassVar[str] = "picture"
     figure: Figure
     title: str
-    """Below it, and read aloud in its place."""
+    """Below it; what is read aloud in its place is said by the figure itself."""
 
 
 Block = Sentence | FactsBlock | TableBlock | FigureBlock

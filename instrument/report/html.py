@@ -6,7 +6,7 @@ from pathlib import Path
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from instrument.report.blocks import ReportSection
-from instrument.report.picture import as_svg
+from instrument.report.picture import as_svg, in_words
 from instrument.results.typeset import typeset
 
 _TEMPLATE = "page.html"
@@ -27,6 +27,7 @@ def html_page(
         lstrip_blocks=True,
     )
     environment.filters["as_svg"] = as_svg
+    environment.filters["in_words"] = in_words
     environment.filters["typeset"] = typeset
     return environment.get_template(_TEMPLATE).render(
         title=title, header=header, sections=sections, signed=signed

@@ -12,8 +12,9 @@ from json_schema import faults
 from pyarrow import parquet
 
 from instrument.batch.asking import tasks_of
-from instrument.batch.page import short_names
-from instrument.batch.run import here, run_batch
+from instrument.batch.counted import Counted
+from instrument.batch.page import short_names, write_page
+from instrument.batch.run import BatchRow, here, run_batch
 from instrument.batch.task import BatchTask
 from instrument.batch.work import outcome_of
 from instrument.cli.main import run
@@ -115,6 +116,24 @@ def test_the_page_needs_nothing_beside_it(whole):
     assert not re.search(r'(src|href)="(?!data:|#)', page)
     for words in ("3 of 4", "sweep-0002.csv", "column frequency_hz missing", "data:image/svg+xml"):
         assert words in page
+
+
+def test_what_is_said_of_several_rows_stands_on_the_page_once(tmp_path):
+    law = {"frequency_hz": [20.0], "storage_modulus_pa": [1e6], "loss_factor": [0.5]}
+    law |= {"storage_modulus_standard_error_pa": [1e4], "loss_factor_standard_error": [0.01]}
+    nothing = dict.fromkeys(("points", "lowest_hz", "highest_hz", "rms_percent", "chi2_per_dof"), 1.0)
+    nothing |= dict.fromkeys(("converged", "borrowed_model", "verdict", "leave_one_out_rms_percent"))
+    nothing |= {"law_kind": "", "held_out_rms_percent": None, "effects": (), "parameters": {}, "law": law}
+    said = (["tolerances are typical"], ["its own; in two parts", "tolerances are typical"], [])
+    rows = [
+        BatchRow(BatchTask(f"{k}.csv", "a.toml"), {**nothing, "failed": "", "warnings": one})
+        for k, one in enumerate(said)
+    ]
+    counted = Counted()
+    page = write_page(rows, counted, (), (), tmp_path).read_text(encoding="utf-8")
+    assert page.count("tolerances are typical") == 1
+    cells = re.findall(r"<td[^>]*>(\[1\][^<]*)</td>", page)
+    assert cells == ["[1]", "[1]", "[1]; its own; in two parts"]
 
 
 def test_a_page_names_files_by_as_much_of_their_path_as_tells_them_apart():

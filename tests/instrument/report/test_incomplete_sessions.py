@@ -74,4 +74,4 @@ def test_a_session_with_nothing_in_it(tmp_path):
     page = made(tmp_path, lambda synthetic: synthetic.end("stopped safely", "no light"))
     assert "The rig stopped itself: no light" in section(page, "How it ended")
     assert "No sweep was made." in section(page, "How it ended")
-    assert re.findall(r'alt="([^"]+)"', page) == ["The specimen to scale"]
+    assert re.findall(r"<figcaption>(.*?)</figcaption>", page) == ["The specimen to scale"]

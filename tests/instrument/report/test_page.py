@@ -94,10 +94,24 @@ def test_links_lead_to_sections(page):
 def test_figures_are_svg_of_their_own(page):
     figures = re.findall(r'src="data:image/svg\+xml;base64,([^"]*)" alt="([^"]+)"', page)
     assert len(figures) == 7
-    assert figures[0][1] == "The specimen to scale"
+    assert figures[0][1].startswith("A drawing with: ")
+    assert "Storage modulus G' / MPa from" in unescape(" ".join(words for _, words in figures))
+    # What is read in the place of a figure is not what stands below it.
+    captions = re.findall(r"<figcaption>(.*?)</figcaption>", page)
+    assert "The specimen to scale" in captions
+    assert not {words for _, words in figures} & set(captions)
     for data, _ in figures:
         root = ElementTree.fromstring(base64.b64decode(data))
         assert root.tag.endswith("svg")
+
+
+def test_tables_say_what_they_are_and_which_cells_are_heads(page):
+    heads = re.findall(r"<th\b[^>]*>", page)
+    assert heads
+    assert all('scope="col"' in head for head in heads)
+    tables = re.findall(r"<table([^>]*)>\s*(<caption[^>]*>.+?</caption>)?", page)
+    assert any(caption for _, caption in tables)
+    assert all("aria-label" in label or caption for label, caption in tables)
 
 
 def test_it_is_dark_where_that_is_preferred_and_prints_light(page):
