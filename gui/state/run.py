@@ -209,7 +209,7 @@ class Run:
         if self.found.verdict == "unknown":
             return f"{UNRELIABLE}; Diagnosis says what to measure next"
         said = verdict_line(self.found).removeprefix("verdict: ")
-        return f"{said}; see Material and Diagnosis"
+        return f"{said}; see Diagnosis"
 
     @property
     def strikes(self) -> bool:

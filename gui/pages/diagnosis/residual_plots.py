@@ -44,6 +44,8 @@ _FOOT = -0.93
 _SHARE_OF_TYPE = 0.38
 """Size of a point to that of type."""
 _ALL = "all"
+_LOW = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+"""Digits as they stand below the line."""
 _NO_POINTS = "No points: of tables of modes, what the fit leaves of each mode is on Several files, Fit."
 
 
@@ -136,10 +138,10 @@ class ResidualPlots(QWidget):
             return
         number, stage = self._waiting.pop(0)
         plot = self._plot(number, stage)
-        plot.setToolTip(f"Segment {number}{self._place(number)}, {stage}")
+        plot.setToolTip(f"{_symbol(number)}: residual of segment {number}{self._place(number)}, {stage}")
         titled, unit = number == self._numbers[-1], "" if quantity == "whitened" else "%"
         plot.show_axes(
-            Axis("Frequency", "Hz", titled=titled), Axis(self._titled(number), unit, symbol=f"Seg. {number}")
+            Axis("Frequency", "Hz", titled=titled), Axis(self._titled(number), unit, symbol=_symbol(number))
         )
         shown = panel(self._found, number, stage, quantity)
         height = _ROOM * limit(self._found, number, stage, quantity)
@@ -191,6 +193,11 @@ class ResidualPlots(QWidget):
         column.addLayout(titles)
         column.addWidget(self.nothing)
         column.addWidget(area, 1)
+
+
+def _symbol(number: int) -> str:
+    """Of a segment's residual, for axes that have no room for a word."""
+    return f"R{str(number).translate(_LOW)}"
 
 
 class _Twins(QObject):

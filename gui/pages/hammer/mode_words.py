@@ -76,7 +76,7 @@ def _mode_row(number: int, mode: ModeFound, modes: ModesFound | None, expected_h
     scatter = modes.scatter[k] if modes is not None and k is not None else None
     over_hits = "..." if modes is None else "–"
     if scatter is not None:
-        over_hits = ratio_error_words(mode.damping_ratio, scatter.ratio)
+        over_hits = _narrow(ratio_error_words(mode.damping_ratio, scatter.ratio))
     return ModeRow(
         f,
         (
@@ -128,7 +128,12 @@ def _close(x: float, y: float) -> bool:
 def _percent(estimate: RatioFound | None) -> str:
     if estimate is None:
         return "refused"
-    return ratio_words(estimate.ratio, estimate.standard_error, "±")
+    return _narrow(ratio_words(estimate.ratio, estimate.standard_error, "±"))
+
+
+def _narrow(words: str) -> str:
+    """A column of numbers has no room for a word."""
+    return words.replace("below ", "<")
 
 
 def _method_tip(estimate: RatioFound | None, method: Method, found: Mode | None) -> str:

@@ -14,7 +14,7 @@ from instrument.stream.derived import StruckFound
 HIT_COLUMNS = {
     "Hit": "Number of the hit in this test",
     "Peak / N": "Largest force of the blow",
-    "Usable to / Hz": "Where the force spectrum has fallen by 20 dB: the blow excites little above",
+    "up to / Hz": "Where the force spectrum has fallen by 20 dB: the blow excites little above",
     "Verdict": "Whether the hit is averaged with the others",
     "Why": "What speaks against the hit, and whose word it is",
 }

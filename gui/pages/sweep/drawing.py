@@ -13,7 +13,7 @@ from gui.plots import Axis
 from gui.style.theme import Role
 
 FREQUENCY = Axis("Frequency", "Hz", symbol="f")
-FORESEEN = "foreseen, law to start from"
+FORESEEN = "foreseen"
 EXPLAINED_ROLE: Role = "second"
 """Of what a diagnosis says with its effects."""
 

@@ -143,6 +143,15 @@ def test_quantity_and_segment_are_chosen_by_key(qtbot, page):
     qtbot.waitUntil(lambda: page.residual.plots[1, "before"].y.unit == "")
 
 
+def test_a_pane_without_room_for_words_has_its_quantity_and_unit(qtbot, looked_at):
+    residual = looked_at.residual
+    residual.quantity.setCurrentIndex(0)
+    qtbot.waitUntil(lambda: residual.drawn)
+    for (number, _), plot in residual.plots.items():
+        assert plot.y.titles[:2] == (f"Segment {number} / %", f"R{'₀₁₂₃'[number]} / %")
+        assert f"R{'₀₁₂₃'[number]}: residual of segment {number}" in plot.toolTip()
+
+
 def test_the_error_is_shown_beside_noise(looked_at):
     page = looked_at
     page.views.setCurrentWidget(page.held_out)
