@@ -46,13 +46,16 @@ def replay(session: Path, speed: float | None, json_path: str | None) -> None:
     out.say(f"{again.derived} derived events computed again: {verdict}")
     for difference in again.differences:
         out.say(f"  {difference}")
-    out.result(
-        ReplayResult(
-            identify=again.fit.result if again.fit is not None else None,
-            diagnose=again.diagnosis.result if again.diagnosis is not None else None,
-            result=result_of_events(again.fit, again.diagnosis, again.points) if again.points else None,
-            equal_to_recorded=again.equal,
-            derived_events=again.derived,
-            differences=tuple(again.differences),
-        )
+    if again.words:
+        out.say("said in other words, numbers and verdicts the same (another version recorded it):")
+        for words in again.words:
+            out.say(f"  {words}")
+    result = ReplayResult(
+        identify=again.fit.result if again.fit is not None else None,
+        diagnose=again.diagnosis.result if again.diagnosis is not None else None,
+        result=result_of_events(again.fit, again.diagnosis, again.points) if again.points else None,
+        equal_to_recorded=again.equal,
+        derived_events=again.derived,
+        differences=tuple(again.differences),
     )
+    out.result(result.but(words=tuple(again.words)) if again.words else result)

@@ -40,3 +40,5 @@ class ReplayResult(Result):
     """Computed again."""
     differences: tuple[str, ...] = ()
     """The first few differences from the recording."""
+    words: tuple[str, ...] = ()
+    """The first few places that say the same in other words: no difference."""

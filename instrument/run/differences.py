@@ -1,13 +1,20 @@
 """In what a derived event that was computed again is another one than recorded."""
 
 import json
+import re
 from dataclasses import replace
+from typing import Any
 
 from instrument.facts.diagnosis import STAGES, DiagnosisResult
 from instrument.facts.result import Result
 from instrument.stream.derived import DiagnosisFound, FitUpdated, LimitExceeded, LimitWarned
 from instrument.stream.event import Event
 
+_NAMES = ("files",)
+"""Keys whose texts are names that a version gives."""
+_REMARKS = ("warnings", "doubts", "remarks")
+"""Keys of lists of sentences."""
+_NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 _SHOWN = 80
 """Letters of a value."""
 _SAID_SINCE = ("next_measurements", "unseen", "doubts")
@@ -52,6 +59,38 @@ def _stages_as_known_then(computed: DiagnosisResult, recorded: DiagnosisResult) 
 
 def _said_since(recorded: Result) -> list[str]:
     return [key for key in _SAID_SINCE if key not in recorded.model_fields_set]
+
+
+def said_otherwise(computed: Event, recorded: Event) -> bool:
+    """Whether both have the same numbers and verdicts, and differ in sentences or names of files alone.
+
+    Sentences are the same but for their words where the same numbers are in them. Remarks of a list may be
+    more or fewer: another version has others to make.
+    """
+    if type(computed) is not type(recorded):
+        return False
+    now, then = ({k: _opened(v) for k, v in e.facts().items()} for e in (computed, recorded))
+    return _in_words_of(then, now) == then
+
+
+def _in_words_of(recorded: Any, computed: Any, key: str = "") -> Any:
+    """What was computed, said as it was recorded wherever that is another wording alone."""
+    if isinstance(recorded, dict) and isinstance(computed, dict):
+        return {k: _in_words_of(recorded.get(k), value, k) for k, value in computed.items()}
+    if isinstance(recorded, list) and isinstance(computed, list):
+        if key in _NAMES or (key in _REMARKS and len(recorded) != len(computed)):
+            return recorded
+        if len(recorded) == len(computed):
+            return [_in_words_of(was, now, key) for was, now in zip(recorded, computed, strict=True)]
+    if isinstance(recorded, str) and isinstance(computed, str) and _is_said(recorded) and _is_said(computed):
+        same = sorted(_NUMBER.findall(recorded)) == sorted(_NUMBER.findall(computed))
+        return recorded if same else computed
+    return computed
+
+
+def _is_said(text: str) -> bool:
+    """Whether it is a sentence, and no name of a verdict, a law or an effect; or nothing."""
+    return not text or " " in text
 
 
 def first_difference(computed: Event, recorded: Event) -> str:

@@ -9,7 +9,7 @@ from threadpoolctl import threadpool_limits
 
 from fitting.specimen import PlateSpecimen
 from instrument.run.analysis import Analysis
-from instrument.run.differences import as_known_then, first_difference
+from instrument.run.differences import as_known_then, first_difference, said_otherwise
 from instrument.run.live_choice import Chooser
 from instrument.run.live_diagnosis import Diagnoser, ToDiagnose, able, diagnose_points
 from instrument.run.live_fit import Fitter, fit_points
@@ -49,10 +49,12 @@ class Replayed:
     """Events computed again."""
     differences: list[str] = field(default_factory=list)
     """Where they differ from the recorded ones; the first few."""
+    words: list[str] = field(default_factory=list)
+    """Where they are the recorded ones in other words: sentences of another version; the first few."""
 
     @property
     def equal(self) -> bool:
-        """Every derived event as it was recorded, to the bit."""
+        """Every derived event as it was recorded, numbers to the bit and verdicts, whatever the words."""
         return not self.differences
 
 
@@ -163,8 +165,12 @@ def _compare(again: Replayed, computed: Derived | None, recorded: Derived) -> No
         return
     # Both as a session gives them: 9 in a field of floats is 9.0 there.
     as_read = as_known_then(from_line(to_line(computed)), recorded)
-    if to_line(as_read) != to_line(recorded):
+    if to_line(as_read) == to_line(recorded):
+        return
+    if not said_otherwise(as_read, recorded):
         again.differences.append(first_difference(as_read, recorded))
+    elif len(again.words) < _MOST_DIFFERENCES:
+        again.words.append(first_difference(as_read, recorded))
 
 
 class _ReplayPace:

@@ -7,7 +7,7 @@ from diagnosis_cases import diagnosis
 from result_cases import identification
 
 from instrument.facts.diagnosis import STAGES
-from instrument.run.differences import as_known_then, first_difference
+from instrument.run.differences import as_known_then, first_difference, said_otherwise
 from instrument.stream.derived import DiagnosisFound, FitUpdated, LimitExceeded
 from instrument.stream.event import Derived
 
@@ -46,6 +46,27 @@ def test_a_stop_that_an_older_version_said_in_other_words_is_the_same():
     assert as_known_then(computed, older) == older
     assert as_known_then(computed, replace(computed, value=0.2)) == computed
     assert as_known_then(found(1.0), older) == found(1.0)
+
+
+def test_other_words_are_told_from_other_numbers_and_verdicts():
+    then = diagnosis().but(warnings=("the mass is 3.2 g off",), next_measurement="Once more, at 2 g.")
+    then = then.but(files=("",))
+    recorded = DiagnosisFound(1, 7, then)
+
+    def same(**changes):
+        return said_otherwise(DiagnosisFound(1, 7, then.but(**changes)), recorded)
+
+    assert same(warnings=("the mass may be off, by 3.2 g",), next_measurement="Again at 2 g.")
+    assert same(warnings=("the mass is 3.2 g off", "a new remark"))
+    assert same(files=("sweep",))
+    assert not same(warnings=("the mass is 3.3 g off",))
+    assert not same(next_measurement="Once more, at 4 g.")
+    assert not same(verdict="none" if then.verdict != "none" else "unknown")
+    assert not same(chi2_per_dof=2.0, points=then.points[:-1])
+    assert not said_otherwise(DiagnosisFound(1, 7, None, "too few"), recorded)
+    refused = DiagnosisFound(1, 7, None, "too few points")
+    assert said_otherwise(replace(refused, message="fewer points than needed"), refused)
+    assert not said_otherwise(found(2.5), found(2.0))
 
 
 def test_correlations_that_a_recorded_diagnosis_does_not_have_are_not_compared():

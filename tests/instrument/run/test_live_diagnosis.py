@@ -97,6 +97,24 @@ def test_a_replay_notices_another_diagnosis(finished):
     assert "DiagnosisFound" in again.differences[0]
 
 
+def test_a_replay_tells_other_words_from_another_diagnosis(tmp_path):
+    def saying(words):
+        return lambda asked: DiagnosisFound(asked.number, asked.last_step, None, words)
+
+    with formula_rig(tmp_path) as (_, experiment):
+        recorded = saying("too few points: 2")
+        finished = run_experiment(experiment, tmp_path, ("sweep",), fit=a_law, diagnose=recorded)
+    with SessionFile(finished.session) as file:
+        again = replay(file, fit=a_law, diagnose=saying("2 points are too few"))
+        other = replay(file, fit=a_law, diagnose=saying("3 points are too few"))
+    assert again.equal
+    assert again.words == [
+        "DiagnosisFound.message: too few points: 2 recorded, 2 points are too few computed"
+    ]
+    assert not other.equal
+    assert other.words == []
+
+
 def test_without_a_law_nothing_is_asked(tmp_path):
     with formula_rig(tmp_path) as (_, experiment):
         finished = run_experiment(experiment, tmp_path, ("sweep",), fit=no_law, diagnose=refused)
