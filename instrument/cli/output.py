@@ -11,7 +11,7 @@ from instrument.cli.printable import printable
 from instrument.errors import BadInput
 from instrument.facts.result import Result
 from instrument.files.at_once import refuse_unwritable
-from instrument.files.replaceable import refuse_another_result, refuse_for_json
+from instrument.files.replaceable import refuse_another_json, refuse_for_json
 from instrument.files.result_file import result_text, write_result
 from instrument.progress import Screen
 
@@ -42,13 +42,6 @@ def _refuse_unwritable() -> None:
             refuse_unwritable(Path(str(given[name])))
 
 
-def _refuse_another_result(json_path: str | None) -> None:
-    """Raise `BadInput` where the file of `--json` is one that another command, or program, wrote."""
-    context = click.get_current_context(silent=True)
-    if context is not None and context.info_name and context.params.get("json_path") == json_path:
-        refuse_another_result(Path(str(json_path)), context.info_name)
-
-
 class Output:
     """Where a command's results go, as `--json` decides."""
 
@@ -62,7 +55,7 @@ class Output:
         _keep_what_is_read()
         if json_path not in (None, "-"):
             refuse_for_json(Path(str(json_path)))
-            _refuse_another_result(json_path)
+            refuse_another_json(Path(str(json_path)))
         _refuse_unwritable()
         self._console = Screen(highlight=False, quiet=json_path == "-", soft_wrap=True)
 

@@ -53,20 +53,19 @@ def refuse_for_json(path: Path) -> None:
     refuse_to_lose(path, JSON)
 
 
-def refuse_another_result(path: Path, command: str) -> None:
-    """Raise `BadInput` for a JSON that stands there and is not of the command that is to write one."""
+def refuse_another_json(path: Path) -> None:
+    """Raise `BadInput` for a JSON that stands there and is no result of this program's commands."""
     if not path.is_file() or path.stat().st_size == 0:
         return
     # Only where something stands there: it loads the results of all commands.
-    from instrument.facts.schema import command_of, is_of
+    from instrument.facts.schema import is_a_result
 
     try:
         facts = json.loads(read_text(path))
     except (BadInput, ValueError, RecursionError):
         refuse_another_file(path)
-    if not is_of(facts, command):
-        other = command_of(facts).partition("-")[0]
-        refuse_another_file(path, f"a result of 'viscorig {other}'" if other else "")
+    if not is_a_result(facts):
+        refuse_another_file(path)
 
 
 def refuse_to_lose(path: Path, kind: Written) -> None:
@@ -88,7 +87,7 @@ def refuse_another_text(path: Path, text: str) -> None:
         refuse_another_file(path)
 
 
-def refuse_another_file(path: Path, what: str = "") -> NoReturn:
-    """Raises `BadInput`: what stands there is kept. `what` it is, where that is known."""
-    what = what or kind_of_file(path) or "another file"
+def refuse_another_file(path: Path) -> NoReturn:
+    """Raises `BadInput`: what stands there is kept."""
+    what = kind_of_file(path) or "another file"
     raise BadInput(f"{path}: {what} stands there and is not written over, expected another name or folder")

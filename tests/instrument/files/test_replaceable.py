@@ -12,7 +12,7 @@ from instrument.files.replaceable import (
     JSON,
     PDF,
     Written,
-    refuse_another_result,
+    refuse_another_json,
     refuse_another_text,
     refuse_ending,
     refuse_for_json,
@@ -46,21 +46,22 @@ def test_what_stands_there_is_named(tmp_path):
         assert (tmp_path / name).read_bytes() == content
 
 
-def test_a_result_of_another_command_or_program_is_kept(tmp_path):
+def test_a_json_that_no_command_wrote_is_kept(tmp_path):
     path = tmp_path / "a.json"
     law = {"law": [], "law_kind": "", "correlations": [], "max_percent": 1, "parameters": {}, "points": []}
     law |= {"rms_percent": 1, "standard_errors": {}, "storage_modulus_pa": [], "seconds": 1.0}
     path.write_text(json.dumps(law))
-    refuse_another_result(path, "identify")
-    with pytest.raises(BadInput, match=r"a\.json: a result of 'viscorig identify' stands there"):
-        refuse_another_result(path, "diagnose")
+    refuse_another_json(path)
+    # By an earlier version.
+    path.write_text(json.dumps({**law, "of_another_version": 1, "seconds": None}))
+    refuse_another_json(path)
     for other in ('{"name": "a package"}', "[]", "{", "\x00"):
         path.write_text(other)
         with pytest.raises(BadInput, match="is not written over"):
-            refuse_another_result(path, "identify")
+            refuse_another_json(path)
     path.write_text("")
-    refuse_another_result(path, "identify")
-    refuse_another_result(tmp_path / "new.json", "identify")
+    refuse_another_json(path)
+    refuse_another_json(tmp_path / "new.json")
 
 
 def test_a_device_and_a_new_name_are_free(tmp_path):
