@@ -14,6 +14,9 @@ from fitting.arrays import Array, Complex, Indices, Integers, Mask
 
 _GAP = 1.5
 """Where no segment is named, a step in frequency by this ratio begins a new one."""
+_FAR = 1.1
+"""Ratio from which a reference is of another level than was commanded, or than a file without levels has it:
+less tells nothing of strain. A choice."""
 
 
 @dataclass(frozen=True)
@@ -61,10 +64,14 @@ class Sweep:
 
     @property
     def level_m_s2(self) -> Array:
-        """Base acceleration asked for; the measured one where the drive's limit kept it from that."""
-        if self.drive_limited is None or self.base_m_s2 is None:
+        """Base acceleration asked for; as measured where that is far off, or the drive's limit kept it."""
+        if self.base_m_s2 is None:
             return self.commanded_m_s2
-        return np.where(self.drive_limited, np.abs(self.base_m_s2), self.commanded_m_s2)
+        read = np.abs(self.base_m_s2)
+        with np.errstate(divide="ignore"):
+            far = np.abs(np.log(read / self.commanded_m_s2)) > np.log(_FAR)
+        limited = False if self.drive_limited is None else self.drive_limited
+        return np.where(far | limited, read, self.commanded_m_s2)
 
     @cached_property
     def response_m_s(self) -> NDArray[Any]:

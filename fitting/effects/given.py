@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
-from fitting.data.levels import count_of_levels
+from fitting.data.levels import by_level, count_of_levels
 from fitting.laws import CoreLaw
 from fitting.specimen import Drive, Reading
 from fitting.stated.layers import Face
@@ -33,13 +33,26 @@ class Points:
     """Number of the segment each is of; None where nothing is known of segments."""
     at_rest: NDArray[np.bool_] | None = None
     """Which points have a base at rest, a force driving them; None where `drive` says it of all."""
+    level_m_s2: Array | None = None
+    """What a base did, where that is not what was commanded."""
     mass_kg: float | None = None
     """Of a shear pair: what its pads carry, as stated."""
 
     @property
     def levels(self) -> int:
         """How many levels there are, a tenth apart and more."""
-        return count_of_levels(self.drive_amplitude)
+        if self.level_m_s2 is None:
+            return count_of_levels(self.drive_amplitude)
+        # What was reached scatters, or follows the frequency: neither is a level for each point.
+        of_each = [float(np.median(self.level_m_s2[at])) for at in by_level(self.level_m_s2)]
+        return count_of_levels(np.array(of_each))
+
+    @property
+    def straining(self) -> Array:
+        """What strains a core: the base's acceleration as it was, or the force. Shape (points,)."""
+        if self.force_n is not None:
+            return self.force_n
+        return self.drive_amplitude if self.level_m_s2 is None else self.level_m_s2
 
     @property
     def struck(self) -> NDArray[np.bool_]:

@@ -28,6 +28,11 @@ all resonances. Six free solids, thin and thick cores, faces alike and not: 0.01
 than 30 %."""
 LOSS, LOSS_OF_FREE_LAYER = 3e-3, 7e-3
 """Of a modal loss factor, relative. A layer of polymer gives way at its edges."""
+WIDE_FROM, WIDE_LOSS, WIDE_FREQUENCY = 0.3, 0.025, 4e-4
+"""Of half the width over the length in which a core's shear dies out from an edge: from where, of the loss
+for each more, of the frequency for its square. Across a stiff core shear is no smooth curve of the width, and
+the theory's loss is too low: solids of aluminium and of steel 4 to 40 mm wide, 30 to 450 MPa, have 0.4 % at
+0.3, 2.3 to 3.5 % at 1.7, 6 to 8 % at 3.3, all modes alike."""
 
 METAL_LOSS = 1e-3
 """A loss factor: bare metal beams in a clamp have 0.0002 to 0.002, whose root mean square this is."""
@@ -45,12 +50,23 @@ def sandwich_error(layers: PlateSpecimen, nu_b_m: float, frequency_hz: Array, G:
     """
     found = theory_error(layers, frequency_hz, G)
     frequency, loss = thickness_error(layers, found.wavenumber, G)
+    wide = np.maximum(_half_widths(layers, G) - WIDE_FROM, 0.0)
     return ModelError(
-        frequency=np.hypot(FREQUENCY, APART_LEFT * frequency),
-        loss=np.hypot(LOSS, APART_LEFT * loss),
+        frequency=np.sqrt(FREQUENCY**2 + (APART_LEFT * frequency) ** 2 + (WIDE_FREQUENCY * wide**2) ** 2),
+        loss=np.sqrt(LOSS**2 + (APART_LEFT * loss) ** 2 + (WIDE_LOSS * wide) ** 2),
         modal_loss=found.loss_factor,
         together=_across(found.wavenumber, nu_b_m),
     )
+
+
+def _half_widths(layers: PlateSpecimen, G: Complex) -> Array:
+    """Half the width over sqrt(h E1 h1 E3 h3 / (E1 h1 + E3 h3) / abs(G)). Shape of `G`."""
+    b, c, v = layers.substrate, layers.constraining, layers.core
+    assert v is not None
+    assert c is not None
+    stiff = b.young_pa * b.thickness_m, c.young_pa * c.thickness_m
+    dies_out = np.sqrt(v.thickness_m * stiff[0] * stiff[1] / sum(stiff) / np.abs(G))
+    return np.asarray(layers.width_m / 2 / dies_out)
 
 
 def free_layer_error(rigidity: Complex, mass_kg_m: float, nu_b_m: float, frequency_hz: Array) -> ModelError:

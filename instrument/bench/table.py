@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
+from itertools import cycle
 from statistics import median
 from time import perf_counter
 from typing import Any
@@ -64,7 +65,9 @@ def run_bench(progress: Progress = quiet) -> list[BenchLine]:
         rational = models.rational(2 * np.pi * GRID_HZ)
         G = TABLE_4.modulus(rational.omega)
         evaluation = _median_seconds(lambda: rational.displacement(TABLE_4.modulus(rational.omega)))
-        gradient = _median_seconds(lambda: rational.with_derivative(G))
+        # The latest modulus is known again: another one every time.
+        another = cycle((G, 1.001 * G))
+        gradient = _median_seconds(lambda: rational.with_derivative(next(another)))
         direct_seconds, error, size = _against_direct(models, progress)
         sweep = synthetic_sweep(specimen)
         nine = read_sweep(case_file("table5.csv")).sweep(specimen.base_acceleration_m_s2)

@@ -304,4 +304,4 @@ def _sentence(words: str) -> str:
 
 def _at_level(problem: DiagnosisProblem, level_m_s2: float) -> DiagnosisProblem:
     level = np.full(len(problem.sweep), level_m_s2)
-    return replace(problem, points=replace(problem.points, drive_amplitude=level))
+    return replace(problem, points=replace(problem.points, drive_amplitude=level, level_m_s2=None))

@@ -33,6 +33,8 @@ _FAR = 10.0
 """Times the modulus of the law in a file: more is asked about."""
 _OFF_PERCENT = 10.0
 """Of a reading, rms: more than any rig is off."""
+_HOLDER_N_M, _GIVES_WAY = 1e8, 0.02
+"""How stiff a good holder is, screws and adherends in it, and from what share of it pads are asked about."""
 _TIMES_NOISE = 4.0
 """What a fit leaves over its noise, rms: clean files leave hardly more than their noise. A choice."""
 
@@ -51,6 +53,7 @@ def remarks_on_files(files: Sequence[File]) -> tuple[str, ...]:
             *remarks_on_tolerances(s),
             *remarks_on_patches(s),
             *remarks_on_edges(s),
+            *remarks_on_holder(sweep, s),
             *remarks_on_clamps(s),
         )
         for text in of_file:
@@ -111,11 +114,27 @@ def _beyond_edges(pair: ShearPair) -> tuple[str, ...]:
     )
 
 
+def remarks_on_holder(sweep: Sweep, specimen: AnySpecimen) -> tuple[str, ...]:
+    """Where pads are so stiff, by the mass and its resonance, that what holds them gives way beside them."""
+    if not isinstance(specimen, ShearPair) or specimen.drive != "base" or specimen.exact:
+        return ()
+    f = float(sweep.frequency_hz[np.argmax(np.abs(sweep.response_m_s) / sweep.commanded_m_s2 * sweep.omega)])
+    share = specimen.mass_kg * (2 * np.pi * f) ** 2 / _HOLDER_N_M
+    if share < _GIVES_WAY:
+        return ()
+    return (
+        f"the pads are stiff ({share * _HOLDER_N_M / 1e6:.2g} N/um by the mass and its resonance): a holder, "
+        f"with adherends and screws, of {_HOLDER_N_M / 1e6:.0f} N/um in series leaves G' and the loss factor "
+        f"{100 * share:.2g} % low there, more above, and no effect of the catalogue shows it; put a block of "
+        "metal in the pads' place to see how far it gives way, or take smaller or thicker pads",
+    )
+
+
 def remarks_on_strain(files: Sequence[File]) -> tuple[str, ...]:
     """Which strains pads had whose law is of one level: there softening is not told from another law."""
     pairs = [(file.sweep, s) for file in files if isinstance(s := file.specimen, ShearPair)]
     driven = [pair for pair in pairs if pair[1].drive == "base" and not pair[1].exact]
-    if not driven or count_of_levels(np.concatenate([s.commanded_m_s2 for s, _ in driven])) > 1:
+    if not driven or count_of_levels(np.concatenate([s.level_m_s2 for s, _ in driven])) > 1:
         return ()
     strain = np.concatenate([_strain(sweep, pair) for sweep, pair in driven])
     least, most = (f"{100 * v:.2g}" for v in (strain.min(), strain.max()))
@@ -129,7 +148,8 @@ def _strain(sweep: Sweep, pair: ShearPair) -> Array:
     """Amplitude of the pads' shear strain. Shape (points,)."""
     omega = sweep.omega
     base = sweep.commanded_m_s2 / (1j * omega) if pair.reads == "absolute" else 0.0
-    return np.asarray(np.abs(sweep.velocity_m_s - base) / (omega * pair.core.thickness_m))
+    at_command = np.abs(sweep.response_m_s - base) / (omega * pair.core.thickness_m)
+    return np.asarray(at_command * sweep.level_m_s2 / sweep.commanded_m_s2)
 
 
 def remarks_on_one_specimen(files: Sequence[File], rms_percent: float) -> tuple[str, ...]:

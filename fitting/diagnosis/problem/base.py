@@ -295,8 +295,14 @@ def points_of(sweep: Sweep, specimen: StatedSpecimen) -> Points:
         if specimen.drive == "force" and sweep.base_m_s2 is not None
         else None,
         segment=sweep.segment,
+        level_m_s2=_another_level(sweep) if specimen.drive == "base" else None,
         mass_kg=specimen.carried_kg,
     )
+
+
+def _another_level(sweep: Sweep) -> Array | None:
+    """What the base did; None where that is what was commanded."""
+    return None if np.array_equal(sweep.level_m_s2, sweep.commanded_m_s2) else sweep.level_m_s2
 
 
 def spans_of(problem: DiagnosisProblem, effects: Sequence[Effect]) -> list[Span]:

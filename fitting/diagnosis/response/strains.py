@@ -122,8 +122,7 @@ class Strains:
 
     def _of(self, table: Callable[[bool], _Table]) -> Strain:
         """Asked whether the loss gains."""
-        points = self._problem.points
-        drive = points.drive_amplitude if points.force_n is None else points.force_n
+        drive = self._problem.points.straining
         of = cache(table)
 
         def strain(softened: Array, gained: Array | None = None) -> Array:

@@ -56,8 +56,16 @@ def joined_points(each: Sequence[Points]) -> Points:
         reads=first.reads,
         drive=first.drive,
         force_n=np.concatenate(forces) if len(forces) == len(each) else None,
+        level_m_s2=_levels(each),
         at_rest=at_rest if 0 < len(shaken) < len(each) else None,
     )
+
+
+def _levels(each: Sequence[Points]) -> Array | None:
+    """What bases did, where one of them did not do what was commanded. Shape (points of all,)."""
+    if all(p.level_m_s2 is None for p in each):
+        return None
+    return np.concatenate([p.drive_amplitude if p.level_m_s2 is None else p.level_m_s2 for p in each])
 
 
 def side_by_side(each: Sequence[RationalSweep]) -> RationalSweep:

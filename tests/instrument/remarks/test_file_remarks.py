@@ -15,6 +15,7 @@ from instrument.models.files import File
 from instrument.remarks.file_remarks import (
     remarks_on_edges,
     remarks_on_files,
+    remarks_on_holder,
     remarks_on_one_specimen,
     remarks_on_rest,
     remarks_on_scale,
@@ -128,3 +129,15 @@ def test_a_file_whose_noise_is_not_seen_says_whose_it_is_taken_for():
     (said,) = (one for one in beside if "do not show their noise" in one)
     assert said.startswith("few.csv: 5 points")
     assert "taken for that of the other files" in said
+
+
+@pytest.mark.parametrize(("resonance_hz", "low"), [(300.0, ""), (1000.0, "4.9 %"), (1500.0, "11 %")])
+def test_pads_as_stiff_as_their_holder_are_asked_about(resonance_hz, low):
+    G = PAIR.mass_kg / 4 * (2 * np.pi * resonance_hz) ** 2 * CORE.thickness_m / (2 * PAIR.area_m2)
+    pair = replace(PAIR, mass_kg=0.125, core=replace(CORE, density_kg_m3=1.0, law=ConstantModulus(G, 0.05)))
+    read = sweep(pair, points=1000)
+    said = remarks_on_holder(read, pair)
+    assert len(said) == bool(low)
+    if low:
+        assert f"leaves G' and the loss factor {low} low there" in said[0]
+    assert remarks_on_holder(read, replace(pair, exact=True)) == ()
