@@ -65,7 +65,7 @@ def package_of(entry: EntryPoint) -> tuple[str, str]:
 def leave_out(entry: EntryPoint, why: object) -> str:
     """Say that something of another package is not used, once for this process and those it starts."""
     words = " ".join(str(why).split())
-    if isinstance(why, Exception) and not isinstance(why, NoPlugin):
+    if isinstance(why, BaseException) and not isinstance(why, NoPlugin):
         words = f"{type(why).__name__}: {words}"
     line = f"plugin {entry.name!r} of package {package_of(entry)[0]} ({entry.group}) is left out: {words}"
     before = told()
@@ -150,7 +150,7 @@ class Registry(Mapping[str, T], Generic[T]):
             return None
         try:
             return self._judge(name, others[name].load())
-        except Exception as error:  # whatever another package does, the program goes on without it
+        except (Exception, SystemExit) as error:  # whatever another package does, the program goes on
             self._why[name] = leave_out(others[name], error)
             return None
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from fitting.depth.posterior import SAMPLES
 from fitting.temperature.shifts import Kind
 from instrument.cli.options import refuse_with_tables
 from instrument.finding.methods import Method
@@ -35,6 +36,8 @@ class Asked:
         """What goes together whatever the data are."""
         if self.pointwise and self.method == "paper":
             raise click.UsageError("--pointwise and --method paper: expected the direct method")
+        if self.samples != SAMPLES and "posterior" not in self.depths:
+            raise click.UsageError("--samples: expected --uncertainty posterior with it")
         if self.figures is not None and not self.pointwise and self.dma is None and self.shift is None:
             raise click.UsageError(
                 "--figures shows the law band by band, expected --pointwise, --with or --shift"

@@ -13,6 +13,7 @@ from instrument.errors import BadInput
 from instrument.files.mat import read_mat_variables
 from instrument.files.mat73 import NOT_READ
 from instrument.files.rates import rate_of_step
+from instrument.files.sweep_file import reading_said
 from instrument.files.uff58 import HERTZ, SECONDS
 from instrument.files.units import DERIVATIVE, KNOWN, Unit, unit_of
 from instrument.interchange.found import Found, Ratio, motion_of
@@ -26,8 +27,11 @@ _OUR_OWN = ("units", "about")
 
 def read_mat(path: Path, naming: Naming | None = None) -> Found:
     """What its variables hold; `naming` has names in the place of their own. Raises `BadInput`."""
-    variables = {n: v for n, v in read_mat_variables(path).items() if n not in _OUR_OWN}
+    every = read_mat_variables(path)
+    variables = {n: v for n, v in every.items() if n not in _OUR_OWN}
     found = Found()
+    # What an export of ours says of itself.
+    found.reads = reading_said([str(line) for line in np.ravel(every.get("about", []))])
     if naming is not None:
         variables = _renamed(path, variables, naming)
     _walk(path, path.name, variables, found, 0)

@@ -70,6 +70,7 @@ def test_our_own_may_be_imported_when_asked_for(nothing_told):
         (GOOD, "write", "AttributeError: module 'plugin_bad_one' has no attribute 'write'"),
         ("read = 3\n", "read", "it is no function"),
         ("raise KeyError('of\\nits own')\n", "read", "KeyError: 'of"),
+        ("raise SystemExit(7)\n", "read", "SystemExit: 7"),
     ],
 )
 def test_what_cannot_be_used_is_left_out_with_one_line_that_names_it(package, caplog, text, attribute, why):

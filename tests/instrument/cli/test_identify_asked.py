@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import click
 import pytest
 
+from fitting.depth.posterior import SAMPLES
 from instrument.cli.identify_asked import Asked
 from instrument.cli.identify_sweeps import identify_sweeps
 from instrument.cli.output import Output
@@ -19,7 +20,7 @@ PLAIN = Asked(
     dma=None,
     with_budget=False,
     depths=(),
-    samples=2000,
+    samples=SAMPLES,
     shift=None,
     reference_c=None,
     temperature_k=None,
@@ -32,6 +33,12 @@ ONE_SWEEP = [{"pointwise": True}, {"method": "paper"}, {"dma": Path("dma.csv")}]
 
 def asked(**options):
     return Asked(**{**vars(PLAIN), **options})
+
+
+def test_samples_are_of_a_posterior_that_is_asked_for():
+    asked(samples=3000, depths=("posterior",)).check()
+    with pytest.raises(click.UsageError, match="--samples: expected --uncertainty posterior"):
+        asked(samples=3000, depths=("profile",)).check()
 
 
 def files(*kinds):

@@ -78,6 +78,9 @@ def test_everything_comes_back_from_a_matlab_file(contents, exported, tmp_path):
     assert set(read) == set(own)
     for name in own:
         np.testing.assert_array_equal(read[name], own[name], err_msg=name)
+    reads = contents.configuration.rig.vibrometer.reads
+    assert read_sweep(tmp_path / "a-sweep.csv").reads == reads
+    assert any(f"velocity is {reads} as it says itself" in line for line in imported.said)
     hits = read_impact_csv(tmp_path / "a-hits.csv")
     assert len(hits) == 2
     assert any("hit 2: not accepted" in line for line in imported.said)
