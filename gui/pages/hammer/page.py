@@ -180,7 +180,9 @@ class HammerPage(Page):
 
     def _show_modes(self) -> None:
         """From the record where the hits count as recorded; else as computed here."""
-        assert self._state is not None
+        if self._state is None:
+            # What is expected may be worked out before anything is shown.
+            return
         if self._treated:
             self.modes.say(treated_words(self._state.contents.struck), what_if=self._is_what_if)
             self.modes.show_rows([], "")

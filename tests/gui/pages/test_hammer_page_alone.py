@@ -99,6 +99,11 @@ def page(made, monkeypatch):
     return page
 
 
+def test_what_is_expected_may_be_known_before_anything_is_shown(page):
+    page.bench.expected.emit(np.array([20.0, 130.0]))
+    assert page._expected_hz.tolist() == [20.0, 130.0]
+
+
 def show(page, shown):
     """As the window does while the page is seen."""
     page.show_state(shown)
