@@ -55,26 +55,10 @@ RESULTS: dict[str, type[Result]] = {
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
-def command_of(facts: Any) -> str:
-    """By which of `RESULTS` a JSON was written: the one that knows most of its keys; empty for none."""
-    keys = set(facts) if isinstance(facts, dict) else set()
-    fitting = [
-        (len(keys & set(result.model_fields)), -len(result.model_fields), command)
-        for command, result in RESULTS.items()
-        if keys >= _required(result)
-    ]
-    known, _, command = max(fitting, default=(0, 0, ""))
-    return command if 2 * known > len(keys) else ""
-
-
 def is_a_result(facts: Any) -> bool:
     """Whether most keys of a JSON are those of a command's results, of this version or an earlier one."""
     keys = set(facts) if isinstance(facts, dict) else set()
     return any(2 * len(keys & set(result.model_fields)) > len(keys) for result in RESULTS.values())
-
-
-def _required(result: type[Result]) -> set[str]:
-    return {key for key, field in result.model_fields.items() if field.is_required()}
 
 
 def schema_of(command: str) -> dict[str, Any]:

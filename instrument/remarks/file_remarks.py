@@ -118,8 +118,14 @@ def remarks_on_holder(sweep: Sweep, specimen: AnySpecimen) -> tuple[str, ...]:
     """Where pads are so stiff, by the mass and its resonance, that what holds them gives way beside them."""
     if not isinstance(specimen, ShearPair) or specimen.drive != "base" or specimen.exact:
         return ()
-    f = float(sweep.frequency_hz[np.argmax(np.abs(sweep.response_m_s) / sweep.commanded_m_s2 * sweep.omega)])
-    share = specimen.mass_kg * (2 * np.pi * f) ** 2 / _HOLDER_N_M
+    # Of a mass that moves with its base the acceleration is largest there, beside its base the displacement.
+    per_velocity = sweep.omega if specimen.reads == "absolute" else 1 / sweep.omega
+    f = sweep.frequency_hz
+    at = f[np.argmax(np.abs(sweep.response_m_s) / sweep.commanded_m_s2 * per_velocity)]
+    if at == f.min():
+        # The resonance lies below all that was measured.
+        return ()
+    share = specimen.mass_kg * (2 * np.pi * float(at)) ** 2 / _HOLDER_N_M
     if share < _GIVES_WAY:
         return ()
     return (

@@ -141,3 +141,7 @@ def test_pads_as_stiff_as_their_holder_are_asked_about(resonance_hz, low):
     if low:
         assert f"leaves G' and the loss factor {low} low there" in said[0]
     assert remarks_on_holder(read, replace(pair, exact=True)) == ()
+    beside = replace(read, velocity_m_s=read.velocity_m_s - read.commanded_m_s2 / (1j * read.omega))
+    assert remarks_on_holder(beside, replace(pair, reads="relative")) == said
+    above = read.take(read.frequency_hz > 1.05 * resonance_hz)
+    assert remarks_on_holder(above, pair) == ()
